@@ -1,0 +1,10 @@
+//! Bytes behind the beginning that makes a file this format, so that no run is spent on finding it.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use whitewater::io::particles::{Extension, read_bytes};
+
+fuzz_target!(|data: &[u8]| {
+    let _ = read_bytes(data, Extension::Ply);
+    let _ = read_bytes(&[&b"ply\n"[..], data].concat(), Extension::Ply);
+});

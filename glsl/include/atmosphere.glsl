@@ -1,0 +1,74 @@
+// A physically based clear sky: single scattering of the sun in a Rayleigh and Mie atmosphere
+// (Nishita et al. 1993; coefficients of Bruneton and Neyret 2008), with a constant share for the
+// light that scatters more often. Lengths in kilometres.
+
+const float EARTH = 6360.0;
+const float TOP = 6420.0;
+const vec3 RAYLEIGH = vec3(5.8e-3, 13.5e-3, 33.1e-3); // per km at sea level
+const float MIE = 4.0e-3;
+const float MIE_ABSORPTION = 4.4e-4;
+const float RAYLEIGH_HEIGHT = 8.0;
+const float MIE_HEIGHT = 1.2;
+const float MIE_ASYMMETRY = 0.76;
+
+float leave_sphere(float height, float cosine, float radius) {
+    float b = height * cosine;
+    return -b + sqrt(max(b * b - height * height + radius * radius, 0.0));
+}
+
+// Optical depth of both kinds from a point (its distance from the centre) towards a direction.
+vec2 optical_depth(float height, float cosine) {
+    const int steps = 8;
+    float span = leave_sphere(height, cosine, TOP) / float(steps);
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < steps; ++i) {
+        float t = (float(i) + 0.5) * span;
+        float h = sqrt(height * height + t * t + 2.0 * height * t * cosine) - EARTH;
+        sum += exp(-max(h, 0.0) / vec2(RAYLEIGH_HEIGHT, MIE_HEIGHT)) * span;
+    }
+    return sum;
+}
+
+vec3 transmittance(vec2 depth) {
+    return exp(-(RAYLEIGH * depth.x + (MIE + MIE_ABSORPTION) * depth.y));
+}
+
+// Radiance of the sky (without the sun's disc) in a direction with y up, for a sun of unit
+// irradiance; below the horizon the ground's colour under that sky.
+vec3 sky_radiance(vec3 direction, vec3 sun) {
+    const int steps = 24;
+    float eye = EARTH + 0.05;
+    // The horizon itself is the lowest direction that is marched.
+    float up = max(direction.y, 0.003);
+    vec3 d = normalize(vec3(direction.x, up, direction.z));
+    float span = leave_sphere(eye, d.y, TOP);
+    vec2 along = vec2(0.0);
+    vec3 rayleigh = vec3(0.0);
+    vec3 mie = vec3(0.0);
+    float before = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        // Steps grow with distance: most of the air is near.
+        float after = span * pow(float(i + 1) / float(steps), 2.0);
+        float t = 0.5 * (before + after);
+        float size = after - before;
+        before = after;
+        float r = sqrt(eye * eye + t * t + 2.0 * eye * t * d.y);
+        vec2 density = exp(-max(r - EARTH, 0.0) / vec2(RAYLEIGH_HEIGHT, MIE_HEIGHT)) * size;
+        float sun_cosine = (eye * sun.y + t * dot(d, sun)) / r;
+        vec3 reach = transmittance(along + 0.5 * density + optical_depth(r, max(sun_cosine, -0.05)));
+        along += density;
+        rayleigh += density.x * reach;
+        mie += density.y * reach;
+    }
+    float mu = dot(d, sun);
+    float g = MIE_ASYMMETRY;
+    float phase_r = 3.0 / (16.0 * 3.14159265) * (1.0 + mu * mu);
+    float phase_m = 3.0 / (8.0 * 3.14159265) * (1.0 - g * g) * (1.0 + mu * mu)
+                  / ((2.0 + g * g) * pow(1.0 + g * g - 2.0 * g * mu, 1.5));
+    vec3 often = 0.04 * RAYLEIGH / RAYLEIGH.z * max(sun.y, 0.0);
+    vec3 sky = rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (1.0 - exp(-RAYLEIGH * along.x));
+    // Ground: grey under the light of sun and sky, fading in over a soft horizon.
+    float below = smoothstep(0.0, -0.12, direction.y);
+    vec3 ground = 0.22 * (max(sun.y, 0.0) * transmittance(optical_depth(eye, sun.y)) / 3.14159265 + 0.08 * vec3(0.5, 0.6, 0.8));
+    return mix(sky, ground, below);
+}

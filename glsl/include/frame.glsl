@@ -1,0 +1,45 @@
+// Numbers of the frame (src/frame.rs writes them). Pixel coordinates have their centres at +0.5
+// and row 0 on top; eye space looks down -z; depth is the positive eye depth.
+
+const float EMPTY = 1.0e10;
+
+layout(set = 0, binding = 0, std140) uniform Frame {
+    mat4 view;          // world -> eye
+    mat4 world;         // eye -> world
+    vec4 projection;    // P00 P11 P20 P21
+    vec4 depth;         // device depth z -> x / (z + y); near, far
+    vec4 planes[6];     // inward planes of the frustum, eye space
+    vec4 extent;        // full width, height; reduced width, height
+    vec4 thick_extent;  // thickness width, height; its pixels' size, the reduced pixels' size
+    vec4 slope;         // full pixel -> slope: scale xy, offset zw
+    vec4 reduced_slope; // reduced pixel -> slope
+    vec4 thick_slope;   // thickness pixel -> slope
+    vec4 texel;         // C_x C_y full, C_x C_y reduced: world size of a pixel per depth
+    vec4 scene_depth;   // pixels of the scene's depth per full pixel, its size
+    vec4 scene_color;   // the same of its colour
+    vec4 output_offset; // unused
+    vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
+    vec4 density;       // spray below, full radius above, rest
+    vec4 smoothing;     // width, depth falloff, most iterations, fixed count
+    vec4 medium_a;      // physical: absorption; source: base colour; w: 1 = source
+    vec4 medium_b;      // physical: scattering; source: falloff
+    vec4 fresnel;       // bias, scale, power
+    vec4 surface;       // refraction, specular, shininess, border threshold
+    vec4 sun_direction; // eye space
+    vec4 sun_color;
+    vec4 ambient;
+} frame;
+
+// Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.
+vec2 ray_slope(vec2 pixel, vec4 slope) {
+    return pixel * slope.xy + slope.zw;
+}
+
+float eye_depth(float device_depth) {
+    return frame.depth.x / (device_depth + frame.depth.y);
+}
+
+// The scene-depth texel of a full-resolution pixel (nearest look-up by uv).
+ivec2 scene_texel(vec2 pixel) {
+    return clamp(ivec2(pixel * frame.scene_depth.xy), ivec2(0), ivec2(frame.scene_depth.zw) - 1);
+}

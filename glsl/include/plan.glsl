@@ -1,0 +1,23 @@
+// What one pixel of the smoothing does, in 32 bits: iterations (9 bits, low) and step (23 bits).
+// The step is kept as a share of the largest there can be: kappa of 1/4 for ConstantWidth, epsilon
+// of 0.053 r for Source and Fixed.
+
+const uint RULE_SOURCE = 0u;
+const uint RULE_CONSTANT_WIDTH = 1u;
+const uint RULE_FIXED = 2u;
+
+const float SOURCE_STEP = 0.053;  // of r (thesis, demo: 0.05 at particle size 0.9375)
+const float SOURCE_RADIUS = 4.8;  // r_w of r
+const float MOST_KAPPA = 0.25;    // stability of the explicit step
+
+uint plan_count(uint plan) {
+    return plan & 511u;
+}
+
+float plan_step(uint plan) {
+    return float(plan >> 9) * (1.0 / 8388607.0);
+}
+
+uint plan_pack(uint count, float share) {
+    return count | (uint(clamp(share, 0.0, 1.0) * 8388607.0 + 0.5) << 9);
+}

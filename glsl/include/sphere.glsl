@@ -1,0 +1,44 @@
+// Spheres under a perspective: footprint and exact hit.
+
+// Bounds of the projected sphere in slopes (min xy, max xy), from the tangents through the eye in
+// the planes of x and y; false when it reaches the eye plane and has none.
+bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
+    float d = -centre.z;
+    float h = d * d - radius * radius;
+    if (d <= 1.01 * radius) {
+        bounds = vec4(-1.0e10, -1.0e10, 1.0e10, 1.0e10);
+        return false;
+    }
+    vec2 reach = radius * sqrt(centre.xy * centre.xy + h);
+    bounds = vec4(centre.xy * d - reach, centre.xy * d + reach) / h;
+    return true;
+}
+
+// Eye depth of the nearest point of the sphere on the ray (slope, -1); EMPTY when missed or in
+// front of the near plane (the far root is never taken). The discriminant is that of the distance
+// between centre and ray: the textbook one loses half a radius to rounding at 1000 radii.
+float sphere_hit(vec2 slope, vec3 centre, float radius, float near) {
+    vec3 w = vec3(slope, -1.0);
+    float inverse = 1.0 / dot(w, w);
+    float along = dot(w, centre) * inverse;
+    vec3 off = centre - w * along;
+    float left = radius * radius - dot(off, off);
+    float t = along - sqrt(max(left, 0.0) * inverse);
+    return left < 0.0 || t < near ? EMPTY : t;
+}
+
+// Slope bounds to pixel bounds (min xy, max xy) of an image.
+vec4 pixel_bounds(vec4 bounds, vec4 slope) {
+    vec4 p = (bounds - slope.zwzw) / slope.xyxy;
+    return vec4(min(p.xy, p.zw), max(p.xy, p.zw));
+}
+
+// First and last pixel whose centre can lie in the bounds, clamped to the image; empty when
+// last < first. The margin covers rounding.
+ivec4 pixel_span(vec4 bounds, vec2 extent) {
+    const float margin = 1.0 / 64.0;
+    vec4 p = clamp(bounds, vec4(-1.0), extent.xyxy + 1.0);
+    ivec2 first = max(ivec2(ceil(p.xy - 0.5 - margin)), ivec2(0));
+    ivec2 last = min(ivec2(floor(p.zw - 0.5 + margin)), ivec2(extent) - 1);
+    return ivec4(first, last);
+}

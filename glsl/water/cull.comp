@@ -1,0 +1,146 @@
+#version 460
+// Pass `cull`: the border. Drops NaN and infinite particles, sets spray aside, tests the rest
+// against the frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the
+// survivors in eye space: small sprites from the front of the list, large ones from its back.
+// Reads: positions, densities, packets. Writes: Counts, visible.
+
+#include "frame.glsl"
+#include "sphere.glsl"
+#include "counts.glsl"
+
+layout(local_size_x = 64) in;
+// 1: one workgroup per host packet.
+layout(constant_id = 0) const uint PACKETS = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 3, std430) readonly buffer HostPackets { uint packets[]; };
+layout(set = 0, binding = 4, std430) buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 5, std430) writeonly buffer Visible { vec4 visible[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;   // of the chunk's first particle
+    uint position_stride; // in words
+    uint density_word;
+    uint density_stride;  // 0: no densities
+    uint packet_word;
+    uint chunk_first;
+    uint capacity;        // of the visible list
+    float small_limit;    // largest sprite that counts as small, pixels
+    uint small_inside;    // 1: small sprites have their centre on the screen (points)
+} push;
+
+shared uint group_small;
+shared uint group_large;
+shared uint first_small;
+shared uint first_large;
+
+const uint NONE = 0u;
+const uint SMALL = 1u;
+const uint LARGE = 2u;
+
+bool in_frustum(vec3 centre, float radius) {
+    bool inside = true;
+    for (int i = 0; i < 6; ++i) {
+        inside = inside && dot(frame.planes[i].xyz, centre) + frame.planes[i].w >= -radius;
+    }
+    return inside;
+}
+
+uint classify(uint index, out vec4 sphere) {
+    sphere = vec4(0.0);
+    uint at = push.position_word + index * push.position_stride;
+    vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+    // Comparisons with NaN are false.
+    if (!(all(lessThan(abs(position), vec3(1.0e18))))) {
+        atomicAdd(counts.dropped, 1u);
+        return NONE;
+    }
+    float radius = frame.particle.x;
+    if (push.density_stride > 0u) {
+        float density = densities[push.density_word + index * push.density_stride];
+        // 0 marks a particle that was just emitted and has no sum yet.
+        if (density > 0.0) {
+            if (density < frame.density.x) {
+                atomicAdd(counts.spray, 1u);
+                return NONE;
+            }
+            float full = smoothstep(frame.density.x, max(frame.density.y, frame.density.x + 1.0e-6), density);
+            radius *= 0.5 + 0.5 * full;
+        }
+    }
+    vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
+    sphere = vec4(centre, radius);
+    // The thickness sprite is the wider one: its half-axis bounds both.
+    float reach = radius * frame.particle.z / frame.particle.x;
+    if (!in_frustum(centre, reach)) {
+        return NONE;
+    }
+    vec4 slopes;
+    if (!sphere_bounds(centre, reach, slopes)) {
+        return LARGE;
+    }
+    vec4 pixels = pixel_bounds(slopes, frame.slope);
+    vec2 size = pixels.zw - pixels.xy;
+    bool small = max(size.x, size.y) <= push.small_limit;
+    if (push.small_inside == 1u) {
+        vec2 middle = 0.5 * (pixels.xy + pixels.zw);
+        small = small && all(greaterThan(middle, vec2(0.0))) && all(lessThan(middle, frame.extent.xy));
+    }
+    return small ? SMALL : LARGE;
+}
+
+void append(uint kind, vec4 sphere) {
+    uint local = gl_LocalInvocationIndex;
+    if (local == 0u) {
+        group_small = 0u;
+        group_large = 0u;
+    }
+    barrier();
+    uint slot = 0u;
+    if (kind == SMALL) {
+        slot = atomicAdd(group_small, 1u);
+    } else if (kind == LARGE) {
+        slot = atomicAdd(group_large, 1u);
+    }
+    barrier();
+    // One pair of global atomics a workgroup.
+    if (local == 0u) {
+        first_small = group_small > 0u ? atomicAdd(counts.small, group_small) : 0u;
+        first_large = group_large > 0u ? atomicAdd(counts.large, group_large) : 0u;
+    }
+    barrier();
+    if (kind == SMALL) {
+        visible[first_small + slot] = sphere;
+    } else if (kind == LARGE) {
+        visible[push.capacity - 1u - first_large - slot] = sphere;
+    }
+    barrier();
+}
+
+void main() {
+    uint here = counts.particles;
+    vec4 sphere = vec4(0.0);
+    if (PACKETS == 0u) {
+        uint index = gl_GlobalInvocationID.x;
+        uint kind = index < here ? classify(index, sphere) : NONE;
+        append(kind, sphere);
+        return;
+    }
+    uint at = push.packet_word + gl_WorkGroupID.x * 8u;
+    // Part of the packet that lies in this chunk; in 32 bits, so clamped before it is added.
+    uint first = max(packets[at], push.chunk_first);
+    uint past = min(packets[at] + min(packets[at + 1u], ~packets[at]), push.chunk_first + here);
+    vec3 low = uintBitsToFloat(uvec3(packets[at + 2u], packets[at + 3u], packets[at + 4u]));
+    vec3 high = uintBitsToFloat(uvec3(packets[at + 5u], packets[at + 6u], packets[at + 7u]));
+    vec3 centre = (frame.view * vec4(0.5 * (low + high), 1.0)).xyz;
+    // The bounding sphere of the box, grown by a sprite: conservative.
+    if (!in_frustum(centre, 0.5 * length(high - low) + frame.particle.z)) {
+        return;
+    }
+    for (uint i = first; i < past; i += gl_WorkGroupSize.x) {
+        uint index = i + gl_LocalInvocationIndex;
+        uint kind = index < past ? classify(index - push.chunk_first, sphere) : NONE;
+        append(kind, sphere);
+    }
+}

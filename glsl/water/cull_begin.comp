@@ -1,0 +1,44 @@
+#version 460
+// Pass `cull`, first part: clamps the count and lays out each chunk's arguments.
+// Reads: the host's count. Writes: Counts of every chunk.
+
+#include "counts.glsl"
+
+layout(local_size_x = 32) in;
+
+layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count[]; };
+// 256 bytes a chunk, so that each can be bound and used as arguments by itself.
+layout(set = 0, binding = 2, std430) writeonly buffer AllCounts { uint words[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint count;      // known to the host, or the most there may be
+    uint word;       // index of the host's count
+    uint from_gpu;   // 1: the count is in the buffer
+    uint chunks;
+    uint chunk_size;
+    uint packets;    // > 0: culled by packets, one workgroup each
+    uint group_size;
+} push;
+
+void main() {
+    uint chunk = gl_GlobalInvocationID.x;
+    if (chunk >= push.chunks) {
+        return;
+    }
+    uint total = push.from_gpu == 1u ? min(host_count[push.word], push.count) : push.count;
+    uint first = min(chunk * push.chunk_size, total);
+    uint here = min(total - first, push.chunk_size);
+    uint groups = push.packets > 0u ? (here > 0u ? push.packets : 0u)
+                                    : (here + push.group_size - 1u) / push.group_size;
+    uint base = chunk * 64u;
+    uint values[20] = uint[20](
+        0u, 1u, 0u, 0u,
+        4u, 0u, 0u, 0u,
+        0u, 1u, 1u,
+        0u, 1u, 1u,
+        groups, 1u, 1u,
+        here, 0u, 0u);
+    for (uint i = 0u; i < 20u; ++i) {
+        words[base + i] = values[i];
+    }
+}

@@ -1,0 +1,64 @@
+#version 460
+// Pass `depth`, compute path: exact sphere depth (thesis Sec. 4.6.1, with the ray's true hit in
+// place of the billboard's offset). Positive floats order as their bits do, so the nearest one is
+// an integer atomic.
+// Reads: Counts, visible. Writes: depth bits (nearest eye depth, EMPTY elsewhere).
+
+#include "frame.glsl"
+#include "sphere.glsl"
+#include "counts.glsl"
+
+layout(local_size_x = 64) in;
+// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+layout(constant_id = 0) const uint LARGE = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
+layout(set = 0, binding = 3, r32ui) uniform uimage2D depth_bits;
+
+layout(push_constant, std430) uniform Push { uint capacity; } push;
+
+void splat(ivec2 pixel, vec4 sphere) {
+    vec2 slope = ray_slope(vec2(pixel) + 0.5, frame.slope);
+    float depth = sphere_hit(slope, sphere.xyz, sphere.w, frame.depth.z);
+    if (depth < EMPTY) {
+        uint bits = floatBitsToUint(depth);
+        // Most sprites lose: a read is cheaper than an atomic.
+        if (bits < imageLoad(depth_bits, pixel).x) {
+            imageAtomicMin(depth_bits, pixel, bits);
+        }
+    }
+}
+
+ivec4 span(vec4 sphere) {
+    vec4 slopes;
+    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    return pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
+}
+
+void main() {
+    if (LARGE == 0u) {
+        uint index = gl_GlobalInvocationID.x;
+        if (index >= counts.small) {
+            return;
+        }
+        vec4 sphere = visible[index];
+        ivec4 box = span(sphere);
+        for (int y = box.y; y <= box.w; ++y) {
+            for (int x = box.x; x <= box.z; ++x) {
+                splat(ivec2(x, y), sphere);
+            }
+        }
+        return;
+    }
+    for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
+        vec4 sphere = visible[push.capacity - 1u - i];
+        ivec4 box = span(sphere);
+        ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
+        for (int y = box.y + lane.y; y <= box.w; y += 8) {
+            for (int x = box.x + lane.x; x <= box.z; x += 8) {
+                splat(ivec2(x, y), sphere);
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+#version 460
+// Pass `depth`, raster path: one sprite a sphere, as a point where it fits, else as a quad. The
+// footprint is conservative; the hit test alone decides coverage.
+// Reads: visible.
+
+#include "frame.glsl"
+#include "sphere.glsl"
+
+// 0: points from the front of the list. 1: quads from its back.
+layout(constant_id = 0) const uint QUADS = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; };
+layout(push_constant, std430) uniform Push { uint capacity; } push;
+
+layout(location = 0) flat out vec4 sphere;
+
+void main() {
+    uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
+    sphere = visible[index];
+    vec4 slopes;
+    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    vec4 pixels = pixel_bounds(slopes, frame.slope);
+    // Sub-pixel snapping (1/16 at worst) must not cut the footprint.
+    pixels += vec4(-0.125, -0.125, 0.125, 0.125);
+    pixels = clamp(pixels, vec4(-1.0), frame.extent.xyxy + 1.0);
+    vec2 at = 0.5 * (pixels.xy + pixels.zw);
+    gl_PointSize = max(pixels.z - pixels.x, pixels.w - pixels.y);
+    if (QUADS == 1u) {
+        at = vec2((gl_VertexIndex & 1) == 0 ? pixels.x : pixels.z,
+                  (gl_VertexIndex & 2) == 0 ? pixels.y : pixels.w);
+    }
+    gl_Position = vec4(at / frame.extent.xy * 2.0 - 1.0, 0.5, 1.0);
+}

@@ -1,0 +1,41 @@
+#version 460
+// Pass `thickness`, raster path: a disc in the plane of each centre (thesis Sec. 3.2.2).
+// Reads: visible.
+
+#include "frame.glsl"
+#include "sphere.glsl"
+
+// 0: points from the front of the list. 1: quads from its back.
+layout(constant_id = 0) const uint QUADS = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; };
+layout(push_constant, std430) uniform Push { uint capacity; } push;
+
+layout(location = 0) flat out vec4 disc; // centre, 1 / half-axis
+layout(location = 1) flat out float amplitude;
+
+void main() {
+    uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
+    vec4 sphere = visible[index];
+    float axis = sphere.w * frame.particle.z / frame.particle.x;
+    disc = vec4(sphere.xyz, 1.0 / axis);
+    // A smaller sprite holds the same volume.
+    float grown = frame.particle.x / sphere.w;
+    amplitude = frame.particle.w * grown * grown;
+    vec4 slopes = vec4(sphere.xy - axis, sphere.xy + axis) / -sphere.z;
+    vec4 pixels = pixel_bounds(slopes, frame.thick_slope);
+    pixels += vec4(-0.125, -0.125, 0.125, 0.125);
+    pixels = clamp(pixels, vec4(-1.0), frame.thick_extent.xyxy + 1.0);
+    vec2 at = 0.5 * (pixels.xy + pixels.zw);
+    gl_PointSize = max(pixels.z - pixels.x, pixels.w - pixels.y);
+    if (QUADS == 1u) {
+        at = vec2((gl_VertexIndex & 1) == 0 ? pixels.x : pixels.z,
+                  (gl_VertexIndex & 2) == 0 ? pixels.y : pixels.w);
+    }
+    gl_Position = vec4(at / frame.thick_extent.xy * 2.0 - 1.0, 0.5, 1.0);
+    // A centre behind the near plane has no sprite: off the screen.
+    if (-sphere.z <= frame.depth.z) {
+        gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
+        gl_PointSize = 1.0;
+    }
+}

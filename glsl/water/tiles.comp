@@ -1,0 +1,57 @@
+#version 460
+// Pass `tiles`: sorts the tiles that hold water by their iterations, most first, so that the
+// tiles with work left in iteration i are a prefix of the list; writes the arguments of every
+// iteration's dispatch. A counting sort by one workgroup.
+// Reads: work of every tile (most iterations + 1). Writes: list, arguments.
+
+layout(local_size_x = 256) in;
+
+layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
+// [0] all tiles with water: draw (4, n, 0, 0), then dispatches {x, 1, 1, n}: one an iteration.
+layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint tiles;
+    uint most_groups;
+} push;
+
+shared uint histogram[512];
+shared uint first[512];
+
+void main() {
+    uint lane = gl_LocalInvocationIndex;
+    histogram[lane] = 0u;
+    histogram[lane + 256u] = 0u;
+    barrier();
+    for (uint i = lane; i < push.tiles; i += 256u) {
+        uint n = tile_work[i];
+        if (n > 0u) {
+            atomicAdd(histogram[n], 1u);
+        }
+    }
+    barrier();
+    if (lane == 0u) {
+        uint sum = 0u;
+        for (int n = 511; n >= 0; --n) {
+            first[n] = sum;
+            sum += histogram[n];
+        }
+        arguments[0] = uvec4(4u, sum, 0u, 0u);
+    }
+    barrier();
+    // Iteration i runs the tiles with at least i - 1: one more than they need, in which all their
+    // pixels are copied, leaves the result in both images.
+    for (uint i = lane + 1u; i <= 257u; i += 256u) {
+        uint least = max(i, 2u);
+        uint n = first[least] + histogram[least];
+        arguments[i] = uvec4(min(n, push.most_groups), 1u, 1u, n);
+    }
+    barrier();
+    for (uint i = lane; i < push.tiles; i += 256u) {
+        uint n = tile_work[i];
+        if (n > 0u) {
+            list[atomicAdd(first[n], 1u)] = i;
+        }
+    }
+}

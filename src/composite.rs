@@ -1,0 +1,107 @@
+//! Pass `composite`: the only one that writes the output; takes the layers of all techniques.
+//!
+//! Drawn over the tiles that hold water alone, one instance each: pixels outside the fluid are not
+//! touched. Thesis Sec. 3.3 and 4.10; see glsl/composite.frag for what differs.
+
+use ash::vk;
+
+use crate::contract::Config;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
+use crate::gpu::retire::Retired;
+use crate::gpu::shader;
+use crate::water::settings::Fresnel;
+use crate::water::{Recording, WaterLayers};
+
+/// The pass.
+pub struct Composite {
+    pass: vk::RenderPass,
+    /// [Fresnel::Schlick, Fresnel::Source].
+    pipelines: [Pipeline; 2],
+}
+
+impl Composite {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let pass = gpu.color_pass("composite", config.output_format, vk::AttachmentLoadOp::LOAD)?;
+        let reduced = u32::from(
+            config.thickness_level == config.smoothing_level && config.thickness_level > 0,
+        );
+        let make = |schlick| {
+            Pipeline::graphics(
+                gpu,
+                &Graphics {
+                    vertex: shader::COMPOSITE_VERT,
+                    fragment: shader::COMPOSITE_FRAG,
+                    topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                    pass,
+                    blend: no_blend(),
+                    constants: &[(0, reduced), (1, schlick)],
+                },
+            )
+        };
+        Ok(Self { pass, pipelines: [make(1)?, make(0)?] })
+    }
+
+    /// A framebuffer for the host's output; it lives as long as the slot's frame.
+    pub fn framebuffer(
+        &self,
+        gpu: &Gpu,
+        view: vk::ImageView,
+        extent: vk::Extent2D,
+    ) -> Result<vk::Framebuffer, Error> {
+        gpu.framebuffer("composite/output", self.pass, view, extent)
+    }
+
+    /// The output is in COLOR_ATTACHMENT_OPTIMAL, all layers are sampled by fragments.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        framebuffer: vk::Framebuffer,
+        extent: vk::Extent2D,
+        layers: &WaterLayers<'_>,
+        scene_color: Resource,
+        environment: Resource,
+        fresnel: Fresnel,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"composite");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let pipeline = match fresnel {
+            Fresnel::Schlick { .. } => &self.pipelines[0],
+            Fresnel::Source { .. } => &self.pipelines[1],
+        };
+        gpu.begin_pass(cmd, self.pass, framebuffer, extent.into(), [0.0; 4]);
+        let nearest = gpu.samplers.nearest;
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            pipeline,
+            &[
+                (0, r.uniforms),
+                (1, Resource::Sampled(layers.smoothed.view, nearest)),
+                (2, Resource::Sampled(layers.depth.view, nearest)),
+                (3, Resource::Sampled(layers.thickness.view, nearest)),
+                (4, scene_color),
+                (5, r.scene_depth),
+                (6, environment),
+                (9, Resource::buffer(&layers.tiles.list)),
+            ],
+        )?;
+        pipeline.push(gpu, cmd, &layers.tiles.columns);
+        // SAFETY: inside the render pass; the arguments are visible since `tiles`.
+        unsafe {
+            gpu.device.cmd_draw_indirect(cmd, layers.tiles.arguments.handle, 0, 1, 16);
+            gpu.device.cmd_end_render_pass(cmd);
+        }
+        r.end(scope);
+        Ok(())
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        for pipeline in &self.pipelines {
+            pipeline.destroy(gpu);
+        }
+        Retired::RenderPass(self.pass).destroy(gpu);
+    }
+}

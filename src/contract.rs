@@ -1,0 +1,282 @@
+//! Every type that crosses the border between the host and the library.
+
+use std::sync::{Arc, Mutex};
+
+use ash::vk;
+use glam::Mat4;
+use gpu_allocator::vulkan::Allocator;
+
+pub use crate::gpu::access::Access;
+use crate::water::settings::{Rule, Smoothing, Splat, WaterSettings};
+
+/// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
+pub struct Host<'a> {
+    /// The instance.
+    pub instance: &'a ash::Instance,
+    /// The physical device.
+    pub physical_device: vk::PhysicalDevice,
+    /// A Vulkan 1.3 device with what [`requirements`](crate::requirements) asks for.
+    pub device: &'a ash::Device,
+    /// Shared allocator; locked only in construction, `reconfigure`, `resize`, `collect` and
+    /// `destroy`.
+    pub allocator: Arc<Mutex<Allocator>>,
+    /// One family with graphics and compute; every command buffer handed in is of it.
+    pub queue_family: u32,
+    /// Frames in flight, 1 to 8: slots are 0 .. frames_in_flight.
+    pub frames_in_flight: u32,
+    /// What the host really enabled on the device.
+    pub enabled: Enabled,
+    /// A pipeline cache, or null.
+    pub pipeline_cache: vk::PipelineCache,
+}
+
+/// Optional features and extensions the host enabled. False costs a path, never correctness.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Enabled {
+    /// VK_EXT_debug_utils on the instance: names and labels.
+    pub debug_utils: bool,
+    /// VK_EXT_conditional_rendering with `conditionalRendering`.
+    pub conditional_rendering: bool,
+    /// Vulkan 1.2 `drawIndirectCount`.
+    pub draw_indirect_count: bool,
+    /// `occlusionQueryPrecise`: without it a query only tells zero from non-zero, which is all
+    /// the termination needs.
+    pub precise_occlusion_queries: bool,
+}
+
+/// What fixes memory and pipelines. Changed between records by
+/// [`reconfigure`](crate::Renderer::reconfigure).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config {
+    /// Size of the output in pixels, 1 to the device's 2D image limit.
+    pub extent: vk::Extent2D,
+    /// Format of the output: a colour attachment.
+    pub output_format: vk::Format,
+    /// Most particles a frame may have.
+    pub max_particles: u32,
+    /// Longest stride of the particle streams in bytes, a multiple of 4 (default 16): with the
+    /// device's storage-buffer range it decides how many particles are processed at a time.
+    pub max_stride: u32,
+    /// Resolution of the smoothing: 0 full, 1 half (default), 2 quarter.
+    pub smoothing_level: u32,
+    /// Resolution of the thickness: 0 full, 1 half (default). Upsampled depth-aware.
+    pub thickness_level: u32,
+    /// How depth is splatted; `None`: the measured fastest for the device.
+    pub depth_splat: Option<Splat>,
+    /// How thickness is splatted; `None`: the measured fastest for the device.
+    pub thickness_splat: Option<Splat>,
+    /// Form of the smoothing; `None`: the measured fastest for the device.
+    pub smoothing: Option<Smoothing>,
+    /// Iteration rule of the smoothing.
+    pub rule: Rule,
+    /// Most iterations of the smoothing, 1 to 256 (default 256, as the source).
+    pub max_iterations: u32,
+    /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
+    pub environment_size: u32,
+    /// The output is the scene's colour image itself (default): it is copied before it is written
+    /// and needs transfer-source usage.
+    pub in_place: bool,
+    /// Keep the images of the intermediate layers readable after `record`.
+    pub keep_layers: bool,
+}
+
+impl Config {
+    /// The defaults for an output.
+    pub fn new(extent: vk::Extent2D, output_format: vk::Format, max_particles: u32) -> Self {
+        Self {
+            extent,
+            output_format,
+            max_particles,
+            max_stride: 16,
+            smoothing_level: 1,
+            thickness_level: 1,
+            depth_splat: None,
+            thickness_splat: None,
+            smoothing: None,
+            rule: Rule::ConstantWidth,
+            max_iterations: 256,
+            environment_size: 256,
+            in_place: true,
+            keep_layers: false,
+        }
+    }
+}
+
+/// A frame in flight: an index below `frames_in_flight`. Handing a slot in says that all GPU work
+/// recorded with it before is complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot(pub u32);
+
+/// An image of the host's, with its state when `record` takes it over and when it hands it back.
+#[derive(Clone, Copy, Debug)]
+pub struct HostImage {
+    /// The image: single-sampled, 2D.
+    pub image: vk::Image,
+    /// A 2D view of its first mip and layer; of depth-stencil images of the depth aspect alone.
+    pub view: vk::ImageView,
+    /// Format of the view.
+    pub format: vk::Format,
+    /// All aspects of the image (barriers cover them all).
+    pub aspect: vk::ImageAspectFlags,
+    /// Size in texels.
+    pub extent: vk::Extent2D,
+    /// Last use before `record`: stages and accesses to wait for, current layout.
+    pub before: Access,
+    /// First use after `record`, and the layout to leave the image in.
+    pub after: Access,
+}
+
+/// One attribute of the particles: `stride` bytes apart from `offset` on. Streams may share a
+/// buffer (interleaved) or not. Little-endian 32-bit values, 4-byte aligned.
+#[derive(Clone, Copy, Debug)]
+pub struct Stream {
+    /// A buffer with storage usage.
+    pub buffer: vk::Buffer,
+    /// Its whole size in bytes.
+    pub size: u64,
+    /// Byte offset of the first particle's value, a multiple of 4.
+    pub offset: u64,
+    /// Bytes from one particle's value to the next, a multiple of 4, at most
+    /// [`Config::max_stride`].
+    pub stride: u32,
+}
+
+/// How many particles there are.
+#[derive(Clone, Copy, Debug)]
+pub enum Count {
+    /// Known to the host; at most [`Config::max_particles`].
+    Cpu(u32),
+    /// A `u32` in a buffer with storage usage, read on the GPU and clamped to
+    /// [`Config::max_particles`].
+    Gpu {
+        /// The buffer.
+        buffer: vk::Buffer,
+        /// Byte offset, a multiple of the device's minStorageBufferOffsetAlignment.
+        offset: u64,
+    },
+}
+
+/// The host's own groups of particles for culling: `count` records of 32 bytes: first particle
+/// (u32), number of particles (u32), minimum corner (3×f32), maximum corner (3×f32) of the
+/// centres, in world space. Particles in no packet are not drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Packets {
+    /// A buffer with storage usage.
+    pub buffer: vk::Buffer,
+    /// Byte offset, a multiple of the device's minStorageBufferOffsetAlignment.
+    pub offset: u64,
+    /// Number of packets, at most 65 535.
+    pub count: u32,
+}
+
+/// The particles of one frame. Only read.
+#[derive(Clone, Copy, Debug)]
+pub struct Particles {
+    /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
+    /// and counted.
+    pub positions: Stream,
+    /// SPH densities (f32); `None`: every particle has the rest density.
+    pub densities: Option<Stream>,
+    /// How many.
+    pub count: Count,
+    /// Groups to cull by instead of each particle.
+    pub packets: Option<Packets>,
+    /// Last use of all these buffers before `record` (layout ignored).
+    pub before: Access,
+    /// First use of them after `record` (layout ignored).
+    pub after: Access,
+}
+
+/// The view. The projection is the host's own, as used with a positive-height viewport whose row 0
+/// is the top of the image: a host that flips by a negative height negates row 1 first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// World to eye space.
+    pub view: Mat4,
+    /// Eye to clip space, depth 0 to 1: perspective; finite or infinite, standard or reversed
+    /// depth, off-axis allowed; looking down −z (right-handed) or +z.
+    pub projection: Mat4,
+}
+
+/// Everything one `record` draws.
+#[derive(Clone, Copy)]
+pub struct Frame<'a> {
+    /// The slot; its earlier work is complete.
+    pub slot: Slot,
+    /// Written where there is water, unchanged elsewhere. Linear, scene-referred.
+    pub output: HostImage,
+    /// The scene behind the water, linear, only sampled. May be the image of `output`: then it is
+    /// copied first (both need transfer usage).
+    pub scene_color: HostImage,
+    /// Depth of the scene in the camera's convention, only sampled. Its size may differ.
+    pub scene_depth: HostImage,
+    /// The particles.
+    pub particles: Particles,
+    /// The view.
+    pub camera: Camera,
+    /// Uniform settings.
+    pub settings: &'a Settings,
+}
+
+/// All settings that cost nothing to change from frame to frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Layered water.
+    pub water: WaterSettings,
+    /// Light on it.
+    pub light: Light,
+}
+
+/// The sun, and the light of the sky as the water's scattering sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// World direction to the sun, unit length.
+    pub direction: [f32; 3],
+    /// Radiance factor of its highlight, linear RGB, [0, ∞).
+    pub color: [f32; 3],
+    /// Mean radiance of the environment, linear RGB, [0, ∞): lights what the water scatters.
+    pub ambient: [f32; 3],
+}
+
+impl Default for Light {
+    fn default() -> Self {
+        Self {
+            direction: [0.408_248_3, 0.816_496_6, 0.408_248_3],
+            color: [4.0, 3.8, 3.4],
+            ambient: [0.35, 0.45, 0.6],
+        }
+    }
+}
+
+/// An intermediate image after a record; the host may read it until the next record.
+#[derive(Clone, Copy, Debug)]
+pub struct Layer {
+    /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`.
+    pub name: &'static str,
+    /// The image; transfer source usage.
+    pub image: vk::Image,
+    /// A view of it.
+    pub view: vk::ImageView,
+    /// Its format.
+    pub format: vk::Format,
+    /// Its size; may be a reduced one.
+    pub extent: vk::Extent2D,
+    /// Its state after `record`.
+    pub access: Access,
+}
+
+/// What a record left behind.
+#[derive(Clone, Debug, Default)]
+pub struct Recorded {
+    /// The kept layers (none unless [`Config::keep_layers`]).
+    pub layers: Vec<Layer>,
+}
+
+/// Device memory in use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MemoryUse {
+    /// Bytes of images; depends on the extent and the levels.
+    pub images: u64,
+    /// Bytes of buffers; depends on the most particles.
+    pub buffers: u64,
+}

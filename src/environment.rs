@@ -1,0 +1,239 @@
+//! The environment that water reflects: an equirectangular image of the host's, or the built-in
+//! sky, as a cube with mips. Filled by [`record_environment`](crate::Renderer::record_environment),
+//! once per environment.
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+
+use crate::contract::{Config, HostImage};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED,
+};
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+
+/// Where the environment comes from.
+#[derive(Clone, Copy, Debug)]
+pub enum EnvironmentSource {
+    /// The built-in clear sky.
+    Sky(Sky),
+    /// An image of the host's, only sampled.
+    Equirectangular(Equirectangular),
+}
+
+/// A clear sky by single scattering in a Rayleigh and Mie atmosphere, over grey ground.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sky {
+    /// World direction to the sun, unit length, y up.
+    pub sun: [f32; 3],
+    /// Irradiance of the sun above the air in the unit of the output, [0, ∞), default 20.
+    pub intensity: f32,
+}
+
+impl Default for Sky {
+    fn default() -> Self {
+        Self { sun: [0.408_248_3, 0.816_496_6, 0.408_248_3], intensity: 20.0 }
+    }
+}
+
+/// An equirectangular image: row 0 up, its middle column along world −z.
+#[derive(Clone, Copy, Debug)]
+pub struct Equirectangular {
+    /// Linear radiance.
+    pub image: HostImage,
+    /// Factor on the radiance, default 1.
+    pub scale: f32,
+    /// Turn about y in radians.
+    pub turn: f32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct SkyPush {
+    sun: [f32; 4],
+    size: u32,
+    pad: [u32; 3],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct EquirectPush {
+    size: u32,
+    scale: f32,
+    turn: f32,
+}
+
+/// The cube and its passes.
+pub struct Environment {
+    sky: Pipeline,
+    equirect: Pipeline,
+    /// RGBA16F, six faces, all mips.
+    pub cube: Image,
+    faces: vk::ImageView,
+    mips: u32,
+}
+
+impl Environment {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let size = config.environment_size;
+        let mips = size.ilog2() + 1;
+        let cube = Image::new(
+            gpu,
+            &ImageDesc {
+                mips,
+                layers: 6,
+                ..ImageDesc::new(
+                    "environment",
+                    vk::Extent2D { width: size, height: size },
+                    vk::Format::R16G16B16A16_SFLOAT,
+                    vk::ImageUsageFlags::STORAGE
+                        | vk::ImageUsageFlags::SAMPLED
+                        | vk::ImageUsageFlags::TRANSFER_SRC
+                        | vk::ImageUsageFlags::TRANSFER_DST,
+                )
+            },
+        )?;
+        let faces = gpu.view(cube.handle, cube.format, 6, 0, 1, "environment/faces")?;
+        Ok(Self {
+            sky: Pipeline::compute(gpu, shader::ENVIRONMENT_SKY_COMP, &[])?,
+            equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
+            cube,
+            faces,
+            mips,
+        })
+    }
+
+    /// A first, black environment, so that a frame may sample it.
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        gpu.barriers(cmd, &[access::image(&self.cube, access::NOTHING, access::CLEAR)], &[]);
+        let range = vk::ImageSubresourceRange {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            level_count: vk::REMAINING_MIP_LEVELS,
+            layer_count: vk::REMAINING_ARRAY_LAYERS,
+            ..Default::default()
+        };
+        // SAFETY: cmd is recording outside a render pass; the image is in TRANSFER_DST_OPTIMAL.
+        unsafe {
+            gpu.device.cmd_clear_color_image(
+                cmd,
+                self.cube.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &vk::ClearColorValue { float32: [0.0, 0.0, 0.0, 1.0] },
+                &[range],
+            );
+        }
+        gpu.barriers(cmd, &[access::image(&self.cube, access::CLEAR, FRAGMENT_SAMPLED)], &[]);
+    }
+
+    pub fn record(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        source: &EnvironmentSource,
+    ) -> Result<(), Error> {
+        let size = self.cube.extent.width;
+        gpu.begin_label(cmd, c"environment");
+        gpu.barriers(
+            cmd,
+            &[access::image(&self.cube, FRAGMENT_SAMPLED.discarded(), COMPUTE_WRITE)],
+            &[],
+        );
+        let target = (0, Resource::Storage(self.faces));
+        match source {
+            EnvironmentSource::Sky(sky) => {
+                descriptors.bind(gpu, cmd, &self.sky, &[target])?;
+                let [x, y, z] = glam::Vec3::from(sky.sun).normalize_or_zero().to_array();
+                let push = SkyPush { sun: [x, y, z, sky.intensity], size, pad: [0; 3] };
+                // The shader's block ends after `size`.
+                let bytes: [u8; 20] = bytemuck::bytes_of(&push)[..20].try_into().unwrap_or([0; 20]);
+                self.sky.push(gpu, cmd, &bytes);
+            }
+            EnvironmentSource::Equirectangular(equirect) => {
+                let image = &equirect.image;
+                let before =
+                    access::raw_image(image.image, image.aspect, image.before, COMPUTE_SAMPLED);
+                gpu.barriers(cmd, &[before], &[]);
+                descriptors.bind(
+                    gpu,
+                    cmd,
+                    &self.equirect,
+                    &[target, (1, Resource::Sampled(image.view, gpu.samplers.linear))],
+                )?;
+                let push = EquirectPush { size, scale: equirect.scale, turn: equirect.turn };
+                self.equirect.push(gpu, cmd, &push);
+            }
+        }
+        let groups = size.div_ceil(8);
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 6) };
+        if let EnvironmentSource::Equirectangular(equirect) = source {
+            let image = &equirect.image;
+            let after = access::raw_image(image.image, image.aspect, COMPUTE_SAMPLED, image.after);
+            gpu.barriers(cmd, &[after], &[]);
+        }
+        self.record_mips(gpu, cmd);
+        gpu.end_label(cmd);
+        Ok(())
+    }
+
+    /// Each mip is a blit of the one before.
+    fn record_mips(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        let mip_barrier = |mip: u32, count: u32, before, after| {
+            let mut barrier = access::image(&self.cube, before, after);
+            barrier.subresource_range.base_mip_level = mip;
+            barrier.subresource_range.level_count = count;
+            barrier
+        };
+        let mut size = self.cube.extent.width as i32;
+        gpu.barriers(
+            cmd,
+            &[
+                mip_barrier(0, 1, COMPUTE_WRITE, COPY_READ),
+                mip_barrier(1, self.mips - 1, COMPUTE_WRITE, COPY_WRITE),
+            ],
+            &[],
+        );
+        for mip in 1..self.mips {
+            let layers = |mip_level| vk::ImageSubresourceLayers {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                mip_level,
+                base_array_layer: 0,
+                layer_count: 6,
+            };
+            let corner = |size| vk::Offset3D { x: size, y: size, z: 1 };
+            let blit = vk::ImageBlit::default()
+                .src_subresource(layers(mip - 1))
+                .src_offsets([vk::Offset3D::default(), corner(size)])
+                .dst_subresource(layers(mip))
+                .dst_offsets([vk::Offset3D::default(), corner(size / 2)]);
+            // SAFETY: both mips are in their transfer layouts.
+            unsafe {
+                gpu.device.cmd_blit_image(
+                    cmd,
+                    self.cube.handle,
+                    vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+                    self.cube.handle,
+                    vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                    &[blit],
+                    vk::Filter::LINEAR,
+                );
+            }
+            gpu.barriers(cmd, &[mip_barrier(mip, 1, COPY_WRITE, COPY_READ)], &[]);
+            size /= 2;
+        }
+        gpu.barriers(cmd, &[access::image(&self.cube, COPY_READ, FRAGMENT_SAMPLED)], &[]);
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        self.sky.destroy(gpu);
+        self.equirect.destroy(gpu);
+        // SAFETY: the caller guarantees that the GPU is done.
+        unsafe { gpu.device.destroy_image_view(self.faces, None) };
+        self.cube.destroy(gpu);
+    }
+}

@@ -1,0 +1,351 @@
+//! Numbers derived once per frame and written to the slot's uniform buffer: depth linearisation,
+//! slopes of the pixels' rays, frustum planes, settings in the units the shaders want.
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec4};
+
+use crate::contract::{Camera, Config, Frame, Light};
+use crate::error::Error;
+use crate::gpu::shader;
+use crate::water::settings::{Fresnel, Medium, Rule, WaterSettings};
+
+/// Empty depth: farther than any surface (a MIN blend wants positive depth).
+pub const EMPTY: f32 = 1.0e10;
+
+/// The block `Frame` of `glsl/include/frame.glsl`; its comments say what each member holds.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+#[allow(missing_docs)] // documented once, in the shader
+pub struct FrameUniforms {
+    pub view: [[f32; 4]; 4],
+    pub world: [[f32; 4]; 4],
+    pub projection: [f32; 4],
+    pub depth: [f32; 4],
+    pub planes: [[f32; 4]; 6],
+    pub extent: [f32; 4],
+    pub thick_extent: [f32; 4],
+    pub slope: [f32; 4],
+    pub reduced_slope: [f32; 4],
+    pub thick_slope: [f32; 4],
+    pub texel: [f32; 4],
+    pub scene_depth: [f32; 4],
+    pub scene_color: [f32; 4],
+    pub output_offset: [f32; 4],
+    pub particle: [f32; 4],
+    pub density: [f32; 4],
+    pub smoothing: [f32; 4],
+    pub medium_a: [f32; 4],
+    pub medium_b: [f32; 4],
+    pub fresnel: [f32; 4],
+    pub surface: [f32; 4],
+    pub sun_direction: [f32; 4],
+    pub sun_color: [f32; 4],
+    pub ambient: [f32; 4],
+}
+
+shader::assert_layout!(
+    shader::WATER_CULL_COMP,
+    "Frame",
+    FrameUniforms {
+        view,
+        world,
+        projection,
+        depth,
+        planes,
+        extent,
+        thick_extent,
+        slope,
+        reduced_slope,
+        thick_slope,
+        texel,
+        scene_depth,
+        scene_color,
+        output_offset,
+        particle,
+        density,
+        smoothing,
+        medium_a,
+        medium_b,
+        fresnel,
+        surface,
+        sun_direction,
+        sun_color,
+        ambient,
+    }
+);
+
+/// `∫₀¹ √(1−u)·e^(−2u) du`, the integral of the thickness kernel over ρ².
+pub const KERNEL_INTEGRAL: f32 = 0.340_003_0;
+
+/// Half-axis of a thickness sprite in drawn radii.
+pub const THICKNESS_SCALE: f32 = 2.0;
+
+/// Size of an image that is `level` times halved (rounded up).
+pub fn reduced(extent: vk::Extent2D, level: u32) -> vk::Extent2D {
+    let round = (1 << level) - 1;
+    vk::Extent2D {
+        width: (extent.width + round) >> level,
+        height: (extent.height + round) >> level,
+    }
+}
+
+/// A perspective projection taken apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Eye space looks down −z with this view (a +z host's view is mirrored).
+    pub view: Mat4,
+    /// P₀₀, P₁₁, P₂₀, P₂₁: `ndc.xy = P₀₀₁₁·slope − P₂₀₂₁` with slope = xy / eye depth.
+    pub p: Vec4,
+    /// Device depth z to eye depth: `a / (z + b)`.
+    pub linear: (f32, f32),
+    /// Eye depth of the near plane.
+    pub near: f32,
+    /// Eye depth of the far plane; infinite where there is none.
+    pub far: f32,
+}
+
+impl Lens {
+    /// Takes a camera apart, or says why it cannot be drawn.
+    pub fn new(camera: &Camera) -> Result<Self, Error> {
+        let (field_view, field) = ("Frame.camera.view", "Frame.camera.projection");
+        if !camera.view.is_finite() || camera.view.determinant().abs() < 1e-12 {
+            return Err(Error::bad(field_view, "not finite, or singular"));
+        }
+        let m = camera.projection.to_cols_array_2d();
+        if !camera.projection.is_finite() {
+            return Err(Error::bad(field, "not finite"));
+        }
+        // m[column][row]; w_clip = m[2][3]·z + m[3][3].
+        if m[2][3].abs() < 0.5 {
+            return Err(Error::bad(
+                field,
+                "orthographic (row 3 is 0 0 0 1): only perspective projections are supported",
+            ));
+        }
+        let mirror = if m[2][3] < 0.0 { 1.0 } else { -1.0 };
+        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view;
+        let scale = 1.0 / m[2][3].abs();
+        let (p22, p32) = (mirror * m[2][2] * scale, m[3][2] * scale);
+        let p = Vec4::new(m[0][0], m[1][1], mirror * m[2][0], mirror * m[2][1]) * scale;
+        if p.x.abs() < 1e-6 || p.y.abs() < 1e-6 || p32.abs() < 1e-12 {
+            return Err(Error::bad(field, "singular"));
+        }
+        let at = |z: f32| {
+            let depth = p32 / (z + p22);
+            if depth.is_finite() && depth > 0.0 { depth } else { f32::INFINITY }
+        };
+        let (near, far) = (at(0.0).min(at(1.0)), at(0.0).max(at(1.0)));
+        if !near.is_finite() {
+            return Err(Error::bad(field, "no near plane: is the depth range 0 to 1?"));
+        }
+        Ok(Self { view, p, linear: (p32, p22), near, far })
+    }
+
+    /// Scale and offset from pixel coordinates (centre at +0.5) to slopes, of an image whose
+    /// texels are `scale` full-resolution pixels wide.
+    pub fn slope(&self, full: vk::Extent2D, scale: f32) -> Vec4 {
+        let x = 2.0 * scale / (full.width as f32 * self.p.x);
+        let y = 2.0 * scale / (full.height as f32 * self.p.y);
+        Vec4::new(x, y, (self.p.z - 1.0) / self.p.x, (self.p.w - 1.0) / self.p.y)
+    }
+
+    /// Inward planes of the frustum in eye space (xyz·p + w ≥ 0 inside); a plane that is not
+    /// there lets everything pass.
+    fn planes(&self) -> [[f32; 4]; 6] {
+        let side = |x: f32, y: f32, z: f32| {
+            let n = glam::Vec3::new(x, y, z).normalize();
+            [n.x, n.y, n.z, 0.0]
+        };
+        // ±ndc·w ≥ −w: (1 ± (P₀₀ s − P₂₀)) ≥ 0, times the eye depth −z.
+        let [px, py, ox, oy] = self.p.to_array();
+        let far =
+            if self.far.is_finite() { [0.0, 0.0, 1.0, self.far] } else { [0.0, 0.0, 0.0, 1.0] };
+        [
+            side(px, 0.0, -(1.0 - ox)),
+            side(-px, 0.0, -(1.0 + ox)),
+            side(0.0, py, -(1.0 - oy)),
+            side(0.0, -py, -(1.0 + oy)),
+            [0.0, 0.0, -1.0, -self.near],
+            far,
+        ]
+    }
+}
+
+impl FrameUniforms {
+    /// Fills the block for a frame.
+    pub fn new(lens: &Lens, frame: &Frame<'_>, config: &Config) -> Self {
+        let full = config.extent;
+        let level = config.smoothing_level;
+        let small = reduced(full, level);
+        let thick = reduced(full, config.thickness_level);
+        let scale = (1 << level) as f32;
+        let water = &frame.settings.water;
+        let light = &frame.settings.light;
+        let radius = water.radius();
+        let axis = THICKNESS_SCALE * radius;
+        let volume = water.spacing.powi(3);
+        let amplitude = volume / (std::f32::consts::PI * KERNEL_INTEGRAL * axis * axis);
+        let (c_x, c_y) = (
+            2.0 / (full.width as f32 * lens.p.x.abs()),
+            2.0 / (full.height as f32 * lens.p.y.abs()),
+        );
+        let ratio = |image: vk::Extent2D| {
+            let (x, y) = (image.width as f32, image.height as f32);
+            [x / full.width as f32, y / full.height as f32, x, y]
+        };
+        let fixed = match config.rule {
+            Rule::Fixed(count) => count as f32,
+            _ => 0.0,
+        };
+        let (medium_a, medium_b) = medium(&water.medium);
+        let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
+        Self {
+            view: lens.view.to_cols_array_2d(),
+            world: lens.view.inverse().to_cols_array_2d(),
+            projection: lens.p.to_array(),
+            depth: [lens.linear.0, lens.linear.1, lens.near, lens.far.min(EMPTY)],
+            planes: lens.planes(),
+            extent: [
+                full.width as f32,
+                full.height as f32,
+                small.width as f32,
+                small.height as f32,
+            ],
+            thick_extent: [
+                thick.width as f32,
+                thick.height as f32,
+                (1 << config.thickness_level) as f32,
+                scale,
+            ],
+            slope: lens.slope(full, 1.0).to_array(),
+            reduced_slope: lens.slope(full, scale).to_array(),
+            thick_slope: lens.slope(full, (1 << config.thickness_level) as f32).to_array(),
+            texel: [c_x, c_y, c_x * scale, c_y * scale],
+            scene_depth: ratio(frame.scene_depth.extent),
+            scene_color: ratio(frame.scene_color.extent),
+            output_offset: [0.0; 4],
+            particle: [radius, water.spacing, axis, amplitude],
+            density: [
+                water.density_threshold * water.rest_density,
+                water.density_full * water.rest_density,
+                water.rest_density,
+                0.0,
+            ],
+            smoothing: [
+                water.smoothing_width * radius,
+                water.depth_falloff * radius,
+                config.max_iterations as f32,
+                fixed,
+            ],
+            medium_a,
+            medium_b,
+            fresnel: match water.fresnel {
+                Fresnel::Schlick { f0 } => [f0, 1.0 - f0, 5.0, 0.0],
+                Fresnel::Source { bias, scale, power } => [bias, scale, power, 0.0],
+            },
+            surface: [
+                water.refraction,
+                water.specular,
+                water.shininess,
+                water.depth_falloff * radius,
+            ],
+            sun_direction: sun.extend(0.0).to_array(),
+            sun_color: light_vector(light.color),
+            ambient: light_vector(light.ambient),
+        }
+    }
+}
+
+fn light_vector(c: [f32; 3]) -> [f32; 4] {
+    [c[0], c[1], c[2], 0.0]
+}
+
+fn medium(medium: &Medium) -> ([f32; 4], [f32; 4]) {
+    match *medium {
+        Medium::Physical { absorption: a, scattering: s } => {
+            ([a[0], a[1], a[2], 0.0], [s[0], s[1], s[2], 0.0])
+        }
+        Medium::Source { base, falloff } => ([base[0], base[1], base[2], 1.0], falloff),
+    }
+}
+
+/// Checks the settings' ranges; the message names the field.
+pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error> {
+    let at_least = |field, value: f32, least: f32| {
+        if value.is_finite() && value >= least {
+            Ok(())
+        } else {
+            Err(Error::bad(field, format!("expected at least {least}, found {value}")))
+        }
+    };
+    at_least("Settings.water.spacing", water.spacing, 1e-6)?;
+    at_least("Settings.water.rest_density", water.rest_density, 1e-6)?;
+    at_least("Settings.water.density_threshold", water.density_threshold, 0.0)?;
+    at_least("Settings.water.density_full", water.density_full, water.density_threshold)?;
+    at_least("Settings.water.smoothing_width", water.smoothing_width, 0.0)?;
+    at_least("Settings.water.depth_falloff", water.depth_falloff, 0.0)?;
+    at_least("Settings.water.refraction", water.refraction, 0.0)?;
+    at_least("Settings.water.specular", water.specular, 0.0)?;
+    at_least("Settings.water.shininess", water.shininess, 1.0)?;
+    let (a, b) = medium(&water.medium);
+    for value in a.into_iter().chain(b) {
+        at_least("Settings.water.medium", value, 0.0)?;
+    }
+    for value in light.color.into_iter().chain(light.ambient) {
+        at_least("Settings.light", value, 0.0)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn camera(projection: Mat4) -> Camera {
+        Camera { view: Mat4::IDENTITY, projection }
+    }
+
+    /// Every convention must give back the depth and the slope of a point it projected.
+    #[test]
+    fn lens_inverts_every_projection() {
+        let mut off_axis = Mat4::perspective_rh(0.8, 1.5, 0.1, 50.0);
+        off_axis.z_axis.x = 0.3;
+        off_axis.z_axis.y = -0.2;
+        let left_handed = Mat4::perspective_lh(0.8, 1.5, 0.1, 50.0);
+        for (projection, far) in [
+            (Mat4::perspective_rh(0.8, 1.5, 0.1, 50.0), 50.0),
+            (Mat4::perspective_infinite_rh(0.8, 1.5, 0.1), f32::INFINITY),
+            (Mat4::perspective_infinite_reverse_rh(0.8, 1.5, 0.1), f32::INFINITY),
+            (off_axis, 50.0),
+            (left_handed, 50.0),
+        ] {
+            let lens = Lens::new(&camera(projection)).expect("valid");
+            assert!((lens.near - 0.1).abs() < 1e-6);
+            assert!(far.is_infinite() && lens.far > 1e4 || (lens.far - far).abs() < 0.01 * far);
+            let forward = if projection == left_handed { 1.0 } else { -1.0 };
+            let point = Vec3::new(0.4, -0.7, forward * 3.0);
+            let clip = projection * point.extend(1.0);
+            let ndc = clip / clip.w;
+            let depth = lens.linear.0 / (ndc.z + lens.linear.1);
+            assert!((depth - 3.0).abs() < 1e-4, "{depth} {projection}");
+            let full = vk::Extent2D { width: 300, height: 200 };
+            let slope = lens.slope(full, 1.0);
+            let pixel = (ndc * 0.5 + 0.5) * Vec4::new(300.0, 200.0, 1.0, 1.0);
+            assert!((pixel.x * slope.x + slope.z - point.x / 3.0).abs() < 1e-5);
+            assert!((pixel.y * slope.y + slope.w - point.y / 3.0).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn lens_refuses_what_it_cannot_draw() {
+        let flat = Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+        for bad in [flat, Mat4::ZERO, Mat4::NAN] {
+            assert!(matches!(Lens::new(&camera(bad)), Err(Error::BadInput { .. })));
+        }
+        let singular =
+            Camera { view: Mat4::ZERO, projection: Mat4::perspective_rh(1.0, 1.0, 0.1, 9.0) };
+        assert!(matches!(Lens::new(&singular), Err(Error::BadInput { .. })));
+    }
+}

@@ -1,0 +1,158 @@
+//! Descriptor sets, per slot: each slot has a pool that is reset when its next frame begins.
+//! Ordinary sets, not push descriptors: these are not everywhere, and GPU-assisted validation
+//! reports falsely on them.
+
+use ash::vk;
+
+use super::Gpu;
+use super::image::Image;
+use super::pipeline::Pipeline;
+use crate::error::{Error, VkContext};
+
+/// What is bound to one binding.
+#[derive(Clone, Copy)]
+pub enum Resource {
+    /// Uniform or storage buffer, as the shader says: (buffer, offset, range).
+    Buffer(vk::Buffer, u64, u64),
+    /// Storage image in GENERAL.
+    Storage(vk::ImageView),
+    /// Sampled image in SHADER_READ_ONLY_OPTIMAL.
+    Sampled(vk::ImageView, vk::Sampler),
+    /// Sampled image in another layout.
+    SampledIn(vk::ImageView, vk::Sampler, vk::ImageLayout),
+}
+
+impl Resource {
+    /// A whole buffer.
+    pub fn buffer(buffer: &super::buffer::Buffer) -> Self {
+        Self::Buffer(buffer.handle, 0, vk::WHOLE_SIZE)
+    }
+
+    /// An own image as a storage image.
+    pub fn storage(image: &Image) -> Self {
+        Self::Storage(image.view)
+    }
+}
+
+/// One slot's pool.
+pub struct Descriptors {
+    pool: vk::DescriptorPool,
+}
+
+impl Descriptors {
+    /// Room for `sets` sets of up to eight bindings each.
+    pub fn new(gpu: &Gpu, sets: u32) -> Result<Self, Error> {
+        let size =
+            |ty, per_set: u32| vk::DescriptorPoolSize { ty, descriptor_count: sets * per_set };
+        let sizes = [
+            size(vk::DescriptorType::UNIFORM_BUFFER, 1),
+            size(vk::DescriptorType::STORAGE_BUFFER, 6),
+            size(vk::DescriptorType::STORAGE_IMAGE, 4),
+            size(vk::DescriptorType::COMBINED_IMAGE_SAMPLER, 6),
+        ];
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(sets).pool_sizes(&sizes);
+        // SAFETY: valid create info.
+        let pool = unsafe { gpu.device.create_descriptor_pool(&info, None) }
+            .context(|| "vkCreateDescriptorPool".into())?;
+        gpu.name(pool, "slot/descriptors");
+        Ok(Self { pool })
+    }
+
+    /// Gives all sets back. The slot's earlier work must be done.
+    pub fn reset(&self, gpu: &Gpu) -> Result<(), Error> {
+        // SAFETY: the contract says that the slot's earlier work is done.
+        unsafe {
+            gpu.device.reset_descriptor_pool(self.pool, vk::DescriptorPoolResetFlags::empty())
+        }
+        .context(|| "vkResetDescriptorPool".into())
+    }
+
+    /// Makes a set for a pipeline.
+    pub fn set(
+        &self,
+        gpu: &Gpu,
+        pipeline: &Pipeline,
+        resources: &[(u32, Resource)],
+    ) -> Result<vk::DescriptorSet, Error> {
+        debug_assert!(
+            pipeline.bindings.keys().all(|b| resources.iter().any(|r| r.0 == *b)),
+            "{} is not given all of {:?}",
+            pipeline.name,
+            pipeline.bindings
+        );
+        let layouts = [pipeline.set_layout];
+        let info = vk::DescriptorSetAllocateInfo::default()
+            .descriptor_pool(self.pool)
+            .set_layouts(&layouts);
+        // SAFETY: the pool is used by this slot alone.
+        let set = unsafe { gpu.device.allocate_descriptor_sets(&info) }
+            .context(|| format!("vkAllocateDescriptorSets {}", pipeline.name))?[0];
+        for &(binding, resource) in resources {
+            // A pass may hand one list to several pipelines that use parts of it.
+            let Some(&kind) = pipeline.bindings.get(&binding) else { continue };
+            let (mut buffers, mut images) =
+                ([vk::DescriptorBufferInfo::default()], [vk::DescriptorImageInfo::default()]);
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .dst_binding(binding)
+                .descriptor_type(kind);
+            let write = match resource {
+                Resource::Buffer(buffer, offset, range) => {
+                    buffers[0] = vk::DescriptorBufferInfo { buffer, offset, range };
+                    write.buffer_info(&buffers)
+                }
+                Resource::Storage(image_view) => {
+                    images[0] = vk::DescriptorImageInfo {
+                        sampler: vk::Sampler::null(),
+                        image_view,
+                        image_layout: vk::ImageLayout::GENERAL,
+                    };
+                    write.image_info(&images)
+                }
+                Resource::Sampled(image_view, sampler) => {
+                    images[0] = vk::DescriptorImageInfo {
+                        sampler,
+                        image_view,
+                        image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+                    };
+                    write.image_info(&images)
+                }
+                Resource::SampledIn(image_view, sampler, image_layout) => {
+                    images[0] = vk::DescriptorImageInfo { sampler, image_view, image_layout };
+                    write.image_info(&images)
+                }
+            };
+            // SAFETY: the set is fresh, the resources are alive until the slot comes back.
+            unsafe { gpu.device.update_descriptor_sets(&[write], &[]) };
+        }
+        Ok(set)
+    }
+
+    /// Binds a pipeline with a fresh set.
+    pub fn bind(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        pipeline: &Pipeline,
+        resources: &[(u32, Resource)],
+    ) -> Result<(), Error> {
+        let set = self.set(gpu, pipeline, resources)?;
+        pipeline.bind(gpu, cmd);
+        bind_set(gpu, cmd, pipeline, set);
+        Ok(())
+    }
+
+    /// Frees the pool. The GPU must be done with its sets.
+    pub fn destroy(&self, gpu: &Gpu) {
+        // SAFETY: the caller guarantees the GPU is done.
+        unsafe { gpu.device.destroy_descriptor_pool(self.pool, None) };
+    }
+}
+
+/// Binds a set made earlier in the frame.
+pub fn bind_set(gpu: &Gpu, cmd: vk::CommandBuffer, pipeline: &Pipeline, set: vk::DescriptorSet) {
+    // SAFETY: cmd is recording; the set was made for this pipeline's layout.
+    unsafe {
+        gpu.device.cmd_bind_descriptor_sets(cmd, pipeline.point, pipeline.layout, 0, &[set], &[]);
+    }
+}

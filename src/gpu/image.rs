@@ -1,0 +1,191 @@
+//! An own image: handle, memory and one or two views.
+
+use ash::vk;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+
+use super::Gpu;
+use crate::error::{Error, VkContext};
+
+/// What an image is made from.
+#[derive(Clone, Copy)]
+pub struct ImageDesc<'a> {
+    /// `technique/stem/what`.
+    pub name: &'a str,
+    /// Size in texels.
+    pub extent: vk::Extent2D,
+    /// Format of the image and its view.
+    pub format: vk::Format,
+    /// A second format of the same class for a second view (`R32_UINT` atomics on `R32_SFLOAT`).
+    pub alias: Option<vk::Format>,
+    /// Usage.
+    pub usage: vk::ImageUsageFlags,
+    /// Mip levels.
+    pub mips: u32,
+    /// Array layers; 6 makes a cube.
+    pub layers: u32,
+}
+
+impl<'a> ImageDesc<'a> {
+    /// A plain 2D image.
+    pub fn new(
+        name: &'a str,
+        extent: vk::Extent2D,
+        format: vk::Format,
+        usage: vk::ImageUsageFlags,
+    ) -> Self {
+        Self { name, extent, format, alias: None, usage, mips: 1, layers: 1 }
+    }
+}
+
+/// An image with its memory; freed by [`Image::destroy`], leaked (safely) by a plain drop.
+pub struct Image {
+    /// The image.
+    pub handle: vk::Image,
+    /// View of all of it in its own format (a cube view for six layers).
+    pub view: vk::ImageView,
+    /// View in the alias format, else null.
+    pub alias_view: vk::ImageView,
+    /// Size in texels.
+    pub extent: vk::Extent2D,
+    /// Format.
+    pub format: vk::Format,
+    /// Bytes of device memory.
+    pub size: u64,
+    allocation: Allocation,
+}
+
+impl Image {
+    /// Makes the image, its memory and its views.
+    pub fn new(gpu: &Gpu, desc: &ImageDesc<'_>) -> Result<Self, Error> {
+        let name = desc.name;
+        let mut flags = vk::ImageCreateFlags::empty();
+        if desc.alias.is_some() {
+            flags |= vk::ImageCreateFlags::MUTABLE_FORMAT;
+        }
+        if desc.layers == 6 {
+            flags |= vk::ImageCreateFlags::CUBE_COMPATIBLE;
+        }
+        let info = vk::ImageCreateInfo::default()
+            .flags(flags)
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(desc.format)
+            .extent(desc.extent.into())
+            .mip_levels(desc.mips)
+            .array_layers(desc.layers)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(desc.usage)
+            .initial_layout(vk::ImageLayout::UNDEFINED);
+        // SAFETY: valid create info; extents are checked by the caller against the limits.
+        let handle = unsafe { gpu.device.create_image(&info, None) }
+            .context(|| format!("vkCreateImage {name}"))?;
+        // SAFETY: handle was just made.
+        let requirements = unsafe { gpu.device.get_image_memory_requirements(handle) };
+        let allocation = gpu.lock_allocator().allocate(&AllocationCreateDesc {
+            name,
+            requirements,
+            location: gpu_allocator::MemoryLocation::GpuOnly,
+            linear: false,
+            allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+        });
+        let allocation = match allocation {
+            Ok(allocation) => allocation,
+            Err(source) => {
+                // SAFETY: nothing uses the image yet.
+                unsafe { gpu.device.destroy_image(handle, None) };
+                return Err(Error::Allocation { name: name.into(), source });
+            }
+        };
+        let mut image = Self {
+            handle,
+            view: vk::ImageView::null(),
+            alias_view: vk::ImageView::null(),
+            extent: desc.extent,
+            format: desc.format,
+            size: requirements.size,
+            allocation,
+        };
+        match image.bind(gpu, desc) {
+            Ok(()) => Ok(image),
+            Err(error) => {
+                image.destroy(gpu);
+                Err(error)
+            }
+        }
+    }
+
+    fn bind(&mut self, gpu: &Gpu, desc: &ImageDesc<'_>) -> Result<(), Error> {
+        let name = desc.name;
+        // SAFETY: the allocation meets the image's requirements and is bound once.
+        unsafe {
+            gpu.device.bind_image_memory(
+                self.handle,
+                self.allocation.memory(),
+                self.allocation.offset(),
+            )
+        }
+        .context(|| format!("vkBindImageMemory {name}"))?;
+        gpu.name(self.handle, name);
+        self.view = gpu.view(self.handle, desc.format, desc.layers, 0, desc.mips, name)?;
+        if let Some(alias) = desc.alias {
+            self.alias_view = gpu.view(self.handle, alias, desc.layers, 0, desc.mips, name)?;
+        }
+        Ok(())
+    }
+
+    /// Frees it. The GPU must be done with it.
+    pub fn destroy(self, gpu: &Gpu) {
+        // SAFETY: the caller guarantees the GPU is done; each handle is owned by self alone.
+        unsafe {
+            gpu.device.destroy_image_view(self.view, None);
+            gpu.device.destroy_image_view(self.alias_view, None);
+            gpu.device.destroy_image(self.handle, None);
+        }
+        // The only failure is a broken allocator; the memory then stays with it.
+        let _ = gpu.lock_allocator().free(self.allocation);
+    }
+}
+
+/// The aspect of a format (no stencil formats are made here).
+pub fn aspect_of(format: vk::Format) -> vk::ImageAspectFlags {
+    match format {
+        vk::Format::D32_SFLOAT | vk::Format::D16_UNORM => vk::ImageAspectFlags::DEPTH,
+        _ => vk::ImageAspectFlags::COLOR,
+    }
+}
+
+impl Gpu {
+    /// A view of all layers and some mips.
+    pub fn view(
+        &self,
+        image: vk::Image,
+        format: vk::Format,
+        layers: u32,
+        first_mip: u32,
+        mips: u32,
+        name: &str,
+    ) -> Result<vk::ImageView, Error> {
+        let cube = layers == 6 && mips > 1;
+        let kind = match (layers, cube) {
+            (1, _) => vk::ImageViewType::TYPE_2D,
+            (_, true) => vk::ImageViewType::CUBE,
+            _ => vk::ImageViewType::TYPE_2D_ARRAY,
+        };
+        let info = vk::ImageViewCreateInfo::default()
+            .image(image)
+            .view_type(kind)
+            .format(format)
+            .subresource_range(vk::ImageSubresourceRange {
+                aspect_mask: aspect_of(format),
+                base_mip_level: first_mip,
+                level_count: mips,
+                base_array_layer: 0,
+                layer_count: layers,
+            });
+        // SAFETY: the image is alive and was made with these formats and layers.
+        let view = unsafe { self.device.create_image_view(&info, None) }
+            .context(|| format!("vkCreateImageView {name}"))?;
+        self.name(view, name);
+        Ok(view)
+    }
+}

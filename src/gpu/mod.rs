@@ -1,0 +1,165 @@
+//! What every pass stands on: the host's device with what it enabled, barriers, images, buffers,
+//! pipelines, descriptor sets, queries, labels and the retire list. No state of a frame.
+
+pub mod access;
+pub mod buffer;
+pub mod descriptors;
+pub mod image;
+pub mod pipeline;
+pub mod requirements;
+pub mod retire;
+pub mod shader;
+pub mod timing;
+
+use std::ffi::CString;
+use std::sync::{Arc, Mutex, MutexGuard};
+
+use ash::vk;
+use gpu_allocator::vulkan::Allocator;
+
+use crate::contract::{Enabled, Host};
+use crate::error::{Error, VkContext};
+
+/// The host's device and what is known of it. Shared by everything a renderer owns.
+pub struct Gpu {
+    /// Device functions.
+    pub device: ash::Device,
+    /// What the host enabled.
+    pub enabled: Enabled,
+    /// Slots, as `Host.frames_in_flight`.
+    pub slots: u32,
+    /// Limits of the physical device.
+    pub limits: vk::PhysicalDeviceLimits,
+    /// What kind of device it is: the defaults of the paths depend on it.
+    pub kind: vk::PhysicalDeviceType,
+    /// Timestamps that the queue family writes; 0 for none.
+    pub timestamp_bits: u32,
+    /// Conditional rendering, when enabled.
+    pub conditional: Option<ash::ext::conditional_rendering::Device>,
+    /// Samplers shared by all passes.
+    pub samplers: Samplers,
+    pipeline_cache: vk::PipelineCache,
+    debug: Option<ash::ext::debug_utils::Device>,
+    allocator: Arc<Mutex<Allocator>>,
+}
+
+/// The samplers there are; all clamp to the edge.
+pub struct Samplers {
+    /// Nearest texel, first mip.
+    pub nearest: vk::Sampler,
+    /// Linear in the texels and between the mips.
+    pub linear: vk::Sampler,
+}
+
+impl Gpu {
+    /// Takes over what the host hands in.
+    pub fn new(host: &Host<'_>) -> Result<Arc<Self>, Error> {
+        // SAFETY: the host guarantees that its handles are alive and belong together.
+        let (properties, families) = unsafe {
+            (
+                host.instance.get_physical_device_properties(host.physical_device),
+                host.instance.get_physical_device_queue_family_properties(host.physical_device),
+            )
+        };
+        let family = families.get(host.queue_family as usize).ok_or_else(|| {
+            Error::bad(
+                "Host.queue_family",
+                format!("{} of only {} families", host.queue_family, families.len()),
+            )
+        })?;
+        let needed = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+        if !family.queue_flags.contains(needed) {
+            return Err(Error::bad(
+                "Host.queue_family",
+                format!("needs graphics and compute, has {:?}", family.queue_flags),
+            ));
+        }
+        if !(1..=8).contains(&host.frames_in_flight) {
+            return Err(Error::bad(
+                "Host.frames_in_flight",
+                format!("expected 1 to 8, found {}", host.frames_in_flight),
+            ));
+        }
+        let sampler = |filter, mip, max_lod| {
+            let info = vk::SamplerCreateInfo::default()
+                .mag_filter(filter)
+                .min_filter(filter)
+                .mipmap_mode(mip)
+                .max_lod(max_lod)
+                .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+                .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+                .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
+            // SAFETY: valid create info.
+            unsafe { host.device.create_sampler(&info, None) }.context(|| "vkCreateSampler".into())
+        };
+        let samplers = Samplers {
+            nearest: sampler(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?,
+            linear: sampler(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
+        };
+        Ok(Arc::new(Self {
+            device: host.device.clone(),
+            enabled: host.enabled,
+            slots: host.frames_in_flight,
+            limits: properties.limits,
+            kind: properties.device_type,
+            timestamp_bits: family.timestamp_valid_bits,
+            conditional: host
+                .enabled
+                .conditional_rendering
+                .then(|| ash::ext::conditional_rendering::Device::new(host.instance, host.device)),
+            samplers,
+            pipeline_cache: host.pipeline_cache,
+            debug: host
+                .enabled
+                .debug_utils
+                .then(|| ash::ext::debug_utils::Device::new(host.instance, host.device)),
+            allocator: host.allocator.clone(),
+        }))
+    }
+
+    /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is
+    /// not ours to judge.
+    pub fn lock_allocator(&self) -> MutexGuard<'_, Allocator> {
+        self.allocator.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// Names an object for debuggers and validation messages.
+    pub fn name<T: vk::Handle>(&self, handle: T, name: &str) {
+        let (Some(debug), Ok(name)) = (&self.debug, CString::new(name)) else { return };
+        let info =
+            vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
+        // SAFETY: the handle is alive. A name that could not be set is no error.
+        let _ = unsafe { debug.set_debug_utils_object_name(&info) };
+    }
+
+    /// Opens a label in the command buffer.
+    pub fn begin_label(&self, cmd: vk::CommandBuffer, name: &'static std::ffi::CStr) {
+        if let Some(debug) = &self.debug {
+            let info = vk::DebugUtilsLabelEXT::default().label_name(name);
+            // SAFETY: cmd is recording.
+            unsafe { debug.cmd_begin_debug_utils_label(cmd, &info) };
+        }
+    }
+
+    /// Closes the label opened last.
+    pub fn end_label(&self, cmd: vk::CommandBuffer) {
+        if let Some(debug) = &self.debug {
+            // SAFETY: cmd is recording and a label is open.
+            unsafe { debug.cmd_end_debug_utils_label(cmd) };
+        }
+    }
+
+    /// Whether this is a software device, where atomics are cheap and shared memory is dear.
+    pub fn is_cpu(&self) -> bool {
+        self.kind == vk::PhysicalDeviceType::CPU
+    }
+
+    /// Frees the shared objects. The GPU must be done with them.
+    pub fn destroy(&self) {
+        // SAFETY: the caller guarantees the GPU is done and no pass is left.
+        unsafe {
+            self.device.destroy_sampler(self.samplers.nearest, None);
+            self.device.destroy_sampler(self.samplers.linear, None);
+        }
+    }
+}

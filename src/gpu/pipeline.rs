@@ -1,0 +1,374 @@
+//! Pipelines. Descriptor layout, push range and workgroup size come from the shaders themselves.
+
+use std::collections::BTreeMap;
+
+use ash::vk;
+
+use super::Gpu;
+use super::shader::Shader;
+use crate::error::{Error, VkContext};
+
+/// A pipeline with its layouts.
+pub struct Pipeline {
+    /// The pipeline.
+    pub handle: vk::Pipeline,
+    /// Its layout.
+    pub layout: vk::PipelineLayout,
+    /// Layout of its one descriptor set.
+    pub set_layout: vk::DescriptorSetLayout,
+    /// The bindings of that set.
+    pub bindings: BTreeMap<u32, vk::DescriptorType>,
+    /// Graphics or compute.
+    pub point: vk::PipelineBindPoint,
+    /// Workgroup size (compute).
+    pub local_size: [u32; 3],
+    /// The first shader's file, for messages.
+    pub name: &'static str,
+    stages: vk::ShaderStageFlags,
+    push_size: u32,
+}
+
+/// What differs between the graphics pipelines here: no vertex input, no depth test, dynamic
+/// viewport and scissor.
+pub struct Graphics<'a> {
+    /// Vertex shader.
+    pub vertex: Shader,
+    /// Fragment shader.
+    pub fragment: Shader,
+    /// Points or triangle strip.
+    pub topology: vk::PrimitiveTopology,
+    /// Render pass it is used in (or a compatible one).
+    pub pass: vk::RenderPass,
+    /// Blend state of the one attachment.
+    pub blend: vk::PipelineColorBlendAttachmentState,
+    /// Specialisation constants (id, value).
+    pub constants: &'a [(u32, u32)],
+}
+
+/// Overwrites.
+pub fn no_blend() -> vk::PipelineColorBlendAttachmentState {
+    vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA)
+}
+
+/// One blend operation with factors ONE and ONE (MIN ignores them).
+pub fn blend(op: vk::BlendOp) -> vk::PipelineColorBlendAttachmentState {
+    no_blend()
+        .blend_enable(true)
+        .src_color_blend_factor(vk::BlendFactor::ONE)
+        .dst_color_blend_factor(vk::BlendFactor::ONE)
+        .color_blend_op(op)
+        .src_alpha_blend_factor(vk::BlendFactor::ONE)
+        .dst_alpha_blend_factor(vk::BlendFactor::ONE)
+        .alpha_blend_op(op)
+}
+
+struct Specialization {
+    entries: Vec<vk::SpecializationMapEntry>,
+    data: Vec<u8>,
+}
+
+impl Specialization {
+    fn new(constants: &[(u32, u32)]) -> Self {
+        Self {
+            entries: constants
+                .iter()
+                .enumerate()
+                .map(|(i, &(id, _))| vk::SpecializationMapEntry {
+                    constant_id: id,
+                    offset: 4 * i as u32,
+                    size: 4,
+                })
+                .collect(),
+            data: constants.iter().flat_map(|&(_, value)| value.to_ne_bytes()).collect(),
+        }
+    }
+
+    fn info(&self) -> vk::SpecializationInfo<'_> {
+        vk::SpecializationInfo::default().map_entries(&self.entries).data(&self.data)
+    }
+}
+
+impl Pipeline {
+    /// A compute pipeline.
+    pub fn compute(gpu: &Gpu, shader: Shader, constants: &[(u32, u32)]) -> Result<Self, Error> {
+        let mut pipeline = Self::layouts(
+            gpu,
+            &[(shader, vk::ShaderStageFlags::COMPUTE)],
+            vk::PipelineBindPoint::COMPUTE,
+        )?;
+        let module = gpu.module(&shader)?;
+        let specialization = Specialization::new(constants);
+        let special = specialization.info();
+        let info = vk::ComputePipelineCreateInfo::default()
+            .stage(
+                vk::PipelineShaderStageCreateInfo::default()
+                    .stage(vk::ShaderStageFlags::COMPUTE)
+                    .module(module)
+                    .name(c"main")
+                    .specialization_info(&special),
+            )
+            .layout(pipeline.layout);
+        // SAFETY: the module and the layout were made from the same shader.
+        let made =
+            unsafe { gpu.device.create_compute_pipelines(gpu.pipeline_cache, &[info], None) };
+        // SAFETY: the module is not needed any more.
+        unsafe { gpu.device.destroy_shader_module(module, None) };
+        pipeline.handle = pipeline.finish(gpu, made, "vkCreateComputePipelines")?;
+        Ok(pipeline)
+    }
+
+    /// A graphics pipeline with one colour attachment.
+    pub fn graphics(gpu: &Gpu, desc: &Graphics<'_>) -> Result<Self, Error> {
+        let stages = [
+            (desc.vertex, vk::ShaderStageFlags::VERTEX),
+            (desc.fragment, vk::ShaderStageFlags::FRAGMENT),
+        ];
+        let mut pipeline = Self::layouts(gpu, &stages, vk::PipelineBindPoint::GRAPHICS)?;
+        let modules = [gpu.module(&desc.vertex)?, gpu.module(&desc.fragment)?];
+        let specialization = Specialization::new(desc.constants);
+        let special = specialization.info();
+        let infos = [0, 1].map(|i| {
+            vk::PipelineShaderStageCreateInfo::default()
+                .stage(stages[i].1)
+                .module(modules[i])
+                .name(c"main")
+                .specialization_info(&special)
+        });
+        let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
+        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(desc.topology);
+        let viewport =
+            vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+        let raster = vk::PipelineRasterizationStateCreateInfo::default()
+            .cull_mode(vk::CullModeFlags::NONE)
+            .line_width(1.0);
+        let multisample = vk::PipelineMultisampleStateCreateInfo::default()
+            .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let attachments = [desc.blend];
+        let color = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+        let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+        let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
+        let info = vk::GraphicsPipelineCreateInfo::default()
+            .stages(&infos)
+            .vertex_input_state(&vertex_input)
+            .input_assembly_state(&assembly)
+            .viewport_state(&viewport)
+            .rasterization_state(&raster)
+            .multisample_state(&multisample)
+            .color_blend_state(&color)
+            .dynamic_state(&dynamic)
+            .layout(pipeline.layout)
+            .render_pass(desc.pass);
+        // SAFETY: modules, layout and pass were made to fit each other.
+        let made =
+            unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
+        for module in modules {
+            // SAFETY: the module is not needed any more.
+            unsafe { gpu.device.destroy_shader_module(module, None) };
+        }
+        pipeline.handle = pipeline.finish(gpu, made, "vkCreateGraphicsPipelines")?;
+        Ok(pipeline)
+    }
+
+    fn layouts(
+        gpu: &Gpu,
+        shaders: &[(Shader, vk::ShaderStageFlags)],
+        point: vk::PipelineBindPoint,
+    ) -> Result<Self, Error> {
+        let mut bindings = BTreeMap::new();
+        let mut visible: BTreeMap<u32, vk::ShaderStageFlags> = BTreeMap::new();
+        for (shader, stage) in shaders {
+            for &(binding, kind) in shader.bindings {
+                let earlier = *bindings.entry(binding).or_insert(kind);
+                debug_assert_eq!(earlier, kind, "{} binding {binding}", shader.name);
+                *visible.entry(binding).or_default() |= *stage;
+            }
+        }
+        let stages = shaders
+            .iter()
+            .filter(|(shader, _)| shader.push_size > 0)
+            .fold(vk::ShaderStageFlags::empty(), |all, (_, stage)| all | *stage);
+        let push_size = shaders.iter().map(|(shader, _)| shader.push_size).max().unwrap_or(0);
+        let infos: Vec<_> = bindings
+            .iter()
+            .map(|(&binding, &kind)| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding)
+                    .descriptor_type(kind)
+                    .descriptor_count(1)
+                    .stage_flags(visible[&binding])
+            })
+            .collect();
+        let name = shaders[0].0.name;
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&infos);
+        // SAFETY: valid create info.
+        let set_layout = unsafe { gpu.device.create_descriptor_set_layout(&info, None) }
+            .context(|| format!("vkCreateDescriptorSetLayout {name}"))?;
+        let sets = [set_layout];
+        let ranges = [vk::PushConstantRange::default().stage_flags(stages).size(push_size)];
+        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
+        if push_size > 0 {
+            info = info.push_constant_ranges(&ranges);
+        }
+        // SAFETY: valid create info; the set layout is alive.
+        let layout = match unsafe { gpu.device.create_pipeline_layout(&info, None) } {
+            Ok(layout) => layout,
+            Err(result) => {
+                // SAFETY: made above, used nowhere.
+                unsafe { gpu.device.destroy_descriptor_set_layout(set_layout, None) };
+                return Err(Error::Vulkan {
+                    call: format!("vkCreatePipelineLayout {name}"),
+                    result,
+                });
+            }
+        };
+        Ok(Self {
+            handle: vk::Pipeline::null(),
+            layout,
+            set_layout,
+            bindings,
+            point,
+            local_size: shaders[0].0.local_size,
+            name,
+            stages,
+            push_size,
+        })
+    }
+
+    fn finish(
+        &self,
+        gpu: &Gpu,
+        made: Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
+        call: &str,
+    ) -> Result<vk::Pipeline, Error> {
+        match made {
+            Ok(pipelines) => {
+                gpu.name(pipelines[0], self.name);
+                gpu.name(self.layout, self.name);
+                gpu.name(self.set_layout, self.name);
+                Ok(pipelines[0])
+            }
+            Err((_, result)) => {
+                self.destroy(gpu);
+                Err(Error::Vulkan { call: format!("{call} {}", self.name), result })
+            }
+        }
+    }
+
+    /// Binds it.
+    pub fn bind(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        // SAFETY: cmd is recording; the pipeline is alive.
+        unsafe { gpu.device.cmd_bind_pipeline(cmd, self.point, self.handle) };
+    }
+
+    /// Pushes the whole of its push constants.
+    pub fn push<T: bytemuck::NoUninit>(&self, gpu: &Gpu, cmd: vk::CommandBuffer, value: &T) {
+        let bytes = bytemuck::bytes_of(value);
+        debug_assert_eq!(bytes.len(), self.push_size as usize, "push constants of {}", self.name);
+        // SAFETY: cmd is recording; size and stages are those of the layout.
+        unsafe { gpu.device.cmd_push_constants(cmd, self.layout, self.stages, 0, bytes) };
+    }
+
+    /// Frees it. The GPU must be done with it.
+    pub fn destroy(&self, gpu: &Gpu) {
+        // SAFETY: the caller guarantees the GPU is done.
+        unsafe {
+            gpu.device.destroy_pipeline(self.handle, None);
+            gpu.device.destroy_pipeline_layout(self.layout, None);
+            gpu.device.destroy_descriptor_set_layout(self.set_layout, None);
+        }
+    }
+}
+
+impl Gpu {
+    fn module(&self, shader: &Shader) -> Result<vk::ShaderModule, Error> {
+        let words: &[u32] = bytemuck::cast_slice(shader.code);
+        let info = vk::ShaderModuleCreateInfo::default().code(words);
+        // SAFETY: SPIR-V from our own build.
+        unsafe { self.device.create_shader_module(&info, None) }
+            .context(|| format!("vkCreateShaderModule {}", shader.name))
+    }
+
+    /// A render pass of one colour attachment that is in COLOR_ATTACHMENT_OPTIMAL before, in and
+    /// after it: layout transitions happen only where they are written.
+    pub fn color_pass(
+        &self,
+        name: &str,
+        format: vk::Format,
+        load: vk::AttachmentLoadOp,
+    ) -> Result<vk::RenderPass, Error> {
+        let layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+        let attachments = [vk::AttachmentDescription::default()
+            .format(format)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .load_op(load)
+            .store_op(vk::AttachmentStoreOp::STORE)
+            .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
+            .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
+            .initial_layout(layout)
+            .final_layout(layout)];
+        let reference = [vk::AttachmentReference { attachment: 0, layout }];
+        let subpasses = [vk::SubpassDescription::default()
+            .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
+            .color_attachments(&reference)];
+        let info =
+            vk::RenderPassCreateInfo::default().attachments(&attachments).subpasses(&subpasses);
+        // SAFETY: valid create info.
+        let pass = unsafe { self.device.create_render_pass(&info, None) }
+            .context(|| format!("vkCreateRenderPass {name}"))?;
+        self.name(pass, name);
+        Ok(pass)
+    }
+
+    /// A framebuffer of one view.
+    pub fn framebuffer(
+        &self,
+        name: &str,
+        pass: vk::RenderPass,
+        view: vk::ImageView,
+        extent: vk::Extent2D,
+    ) -> Result<vk::Framebuffer, Error> {
+        let views = [view];
+        let info = vk::FramebufferCreateInfo::default()
+            .render_pass(pass)
+            .attachments(&views)
+            .width(extent.width)
+            .height(extent.height)
+            .layers(1);
+        // SAFETY: pass and view fit each other (checked formats).
+        let framebuffer = unsafe { self.device.create_framebuffer(&info, None) }
+            .context(|| format!("vkCreateFramebuffer {name}"))?;
+        self.name(framebuffer, name);
+        Ok(framebuffer)
+    }
+
+    /// Begins a colour pass over an area, with viewport and scissor set to it.
+    pub fn begin_pass(
+        &self,
+        cmd: vk::CommandBuffer,
+        pass: vk::RenderPass,
+        framebuffer: vk::Framebuffer,
+        area: vk::Rect2D,
+        clear: [f32; 4],
+    ) {
+        let clears = [vk::ClearValue { color: vk::ClearColorValue { float32: clear } }];
+        let info = vk::RenderPassBeginInfo::default()
+            .render_pass(pass)
+            .framebuffer(framebuffer)
+            .render_area(area)
+            .clear_values(&clears);
+        let viewport = vk::Viewport {
+            x: area.offset.x as f32,
+            y: area.offset.y as f32,
+            width: area.extent.width as f32,
+            height: area.extent.height as f32,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: cmd is recording outside a render pass; the objects are alive.
+        unsafe {
+            self.device.cmd_begin_render_pass(cmd, &info, vk::SubpassContents::INLINE);
+            self.device.cmd_set_viewport(cmd, 0, &[viewport]);
+            self.device.cmd_set_scissor(cmd, 0, &[area]);
+        }
+    }
+}

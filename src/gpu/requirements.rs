@@ -1,0 +1,151 @@
+//! What the library needs of a device, and what it will do on one.
+
+use std::ffi::CStr;
+
+use ash::vk;
+
+use crate::error::Error;
+
+/// One thing the host must or may enable, and why.
+#[derive(Clone, Copy, Debug)]
+pub struct Need {
+    /// Feature or extension.
+    pub what: &'static str,
+    /// What it is for; for optional ones, what happens without.
+    pub why: &'static str,
+}
+
+/// What to ask of a device before it is made.
+#[derive(Clone, Copy, Debug)]
+pub struct Requirements {
+    /// Vulkan version of the device.
+    pub api_version: u32,
+    /// Features that must be enabled.
+    pub features: &'static [Need],
+    /// Features and extensions worth enabling.
+    pub optional: &'static [Need],
+    /// Names of the optional device extensions.
+    pub optional_extensions: &'static [&'static CStr],
+}
+
+/// What the library needs. Ask it before making the device.
+pub fn requirements() -> Requirements {
+    Requirements {
+        api_version: vk::API_VERSION_1_3,
+        features: &[Need { what: "synchronization2", why: "every barrier is a VkDependencyInfo" }],
+        optional: &[
+            Need {
+                what: "VK_EXT_conditional_rendering, conditionalRendering",
+                why: "Smoothing::Query(Gate::Predicate); without it the other gates",
+            },
+            Need {
+                what: "drawIndirectCount",
+                why: "Smoothing::Query(Gate::DrawCount); without it the other gates",
+            },
+            Need {
+                what: "occlusionQueryPrecise",
+                why: "exact sample counts; without it zero and non-zero, which is enough to stop",
+            },
+            Need {
+                what: "largePoints",
+                why: "sprites as points; without it all sprites are quads",
+            },
+            Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
+        ],
+        optional_extensions: &[ash::ext::conditional_rendering::NAME],
+    }
+}
+
+/// Whether R32_SFLOAT can be a blended colour attachment: the raster splat paths need it.
+pub fn can_blend_r32f(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
+    // SAFETY: the handles are alive and belong together.
+    let format =
+        unsafe { instance.get_physical_device_format_properties(physical, vk::Format::R32_SFLOAT) };
+    format.optimal_tiling_features.contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND)
+}
+
+/// What a device offers, so that it can be mocked in tests.
+#[derive(Clone, Copy, Debug)]
+pub struct Offer {
+    /// Its Vulkan version.
+    pub api_version: u32,
+    /// `synchronization2` is supported.
+    pub synchronization2: bool,
+    /// R32_SFLOAT can be blended.
+    pub blend_r32f: bool,
+    /// The output format can be a colour attachment.
+    pub output_attachment: bool,
+    /// Limits.
+    pub limits: vk::PhysicalDeviceLimits,
+}
+
+impl Offer {
+    /// Asks a physical device.
+    pub fn of(
+        instance: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        output_format: vk::Format,
+    ) -> Self {
+        let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
+        let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut v13);
+        // SAFETY: the handles are alive and belong together; the chain is well formed.
+        let (properties, output) = unsafe {
+            instance.get_physical_device_features2(physical, &mut features);
+            (
+                instance.get_physical_device_properties(physical),
+                instance.get_physical_device_format_properties(physical, output_format),
+            )
+        };
+        Self {
+            api_version: properties.api_version,
+            synchronization2: v13.synchronization2 == vk::TRUE,
+            blend_r32f: can_blend_r32f(instance, physical),
+            output_attachment: output
+                .optimal_tiling_features
+                .contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT),
+            limits: properties.limits,
+        }
+    }
+
+    /// What is missing for a configuration, as an error that says what to do.
+    pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
+        let missing = |what: String, why: &str| Err(Error::Missing { what, why: why.into() });
+        if self.api_version < vk::API_VERSION_1_3 {
+            return missing(
+                format!(
+                    "Vulkan 1.3 (the device has {}.{})",
+                    vk::api_version_major(self.api_version),
+                    vk::api_version_minor(self.api_version)
+                ),
+                "the library is written for it; choose another device or a newer driver",
+            );
+        }
+        if !self.synchronization2 {
+            return missing("synchronization2".into(), "every barrier needs it");
+        }
+        if !self.output_attachment {
+            return missing(
+                format!("colour attachment use of the output format {:?}", config.output_format),
+                "the composite is drawn into it; choose another format",
+            );
+        }
+        let raster = Some(crate::water::settings::Splat::Raster);
+        if !self.blend_r32f && (config.depth_splat == raster || config.thickness_splat == raster) {
+            return missing(
+                "blending of R32_SFLOAT".into(),
+                "the raster splat paths need it; choose Splat::Compute or leave it to the library",
+            );
+        }
+        let most = self.limits.max_image_dimension2_d;
+        if config.extent.width > most || config.extent.height > most {
+            return Err(Error::bad(
+                "Config.extent",
+                format!(
+                    "{}x{} is larger than the device's images ({most})",
+                    config.extent.width, config.extent.height
+                ),
+            ));
+        }
+        Ok(())
+    }
+}

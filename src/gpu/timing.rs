@@ -1,0 +1,152 @@
+//! One timestamp scope per pass and slot. The name of a scope is the stem of its pass; it is also
+//! the debug label. Results are read without waiting.
+
+use std::ffi::CStr;
+
+use ash::vk;
+
+use super::Gpu;
+use crate::error::{Error, VkContext};
+
+/// Scopes a frame may have.
+const MAX_SCOPES: u32 = 64;
+
+/// How long one pass took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timing {
+    /// Stem of the pass.
+    pub name: &'static str,
+    /// Nanoseconds from the first scope's begin to this one's.
+    pub start: f64,
+    /// Nanoseconds between the begin and the end of the scope.
+    pub nanoseconds: f64,
+}
+
+/// One slot's timestamps.
+pub struct Timer {
+    pool: vk::QueryPool,
+    names: Vec<&'static str>,
+    /// The scopes of the frame that was recorded last are not read yet.
+    pending: bool,
+    results: Vec<Timing>,
+}
+
+impl Timer {
+    /// Makes the query pool (none where the queue has no timestamps).
+    pub fn new(gpu: &Gpu) -> Result<Self, Error> {
+        let mut pool = vk::QueryPool::null();
+        if gpu.timestamp_bits > 0 {
+            let info = vk::QueryPoolCreateInfo::default()
+                .query_type(vk::QueryType::TIMESTAMP)
+                .query_count(2 * MAX_SCOPES);
+            // SAFETY: valid create info.
+            pool = unsafe { gpu.device.create_query_pool(&info, None) }
+                .context(|| "vkCreateQueryPool slot/timestamps".into())?;
+            gpu.name(pool, "slot/timestamps");
+        }
+        Ok(Self {
+            pool,
+            names: Vec::with_capacity(MAX_SCOPES as usize),
+            pending: false,
+            results: Vec::with_capacity(MAX_SCOPES as usize),
+        })
+    }
+
+    /// Starts a frame: keeps the results of the frame before, forgets its scopes.
+    pub fn reset(&mut self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        self.read(gpu);
+        self.names.clear();
+        self.pending = true;
+        if self.pool != vk::QueryPool::null() {
+            // SAFETY: cmd is recording outside a render pass; the slot's earlier work is done.
+            unsafe { gpu.device.cmd_reset_query_pool(cmd, self.pool, 0, 2 * MAX_SCOPES) };
+        }
+    }
+
+    /// Opens a scope and its label.
+    pub fn begin(&mut self, gpu: &Gpu, cmd: vk::CommandBuffer, name: &'static CStr) -> Scope {
+        gpu.begin_label(cmd, name);
+        let index = self.names.len() as u32;
+        if index < MAX_SCOPES {
+            self.names.push(name.to_str().unwrap_or_default());
+            self.write(gpu, cmd, 2 * index);
+        }
+        Scope(index)
+    }
+
+    /// Closes a scope.
+    pub fn end(&mut self, gpu: &Gpu, cmd: vk::CommandBuffer, scope: Scope) {
+        if scope.0 < MAX_SCOPES {
+            self.write(gpu, cmd, 2 * scope.0 + 1);
+        }
+        gpu.end_label(cmd);
+    }
+
+    fn write(&self, gpu: &Gpu, cmd: vk::CommandBuffer, query: u32) {
+        if self.pool != vk::QueryPool::null() {
+            // SAFETY: cmd is recording; the query was reset at the start of the frame.
+            unsafe {
+                gpu.device.cmd_write_timestamp2(
+                    cmd,
+                    vk::PipelineStageFlags2::ALL_COMMANDS,
+                    self.pool,
+                    query,
+                );
+            }
+        }
+    }
+
+    fn read(&mut self, gpu: &Gpu) {
+        let count = self.names.len();
+        if !self.pending || self.pool == vk::QueryPool::null() || count == 0 {
+            return;
+        }
+        let mut raw = [0u64; 2 * MAX_SCOPES as usize];
+        // SAFETY: the pool is alive; 64-bit results of the queries of this frame.
+        let read = unsafe {
+            gpu.device.get_query_pool_results(
+                self.pool,
+                0,
+                &mut raw[..2 * count],
+                vk::QueryResultFlags::TYPE_64,
+            )
+        };
+        if read.is_err() {
+            return;
+        }
+        self.pending = false;
+        let mask = u64::MAX >> (64 - gpu.timestamp_bits.min(64));
+        let period = f64::from(gpu.limits.timestamp_period);
+        let span = |from: u64, to: u64| (to.wrapping_sub(from) & mask) as f64 * period;
+        self.results.clear();
+        for (index, name) in self.names.iter().enumerate() {
+            let (begin, end) = (raw[2 * index], raw[2 * index + 1]);
+            self.results.push(Timing {
+                name,
+                start: span(raw[0], begin),
+                nanoseconds: span(begin, end),
+            });
+        }
+    }
+
+    /// Results of the last finished frame; empty before there is one.
+    pub fn timings(&mut self, gpu: &Gpu) -> &[Timing] {
+        self.read(gpu);
+        &self.results
+    }
+
+    /// Forgets a frame that was recorded but never submitted.
+    pub fn abandon(&mut self) {
+        self.pending = false;
+    }
+
+    /// Frees the pool. The GPU must be done with it.
+    pub fn destroy(&self, gpu: &Gpu) {
+        // SAFETY: the caller guarantees the GPU is done; null is allowed.
+        unsafe { gpu.device.destroy_query_pool(self.pool, None) };
+    }
+}
+
+/// An open scope.
+#[must_use]
+pub struct Scope(u32);

@@ -1,0 +1,364 @@
+//! An own instance and device for tools and tests, with validation as an option.
+
+use std::ffi::{CStr, c_void};
+use std::sync::{Arc, Mutex};
+
+use ash::{khr, vk};
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+
+use crate::contract::{Enabled, Host};
+use crate::error::{Error, VkContext};
+
+/// What to make a device from.
+#[derive(Clone, Debug, Default)]
+pub struct DeviceOptions {
+    /// Part of the wanted adapter's name (any case); `None`: a GPU if there is one.
+    pub name: Option<String>,
+    /// Core and synchronization validation; an error when the layer is not installed.
+    pub validation: bool,
+    /// Enable nothing optional, as on a device that has none of it.
+    pub bare: bool,
+}
+
+/// A device of our own with one queue.
+pub struct Device {
+    /// Instance functions; keeps the loader alive.
+    pub instance: ash::Instance,
+    /// The physical device.
+    pub physical: vk::PhysicalDevice,
+    /// Device functions.
+    pub device: ash::Device,
+    /// Graphics and compute.
+    pub queue_family: u32,
+    /// Its first queue.
+    pub queue: vk::Queue,
+    /// The allocator the renderer shares.
+    pub allocator: Arc<Mutex<Allocator>>,
+    /// What is enabled.
+    pub enabled: Enabled,
+    /// Name of the adapter.
+    pub adapter: String,
+    /// Name and version of its driver.
+    pub driver: String,
+    messages: Option<Messages>,
+    _entry: ash::Entry,
+}
+
+struct Messages {
+    debug: ash::ext::debug_utils::Instance,
+    messenger: vk::DebugUtilsMessengerEXT,
+    // A box with a stable address: the callback's user data.
+    list: Box<Mutex<Vec<String>>>,
+}
+
+const VALIDATION: &CStr = c"VK_LAYER_KHRONOS_validation";
+
+impl Device {
+    /// Makes the instance and the device.
+    ///
+    /// # Errors
+    /// No Vulkan loader, no fitting device, no validation layer: each says what to install.
+    pub fn new(options: &DeviceOptions) -> Result<Self, Error> {
+        // SAFETY: loading the system's Vulkan loader runs its initialisers only.
+        let entry = unsafe { ash::Entry::load() }.map_err(|error| Error::Missing {
+            what: format!("the Vulkan loader ({error})"),
+            why: "install the package libvulkan1, and a driver such as mesa-vulkan-drivers".into(),
+        })?;
+        let list = Box::new(Mutex::new(Vec::new()));
+        let (instance, debug_utils) = make_instance(&entry, options, &list)?;
+        let messages = if options.validation {
+            let debug = ash::ext::debug_utils::Instance::new(&entry, &instance);
+            let info = messenger_info(&list);
+            // SAFETY: the user data outlives the messenger (destroyed in drop, before the box).
+            let messenger = unsafe { debug.create_debug_utils_messenger(&info, None) }
+                .context(|| "vkCreateDebugUtilsMessengerEXT".into())?;
+            Some(Messages { debug, messenger, list })
+        } else {
+            None
+        };
+        let (physical, queue_family) = choose(&instance, options)?;
+        let mut properties12 = vk::PhysicalDeviceVulkan12Properties::default();
+        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut properties12);
+        // SAFETY: well-formed chain, live handles.
+        unsafe { instance.get_physical_device_properties2(physical, &mut properties) };
+        let text = |c: &[std::ffi::c_char]| {
+            // SAFETY: Vulkan's fixed strings are nul-terminated.
+            unsafe { CStr::from_ptr(c.as_ptr()) }.to_string_lossy().into_owned()
+        };
+        let adapter = text(&properties.properties.device_name);
+        let driver =
+            format!("{} {}", text(&properties12.driver_name), text(&properties12.driver_info));
+        let (device, mut enabled) = make_device(&instance, physical, queue_family, options)?;
+        enabled.debug_utils = debug_utils;
+        // SAFETY: the queue was asked for.
+        let queue = unsafe { device.get_device_queue(queue_family, 0) };
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: instance.clone(),
+            device: device.clone(),
+            physical_device: physical,
+            debug_settings: Default::default(),
+            buffer_device_address: false,
+            allocation_sizes: Default::default(),
+        })
+        .map_err(|source| Error::Allocation { name: "allocator".into(), source })?;
+        Ok(Self {
+            instance,
+            physical,
+            device,
+            queue_family,
+            queue,
+            allocator: Arc::new(Mutex::new(allocator)),
+            enabled,
+            adapter,
+            driver,
+            messages,
+            _entry: entry,
+        })
+    }
+
+    /// The host's side of the contract.
+    pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
+        Host {
+            instance: &self.instance,
+            physical_device: self.physical,
+            device: &self.device,
+            allocator: self.allocator.clone(),
+            queue_family: self.queue_family,
+            frames_in_flight,
+            enabled: self.enabled,
+            pipeline_cache: vk::PipelineCache::null(),
+        }
+    }
+
+    /// Validation messages since the last call.
+    pub fn take_messages(&self) -> Vec<String> {
+        match &self.messages {
+            Some(messages) => std::mem::take(
+                &mut *messages.list.lock().unwrap_or_else(std::sync::PoisonError::into_inner),
+            ),
+            None => Vec::new(),
+        }
+    }
+
+    /// Waits until the device has nothing to do.
+    ///
+    /// # Errors
+    /// Device loss.
+    pub fn wait_idle(&self) -> Result<(), Error> {
+        // SAFETY: live device; the queue is used by one thread.
+        unsafe { self.device.device_wait_idle() }.context(|| "vkDeviceWaitIdle".into())
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // A renderer that was dropped without `destroy` still holds the allocator: then everything
+        // is left to the end of the process.
+        let Some(allocator) = Arc::get_mut(&mut self.allocator) else { return };
+        let empty = Allocator::new(&AllocatorCreateDesc {
+            instance: self.instance.clone(),
+            device: self.device.clone(),
+            physical_device: self.physical,
+            debug_settings: Default::default(),
+            buffer_device_address: false,
+            allocation_sizes: Default::default(),
+        });
+        // The allocator's memory must go before its device: an empty one takes its place.
+        let Ok(empty) = empty else { return };
+        *allocator.get_mut().unwrap_or_else(std::sync::PoisonError::into_inner) = empty;
+        // SAFETY: nothing made from the device is left but what its user leaked.
+        unsafe {
+            let _ = self.device.device_wait_idle();
+            self.device.destroy_device(None);
+            if let Some(messages) = self.messages.take() {
+                messages.debug.destroy_debug_utils_messenger(messages.messenger, None);
+                drop(messages.list);
+            }
+            self.instance.destroy_instance(None);
+        }
+    }
+}
+
+fn messenger_info(list: &Mutex<Vec<String>>) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+    vk::DebugUtilsMessengerCreateInfoEXT::default()
+        .message_severity(
+            vk::DebugUtilsMessageSeverityFlagsEXT::ERROR
+                | vk::DebugUtilsMessageSeverityFlagsEXT::WARNING,
+        )
+        .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
+        .pfn_user_callback(Some(on_message))
+        .user_data(std::ptr::from_ref(list).cast_mut().cast())
+}
+
+unsafe extern "system" fn on_message(
+    _severity: vk::DebugUtilsMessageSeverityFlagsEXT,
+    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
+    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    user: *mut c_void,
+) -> vk::Bool32 {
+    // SAFETY: Vulkan hands in valid data; the user data is the list of `Messages`.
+    unsafe {
+        let text = CStr::from_ptr((*data).p_message).to_string_lossy().into_owned();
+        let list = &*user.cast::<Mutex<Vec<String>>>();
+        list.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(text);
+    }
+    vk::FALSE
+}
+
+fn make_instance(
+    entry: &ash::Entry,
+    options: &DeviceOptions,
+    list: &Mutex<Vec<String>>,
+) -> Result<(ash::Instance, bool), Error> {
+    // SAFETY (both): plain enumeration.
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }
+        .context(|| "vkEnumerateInstanceLayerProperties".into())?;
+    let has_layer = layers.iter().any(|l| l.layer_name_as_c_str() == Ok(VALIDATION));
+    if options.validation && !has_layer {
+        return Err(Error::Missing {
+            what: "VK_LAYER_KHRONOS_validation".into(),
+            why: "install the package vulkan-validationlayers, or run without validation".into(),
+        });
+    }
+    // SAFETY: as above.
+    let extensions = unsafe { entry.enumerate_instance_extension_properties(None) }
+        .context(|| "vkEnumerateInstanceExtensionProperties".into())?;
+    let debug_utils = options.validation
+        || extensions
+            .iter()
+            .any(|e| e.extension_name_as_c_str() == Ok(ash::ext::debug_utils::NAME));
+    let mut names = Vec::new();
+    if debug_utils {
+        names.push(ash::ext::debug_utils::NAME.as_ptr());
+    }
+    let layers = [VALIDATION.as_ptr()];
+    let application = vk::ApplicationInfo::default()
+        .application_name(c"whitewater")
+        .api_version(vk::API_VERSION_1_3);
+    let enables = [vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
+    let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&enables);
+    let mut messenger = messenger_info(list);
+    let mut info = vk::InstanceCreateInfo::default()
+        .application_info(&application)
+        .enabled_extension_names(&names);
+    if options.validation {
+        info = info.enabled_layer_names(&layers).push_next(&mut features).push_next(&mut messenger);
+    }
+    // SAFETY: valid create info with live pointers.
+    let instance =
+        unsafe { entry.create_instance(&info, None) }.context(|| "vkCreateInstance".into())?;
+    Ok((instance, debug_utils))
+}
+
+/// The named device, else the best kind there is, with a graphics and compute family.
+fn choose(
+    instance: &ash::Instance,
+    options: &DeviceOptions,
+) -> Result<(vk::PhysicalDevice, u32), Error> {
+    // SAFETY: live instance.
+    let devices = unsafe { instance.enumerate_physical_devices() }
+        .context(|| "vkEnumeratePhysicalDevices".into())?;
+    let mut found = Vec::new();
+    let mut names = Vec::new();
+    for physical in devices {
+        // SAFETY: live handles.
+        let (properties, families) = unsafe {
+            (
+                instance.get_physical_device_properties(physical),
+                instance.get_physical_device_queue_family_properties(physical),
+            )
+        };
+        let name =
+            properties.device_name_as_c_str().unwrap_or_default().to_string_lossy().into_owned();
+        let wanted = options
+            .name
+            .as_ref()
+            .is_none_or(|want| name.to_lowercase().contains(&want.to_lowercase()));
+        names.push(name);
+        let both = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+        let family = families.iter().position(|f| f.queue_flags.contains(both));
+        let rank = match properties.device_type {
+            vk::PhysicalDeviceType::DISCRETE_GPU => 0,
+            vk::PhysicalDeviceType::INTEGRATED_GPU => 1,
+            vk::PhysicalDeviceType::VIRTUAL_GPU => 2,
+            _ => 3,
+        };
+        if let (true, Some(family), true) =
+            (wanted, family, properties.api_version >= vk::API_VERSION_1_3)
+        {
+            found.push((rank, physical, family as u32));
+        }
+    }
+    found.sort_by_key(|(rank, ..)| *rank);
+    found.first().map(|&(_, physical, family)| (physical, family)).ok_or_else(|| Error::Missing {
+        what: match &options.name {
+            Some(name) => format!("a Vulkan 1.3 device named like '{name}'"),
+            None => "a Vulkan 1.3 device".into(),
+        },
+        why: if names.is_empty() {
+            "no Vulkan driver was found; mesa-vulkan-drivers has one that runs on the CPU".into()
+        } else {
+            format!("there is: {}", names.join(", "))
+        },
+    })
+}
+
+fn make_device(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    queue_family: u32,
+    options: &DeviceOptions,
+) -> Result<(ash::Device, Enabled), Error> {
+    let mut has12 = vk::PhysicalDeviceVulkan12Features::default();
+    let mut has_conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
+    // SAFETY: live handles.
+    let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }
+        .context(|| "vkEnumerateDeviceExtensionProperties".into())?;
+    let conditional_extension = !options.bare
+        && extensions
+            .iter()
+            .any(|e| e.extension_name_as_c_str() == Ok(ash::ext::conditional_rendering::NAME));
+    let mut has = vk::PhysicalDeviceFeatures2::default().push_next(&mut has12);
+    if conditional_extension {
+        has = has.push_next(&mut has_conditional);
+    }
+    // SAFETY: well-formed chain.
+    unsafe { instance.get_physical_device_features2(physical, &mut has) };
+    let core = has.features;
+    let enabled = Enabled {
+        debug_utils: false,
+        conditional_rendering: has_conditional.conditional_rendering == vk::TRUE,
+        draw_indirect_count: !options.bare && has12.draw_indirect_count == vk::TRUE,
+        precise_occlusion_queries: !options.bare && core.occlusion_query_precise == vk::TRUE,
+    };
+    let features = vk::PhysicalDeviceFeatures::default()
+        .occlusion_query_precise(enabled.precise_occlusion_queries)
+        .large_points(core.large_points == vk::TRUE);
+    let mut v12 = vk::PhysicalDeviceVulkan12Features::default()
+        .draw_indirect_count(enabled.draw_indirect_count);
+    let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true);
+    let mut conditional =
+        vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);
+    let mut names = Vec::new();
+    let priorities = [1.0];
+    let queues = [vk::DeviceQueueCreateInfo::default()
+        .queue_family_index(queue_family)
+        .queue_priorities(&priorities)];
+    let mut info = vk::DeviceCreateInfo::default()
+        .queue_create_infos(&queues)
+        .enabled_features(&features)
+        .push_next(&mut v12)
+        .push_next(&mut v13);
+    if enabled.conditional_rendering {
+        names.push(ash::ext::conditional_rendering::NAME.as_ptr());
+        info = info.push_next(&mut conditional);
+    }
+    if extensions.iter().any(|e| e.extension_name_as_c_str() == Ok(khr::portability_subset::NAME)) {
+        names.push(khr::portability_subset::NAME.as_ptr());
+    }
+    let info = info.enabled_extension_names(&names);
+    // SAFETY: valid create info with live pointers.
+    let device = unsafe { instance.create_device(physical, &info, None) }
+        .context(|| "vkCreateDevice".into())?;
+    Ok((device, enabled))
+}

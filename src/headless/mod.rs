@@ -1,0 +1,571 @@
+//! The library without a host: an own device, a scene to stand in, submits and read-back. For the
+//! tool and for tests; an engine that embeds the library does not compile it.
+
+mod device;
+mod readback;
+
+use std::sync::Arc;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+pub use device::{Device, DeviceOptions};
+pub use readback::Picture;
+
+use crate::contract::{
+    Access, Camera, Config, Count, Frame, HostImage, Layer, Particles, Settings, Slot, Stream,
+};
+use crate::environment::{EnvironmentSource, Equirectangular, Sky};
+use crate::error::{Error, VkContext};
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::timing::Timing;
+use crate::renderer::Renderer;
+
+/// Output format: linear, scene-referred.
+pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
+/// Depth of the stand-in scene.
+pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
+
+/// The scene's colour image between its own passes.
+const COLOR_REST: Access = access::COLOR_ATTACHMENT;
+/// The scene's depth image between its own passes.
+const DEPTH_REST: Access = Access::new(
+    vk::PipelineStageFlags2::from_raw(
+        vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
+            | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS.as_raw(),
+    ),
+    vk::AccessFlags2::from_raw(
+        vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
+            | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
+    ),
+    vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+);
+
+/// What stands behind the water.
+pub enum Background<'a> {
+    /// One colour, nothing in front of the far plane.
+    Color([f32; 3]),
+    /// Pictures from the CPU, row by row: linear RGBA and device depth.
+    Images {
+        /// width × height linear RGBA.
+        color: &'a [[f32; 4]],
+        /// width × height device depth.
+        depth: &'a [f32],
+    },
+}
+
+/// A renderer with everything a host would have, one frame at a time.
+pub struct Headless {
+    gpu: Arc<Gpu>,
+    renderer: Renderer,
+    color: Image,
+    depth: Image,
+    pool: vk::CommandPool,
+    cmd: vk::CommandBuffer,
+    fence: vk::Fence,
+    positions: Option<Buffer>,
+    densities: Option<Buffer>,
+    count: u32,
+    layers: Vec<Layer>,
+    device: Device,
+}
+
+impl Headless {
+    /// Makes the renderer. The output format and `in_place` of the configuration are replaced.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`].
+    pub fn new(device: Device, config: &Config) -> Result<Self, Error> {
+        let config =
+            Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };
+        let host = device.host(1);
+        let gpu = Gpu::new(&host)?;
+        // SAFETY: the device is ours and outlives the renderer (field order, `drop`).
+        let renderer = unsafe { Renderer::new(&host, &config) }?;
+        let pool = vk::CommandPoolCreateInfo::default()
+            .queue_family_index(device.queue_family)
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
+        // SAFETY (this and the next two): valid create infos on a live device.
+        let pool = unsafe { gpu.device.create_command_pool(&pool, None) }
+            .context(|| "vkCreateCommandPool".into())?;
+        let info =
+            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+        // SAFETY: as above.
+        let cmd = unsafe { gpu.device.allocate_command_buffers(&info) }
+            .context(|| "vkAllocateCommandBuffers".into())?[0];
+        // SAFETY: as above.
+        let fence = unsafe { gpu.device.create_fence(&vk::FenceCreateInfo::default(), None) }
+            .context(|| "vkCreateFence".into())?;
+        let (color, depth) = Self::images(&gpu, config.extent)?;
+        let mut headless = Self {
+            gpu,
+            renderer,
+            color,
+            depth,
+            pool,
+            cmd,
+            fence,
+            positions: None,
+            densities: None,
+            count: 0,
+            layers: Vec::new(),
+            device,
+        };
+        headless.run(|this, cmd| {
+            // SAFETY: cmd is recording and submitted before any record.
+            unsafe { this.renderer.record_setup(cmd) };
+            this.gpu.barriers(
+                cmd,
+                &[
+                    access::image(&this.color, access::NOTHING, COLOR_REST),
+                    access::image(&this.depth, access::NOTHING, DEPTH_REST),
+                ],
+                &[],
+            );
+            Ok(())
+        })?;
+        headless.sky(&Sky::default())?;
+        Ok(headless)
+    }
+
+    fn images(gpu: &Gpu, extent: vk::Extent2D) -> Result<(Image, Image), Error> {
+        let usage = vk::ImageUsageFlags::SAMPLED
+            | vk::ImageUsageFlags::TRANSFER_SRC
+            | vk::ImageUsageFlags::TRANSFER_DST;
+        let color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        let depth = usage | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
+        Ok((
+            Image::new(gpu, &ImageDesc::new("headless/color", extent, COLOR_FORMAT, color))?,
+            Image::new(gpu, &ImageDesc::new("headless/depth", extent, DEPTH_FORMAT, depth))?,
+        ))
+    }
+
+    /// The device.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// The renderer.
+    pub fn renderer(&self) -> &Renderer {
+        &self.renderer
+    }
+
+    /// Fills a fresh command buffer, submits it and waits.
+    fn run(
+        &mut self,
+        record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let begin = vk::CommandBufferBeginInfo::default()
+            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the pool's only command buffer is not in use: every run waits for its end.
+        unsafe {
+            self.gpu
+                .device
+                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
+                .context(|| "vkResetCommandPool".into())?;
+            self.gpu
+                .device
+                .begin_command_buffer(self.cmd, &begin)
+                .context(|| "vkBeginCommandBuffer".into())?;
+        }
+        let cmd = self.cmd;
+        record(self, cmd)?;
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
+        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+        let fences = [self.fence];
+        // SAFETY: the command buffer was recorded above; the queue is used by one thread.
+        unsafe {
+            let device = &self.gpu.device;
+            device.end_command_buffer(cmd).context(|| "vkEndCommandBuffer".into())?;
+            device
+                .queue_submit2(self.device.queue, &submit, self.fence)
+                .context(|| "vkQueueSubmit2".into())?;
+            device.wait_for_fences(&fences, true, u64::MAX).context(|| "vkWaitForFences".into())?;
+            device.reset_fences(&fences).context(|| "vkResetFences".into())
+        }
+    }
+
+    /// The built-in sky as environment.
+    ///
+    /// # Errors
+    /// What Vulkan reports.
+    pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
+        let source = EnvironmentSource::Sky(*sky);
+        self.run(|this, cmd| {
+            // SAFETY: cmd is recording; the slot's earlier work is done (every run waits).
+            unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
+        })
+    }
+
+    /// An equirectangular picture as environment: linear RGBA, row 0 up.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn equirectangular(
+        &mut self,
+        extent: vk::Extent2D,
+        pixels: &[[f32; 4]],
+        scale: f32,
+        turn: f32,
+    ) -> Result<(), Error> {
+        let format = vk::Format::R32G32B32A32_SFLOAT;
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let image =
+            Image::new(&self.gpu, &ImageDesc::new("headless/equirect", extent, format, usage))?;
+        let staging = self.staging(bytemuck::cast_slice(pixels))?;
+        let result = self.run(|this, cmd| {
+            this.upload(cmd, &staging, &image, access::NOTHING, COPY_WRITE);
+            let host = HostImage {
+                image: image.handle,
+                view: image.view,
+                format,
+                aspect: vk::ImageAspectFlags::COLOR,
+                extent,
+                before: COPY_WRITE,
+                after: access::COMPUTE_SAMPLED,
+            };
+            let source =
+                EnvironmentSource::Equirectangular(Equirectangular { image: host, scale, turn });
+            // SAFETY: as in `sky`.
+            unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
+        });
+        staging.destroy(&self.gpu);
+        image.destroy(&self.gpu);
+        result
+    }
+
+    fn staging(&self, bytes: &[u8]) -> Result<Buffer, Error> {
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+        let size = bytes.len() as u64;
+        let mut buffer =
+            Buffer::new(&self.gpu, "headless/staging", size, usage, MemoryLocation::CpuToGpu)?;
+        buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+        Ok(buffer)
+    }
+
+    /// Copies a staging buffer over a whole image.
+    fn upload(
+        &self,
+        cmd: vk::CommandBuffer,
+        from: &Buffer,
+        to: &Image,
+        before: Access,
+        after: Access,
+    ) {
+        let discarded = before.discarded();
+        self.gpu.barriers(cmd, &[access::image(to, discarded, COPY_WRITE)], &[]);
+        let region = vk::BufferImageCopy::default()
+            .image_subresource(vk::ImageSubresourceLayers {
+                aspect_mask: crate::gpu::image::aspect_of(to.format),
+                mip_level: 0,
+                base_array_layer: 0,
+                layer_count: 1,
+            })
+            .image_extent(to.extent.into());
+        // SAFETY: the image is in TRANSFER_DST_OPTIMAL; the buffer holds all of its texels.
+        unsafe {
+            self.gpu.device.cmd_copy_buffer_to_image(
+                cmd,
+                from.handle,
+                to.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &[region],
+            );
+        }
+        if after != COPY_WRITE {
+            self.gpu.barriers(cmd, &[access::image(to, COPY_WRITE, after)], &[]);
+        }
+    }
+
+    /// Uploads the particles of a frame.
+    ///
+    /// # Errors
+    /// More than [`Config::max_particles`], densities of another length, no memory.
+    pub fn particles(
+        &mut self,
+        positions: &[[f32; 3]],
+        densities: Option<&[f32]>,
+    ) -> Result<(), Error> {
+        if densities.is_some_and(|d| d.len() != positions.len()) {
+            return Err(Error::bad("densities", "not as many as positions"));
+        }
+        self.count = u32::try_from(positions.len())
+            .map_err(|_| Error::bad("positions", "more than 2^32"))?;
+        for old in [self.positions.take(), self.densities.take()].into_iter().flatten() {
+            old.destroy(&self.gpu);
+        }
+        let make = |name, bytes: &[u8]| -> Result<Buffer, Error> {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            let size = bytes.len().max(16) as u64;
+            let mut buffer = Buffer::new(&self.gpu, name, size, usage, MemoryLocation::CpuToGpu)?;
+            buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+            Ok(buffer)
+        };
+        self.positions = Some(make("headless/positions", bytemuck::cast_slice(positions))?);
+        if let Some(densities) = densities {
+            self.densities = Some(make("headless/densities", bytemuck::cast_slice(densities))?);
+        }
+        Ok(())
+    }
+
+    /// Draws one frame and waits for it.
+    ///
+    /// # Errors
+    /// As [`Renderer::record`].
+    pub fn render(
+        &mut self,
+        camera: &Camera,
+        settings: &Settings,
+        background: &Background<'_>,
+    ) -> Result<(), Error> {
+        let Some(positions) = &self.positions else {
+            return Err(Error::bad("particles", "none uploaded"));
+        };
+        let stream = |buffer: &Buffer, stride| Stream {
+            buffer: buffer.handle,
+            size: buffer.size,
+            offset: 0,
+            stride,
+        };
+        let host_write = Access::new(
+            vk::PipelineStageFlags2::HOST,
+            vk::AccessFlags2::HOST_WRITE,
+            vk::ImageLayout::GENERAL,
+        );
+        let particles = Particles {
+            positions: stream(positions, 12),
+            densities: self.densities.as_ref().map(|buffer| stream(buffer, 4)),
+            count: Count::Cpu(self.count),
+            packets: None,
+            before: host_write,
+            after: host_write,
+        };
+        let image = |image: &Image, rest| HostImage {
+            image: image.handle,
+            view: image.view,
+            format: image.format,
+            aspect: crate::gpu::image::aspect_of(image.format),
+            extent: image.extent,
+            before: rest,
+            after: rest,
+        };
+        let output = image(&self.color, COLOR_REST);
+        let depth = image(&self.depth, DEPTH_REST);
+        let staging = match background {
+            Background::Images { color, depth } => {
+                let half: Vec<[u16; 4]> =
+                    color.iter().map(|c| c.map(|v| half::f16::from_f32(v).to_bits())).collect();
+                Some((
+                    self.staging(bytemuck::cast_slice(&half))?,
+                    self.staging(bytemuck::cast_slice(depth))?,
+                ))
+            }
+            Background::Color(_) => None,
+        };
+        let result = self.run(|this, cmd| {
+            match (background, &staging) {
+                (_, Some((color, depth))) => {
+                    this.upload(cmd, color, &this.color, COLOR_REST, COLOR_REST);
+                    this.upload(cmd, depth, &this.depth, DEPTH_REST, DEPTH_REST);
+                }
+                (Background::Color(color), None) => this.clear(cmd, *color, camera),
+                _ => {}
+            }
+            let frame = Frame {
+                slot: Slot(0),
+                output,
+                scene_color: output,
+                scene_depth: depth,
+                particles,
+                camera: *camera,
+                settings,
+            };
+            // SAFETY: cmd is recording outside a render pass; the slot's work is done.
+            let recorded = unsafe { this.renderer.record(cmd, &frame) }?;
+            this.layers = recorded.layers;
+            Ok(())
+        });
+        if let Some((color, depth)) = staging {
+            color.destroy(&self.gpu);
+            depth.destroy(&self.gpu);
+        }
+        self.renderer.collect(Slot(0));
+        result
+    }
+
+    fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
+        // The far plane's depth, whichever the convention: that which is farther from the near.
+        let far = match crate::frame::Lens::new(camera) {
+            Ok(lens)
+                if lens.linear.0 / (1.0 + lens.linear.1) < 2.0 * lens.near
+                    && lens.linear.0 / (1.0 + lens.linear.1) > 0.0 =>
+            {
+                0.0
+            }
+            _ => 1.0,
+        };
+        let range = |image: &Image| vk::ImageSubresourceRange {
+            aspect_mask: crate::gpu::image::aspect_of(image.format),
+            level_count: 1,
+            layer_count: 1,
+            ..Default::default()
+        };
+        let [r, g, b] = color;
+        self.gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.color, COLOR_REST.discarded(), access::CLEAR),
+                access::image(&self.depth, DEPTH_REST.discarded(), access::CLEAR),
+            ],
+            &[],
+        );
+        // SAFETY: both images are in TRANSFER_DST_OPTIMAL.
+        unsafe {
+            self.gpu.device.cmd_clear_color_image(
+                cmd,
+                self.color.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &vk::ClearColorValue { float32: [r, g, b, 1.0] },
+                &[range(&self.color)],
+            );
+            self.gpu.device.cmd_clear_depth_stencil_image(
+                cmd,
+                self.depth.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &vk::ClearDepthStencilValue { depth: far, stencil: 0 },
+                &[range(&self.depth)],
+            );
+        }
+        self.gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.color, access::CLEAR, COLOR_REST),
+                access::image(&self.depth, access::CLEAR, DEPTH_REST),
+            ],
+            &[],
+        );
+    }
+
+    /// Times of the last frame, pass by pass.
+    pub fn timings(&mut self) -> Vec<Timing> {
+        self.renderer.timings(Slot(0)).to_vec()
+    }
+
+    /// The output of the last frame: linear RGBA.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn color(&mut self) -> Result<Picture<[f32; 4]>, Error> {
+        let texels: Picture<[u16; 4]> =
+            self.read(self.color.handle, COLOR_FORMAT, self.color.extent, COLOR_REST)?;
+        Ok(texels.map(|c| c.map(|v| half::f16::from_bits(v).to_f32())))
+    }
+
+    /// Device depth of the scene.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn scene_depth(&mut self) -> Result<Picture<f32>, Error> {
+        self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent, DEPTH_REST)
+    }
+
+    /// A layer of the last frame by its name; `None` when there is none of that name.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
+        let Some(layer) = self.layers.iter().find(|layer| layer.name == name).copied() else {
+            return Ok(None);
+        };
+        if layer.format == vk::Format::R32_UINT {
+            let plan: Picture<u32> =
+                self.read(layer.image, layer.format, layer.extent, layer.access)?;
+            // Iterations are the low nine bits of the plan.
+            return Ok(Some(plan.map(|p| (p & 511) as f32)));
+        }
+        self.read(layer.image, layer.format, layer.extent, layer.access).map(Some)
+    }
+
+    /// Copies an image to the CPU; it is back in its state afterwards.
+    fn read<T: bytemuck::AnyBitPattern>(
+        &mut self,
+        image: vk::Image,
+        format: vk::Format,
+        extent: vk::Extent2D,
+        state: Access,
+    ) -> Result<Picture<T>, Error> {
+        let texels = u64::from(extent.width) * u64::from(extent.height);
+        let buffer = Buffer::new(
+            &self.gpu,
+            "headless/readback",
+            texels * size_of::<T>() as u64,
+            vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryLocation::GpuToCpu,
+        )?;
+        let aspect = crate::gpu::image::aspect_of(format);
+        let result = self.run(|this, cmd| {
+            let there = access::raw_image(image, aspect, state, COPY_READ);
+            this.gpu.barriers(cmd, &[there], &[]);
+            let region = vk::BufferImageCopy::default()
+                .image_subresource(vk::ImageSubresourceLayers {
+                    aspect_mask: aspect,
+                    mip_level: 0,
+                    base_array_layer: 0,
+                    layer_count: 1,
+                })
+                .image_extent(extent.into());
+            // SAFETY: the image is in TRANSFER_SRC_OPTIMAL; the buffer has room for its texels.
+            unsafe {
+                this.gpu.device.cmd_copy_image_to_buffer(
+                    cmd,
+                    image,
+                    vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+                    buffer.handle,
+                    &[region],
+                );
+            }
+            let host = Access::new(
+                vk::PipelineStageFlags2::HOST,
+                vk::AccessFlags2::HOST_READ,
+                vk::ImageLayout::GENERAL,
+            );
+            this.gpu.barriers(
+                cmd,
+                &[access::raw_image(image, aspect, COPY_READ, state)],
+                &[access::buffer(buffer.handle, COPY_WRITE, host)],
+            );
+            Ok(())
+        });
+        let bytes = &buffer.mapped()[..texels as usize * size_of::<T>()];
+        let data = bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect();
+        buffer.destroy(&self.gpu);
+        result?;
+        Ok(Picture { width: extent.width as usize, height: extent.height as usize, data })
+    }
+
+    /// Frees everything and gives the device back.
+    ///
+    /// # Errors
+    /// Device loss.
+    pub fn finish(self) -> Result<Device, Error> {
+        let idle = self.device.wait_idle();
+        let gpu = self.gpu;
+        // SAFETY: the device is idle, or lost.
+        unsafe {
+            gpu.device.destroy_fence(self.fence, None);
+            gpu.device.destroy_command_pool(self.pool, None);
+            self.renderer.destroy();
+        }
+        for buffer in [self.positions, self.densities].into_iter().flatten() {
+            buffer.destroy(&gpu);
+        }
+        self.color.destroy(&gpu);
+        self.depth.destroy(&gpu);
+        gpu.destroy();
+        drop(gpu);
+        idle.map(|()| self.device)
+    }
+}

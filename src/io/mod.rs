@@ -1,0 +1,3 @@
+//! Files: particle caches in, pictures out.
+
+pub mod particles;

@@ -1,0 +1,177 @@
+//! Bounds-checked reading of bytes, tokens and lines, and unpacking with a limit.
+
+use std::io::Read;
+
+use super::columns::{AttributeType, Data};
+use super::error::{Place, ReadError};
+
+/// The most that compressed content of `len` bytes may unpack to. Real particle data packs to a half or a
+/// third; single constant attributes pack to a thousandth.
+pub(super) fn unpack_limit(len: usize) -> usize {
+    len.saturating_mul(64).saturating_add(16 << 20)
+}
+
+pub(super) fn is_gzip(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x1f\x8b")
+}
+
+pub(super) fn gunzip(bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
+    unpack(flate2::read::MultiGzDecoder::new(bytes), unpack_limit(bytes.len()), "gzip data", 0)
+}
+
+/// Reads to the end, or fails after `limit` bytes. Memory grows with what really comes out.
+pub(super) fn unpack(
+    reader: impl Read,
+    limit: usize,
+    what: &str,
+    offset: usize,
+) -> Result<Vec<u8>, ReadError> {
+    let mut out = Vec::new();
+    let read = reader.take((limit as u64).saturating_add(1)).read_to_end(&mut out);
+    match read {
+        Ok(_) if out.len() > limit => {
+            Err(ReadError::TooLarge { what: what.into(), limit: limit as u64 })
+        }
+        Ok(_) => Ok(out),
+        Err(e) => Err(ReadError::malformed(
+            format!("sound {what}"),
+            format!("{e} after {} unpacked bytes", out.len()),
+            Place::Byte(offset as u64),
+        )),
+    }
+}
+
+/// A place in a byte slice.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cursor<'a> {
+    data: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(data: &'a [u8]) -> Self {
+        Self { data, at: 0 }
+    }
+
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    pub(super) fn place(&self) -> Place {
+        Place::Byte(self.at as u64)
+    }
+
+    pub(super) fn rest(&self) -> &'a [u8] {
+        self.data.get(self.at..).unwrap_or_default()
+    }
+
+    /// The next `n` bytes. `n` comes from headers, so it is checked as `u64`.
+    pub(super) fn take(&mut self, n: u64, what: &str) -> Result<&'a [u8], ReadError> {
+        let rest = self.rest();
+        let taken = usize::try_from(n).ok().and_then(|n| rest.get(..n));
+        match taken {
+            Some(taken) => {
+                self.at += taken.len();
+                Ok(taken)
+            }
+            None => Err(ReadError::truncated(what, self.at, n, rest.len())),
+        }
+    }
+
+    pub(super) fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], ReadError> {
+        let bytes = self.take(N as u64, what)?;
+        bytes
+            .first_chunk::<N>()
+            .copied()
+            .ok_or_else(|| ReadError::truncated(what, self.at, N as u64, bytes.len()))
+    }
+
+    pub(super) fn u16_be(&mut self, what: &str) -> Result<u16, ReadError> {
+        Ok(u16::from_be_bytes(self.array(what)?))
+    }
+
+    pub(super) fn i32_be(&mut self, what: &str) -> Result<i32, ReadError> {
+        Ok(i32::from_be_bytes(self.array(what)?))
+    }
+
+    /// The next line without its end, or `None` at the end of the data.
+    pub(super) fn line(&mut self) -> Option<&'a [u8]> {
+        let rest = self.rest();
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.iter().position(|b| *b == b'\n');
+        let line = rest.get(..end.unwrap_or(rest.len())).unwrap_or_default();
+        self.at += end.map_or(rest.len(), |end| end + 1);
+        Some(line.strip_suffix(b"\r").unwrap_or(line))
+    }
+
+    pub(super) fn skip_space(&mut self) {
+        let rest = self.rest();
+        let space = rest.iter().position(|b| !b.is_ascii_whitespace());
+        self.at += space.unwrap_or(rest.len());
+    }
+
+    /// The next word between white space, or `None` at the end of the data.
+    pub(super) fn token(&mut self) -> Option<&'a [u8]> {
+        self.skip_space();
+        let rest = self.rest();
+        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+        self.at += end;
+        rest.get(..end).filter(|token| !token.is_empty())
+    }
+}
+
+/// A number as text. Takes what printf writes for NaN and infinity on any platform.
+pub(super) fn parse_number(token: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(token).ok()?;
+    if let Ok(value) = text.parse() {
+        return Some(value);
+    }
+    let bare = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    if bare.starts_with("nan(") || bare.starts_with("1.#ind") || bare.starts_with("1.#qnan") {
+        Some(f64::NAN)
+    } else if bare.starts_with("1.#inf") {
+        Some(f64::INFINITY.copysign(if text.starts_with('-') { -1.0 } else { 1.0 }))
+    } else {
+        None
+    }
+}
+
+/// A short readable form of bytes for messages.
+pub(super) fn show(bytes: &[u8]) -> String {
+    let head = bytes.get(..bytes.len().min(40)).unwrap_or(bytes);
+    let dots = if head.len() < bytes.len() { "..." } else { "" };
+    format!("\"{}{dots}\"", head.escape_ascii())
+}
+
+/// `count` numbers of `ty` from words of text. Without `keep` they are only passed over.
+pub(super) fn ascii_values(
+    cursor: &mut Cursor<'_>,
+    ty: AttributeType,
+    count: u64,
+    what: &str,
+    keep: bool,
+) -> Result<Data, ReadError> {
+    let mut data = Data::for_type(ty);
+    if keep {
+        // A number and its space take two bytes at least.
+        let room = (cursor.rest().len() / 2 + 1) as u64;
+        data.reserve(usize::try_from(count.min(room)).unwrap_or(0));
+    }
+    for i in 0..count {
+        let place = cursor.place();
+        let Some(token) = cursor.token() else {
+            return Err(ReadError::truncated(
+                what,
+                cursor.at(),
+                (count - i).saturating_mul(2) - 1,
+                0,
+            ));
+        };
+        if keep && !data.push_text(token) {
+            return Err(ReadError::malformed(format!("a number for {what}"), show(token), place));
+        }
+    }
+    Ok(data)
+}

@@ -1,0 +1,311 @@
+//! Which format a file is: by its first bytes, and by its name only where they leave it open.
+
+use std::path::Path;
+
+use super::error::ReadError;
+
+/// What the name of a file says about its content. Only a hint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Extension {
+    /// `.bgeo`
+    Bgeo,
+    /// `.geo`
+    Geo,
+    /// `.sc`: Houdini's Blosc container
+    Sc,
+    /// `.vtk`
+    Vtk,
+    /// `.vtu`
+    Vtu,
+    /// `.vtp`
+    Vtp,
+    /// `.ply`
+    Ply,
+    /// `.npy`
+    Npy,
+    /// `.npz`
+    Npz,
+    /// `.csv`, `.tsv`
+    Csv,
+    /// `.xyz`, `.txt`, `.asc`, `.pts`: text or raw `f32` triples
+    Xyz,
+    /// `.json`
+    Json,
+    /// None of these
+    Unknown,
+}
+
+impl Extension {
+    /// The hint of a path; `.gz` at the end is passed over.
+    pub fn from_path(path: &Path) -> Self {
+        let lower = |p: &Path| p.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let mut extension = lower(path);
+        if extension.as_deref() == Some("gz") {
+            extension = path.file_stem().and_then(|stem| lower(Path::new(stem)));
+        }
+        match extension.as_deref() {
+            Some("bgeo") => Self::Bgeo,
+            Some("geo") => Self::Geo,
+            Some("sc" | "bgeosc") => Self::Sc,
+            Some("vtk") => Self::Vtk,
+            Some("vtu") => Self::Vtu,
+            Some("vtp") => Self::Vtp,
+            Some("ply") => Self::Ply,
+            Some("npy") => Self::Npy,
+            Some("npz") => Self::Npz,
+            Some("csv" | "tsv") => Self::Csv,
+            Some("xyz" | "txt" | "asc" | "pts") => Self::Xyz,
+            Some("json") => Self::Json,
+            _ => Self::Unknown,
+        }
+    }
+}
+
+/// Where a VTU or VTP file keeps its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Storage {
+    /// Text
+    Ascii,
+    /// Base64 inside each element
+    InlineBase64,
+    /// Base64 after the header
+    AppendedBase64,
+    /// Bytes after the header
+    AppendedRaw,
+}
+
+/// How a VTU or VTP file packs its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Compression {
+    /// Not at all
+    None,
+    /// zlib blocks
+    Zlib,
+    /// LZ4 blocks
+    Lz4,
+    /// xz blocks
+    Lzma,
+}
+
+/// What a file was.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// Classic Houdini BGEO, version 5
+    Bgeo {
+        /// Wrapped in gzip
+        gzip: bool,
+    },
+    /// Classic Houdini GEO, version 5 (ASCII)
+    Geo,
+    /// Legacy VTK
+    VtkLegacy {
+        /// Of the file format
+        version: (u8, u8),
+        /// Else ASCII
+        binary: bool,
+    },
+    /// VTK XML unstructured grid
+    Vtu(Storage, Compression),
+    /// VTK XML poly data
+    Vtp(Storage, Compression),
+    /// PLY as text
+    PlyAscii,
+    /// PLY, binary
+    PlyBinary {
+        /// Else little-endian
+        big_endian: bool,
+    },
+    /// One NumPy array
+    Npy,
+    /// A zip of NumPy arrays
+    Npz,
+    /// Comma-separated values
+    Csv,
+    /// Text, three numbers a line
+    Xyz,
+    /// Little-endian `f32` triples without a header
+    RawF32,
+    /// JSON arrays
+    Json,
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let xml =
+            |f: &mut std::fmt::Formatter<'_>, name, storage: &Storage, packed: &Compression| {
+                let storage = match storage {
+                    Storage::Ascii => return write!(f, "{name}, ASCII"),
+                    Storage::InlineBase64 => "inline base64",
+                    Storage::AppendedBase64 => "appended base64",
+                    Storage::AppendedRaw => "appended raw",
+                };
+                let packed = match packed {
+                    Compression::None => "uncompressed",
+                    Compression::Zlib => "zlib",
+                    Compression::Lz4 => "LZ4",
+                    Compression::Lzma => "LZMA",
+                };
+                write!(f, "{name}, {storage}, {packed}")
+            };
+        match self {
+            Self::Bgeo { gzip: false } => f.write_str("classic BGEO v5"),
+            Self::Bgeo { gzip: true } => f.write_str("classic BGEO v5, gzip"),
+            Self::Geo => f.write_str("classic GEO v5, ASCII"),
+            Self::VtkLegacy { version, binary } => {
+                let kind = if *binary { "binary" } else { "ASCII" };
+                write!(f, "legacy VTK {}.{}, {kind}", version.0, version.1)
+            }
+            Self::Vtu(storage, packed) => xml(f, "VTU", storage, packed),
+            Self::Vtp(storage, packed) => xml(f, "VTP", storage, packed),
+            Self::PlyAscii => f.write_str("PLY, ASCII"),
+            Self::PlyBinary { big_endian: false } => f.write_str("PLY, binary little-endian"),
+            Self::PlyBinary { big_endian: true } => f.write_str("PLY, binary big-endian"),
+            Self::Npy => f.write_str("NPY"),
+            Self::Npz => f.write_str("NPZ"),
+            Self::Csv => f.write_str("CSV"),
+            Self::Xyz => f.write_str("XYZ, text"),
+            Self::RawF32 => f.write_str("XYZ, raw little-endian f32"),
+            Self::Json => f.write_str("JSON"),
+        }
+    }
+}
+
+/// What [`write`](super::write()) can write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum WriteFormat {
+    /// Classic Houdini BGEO, version 5
+    Bgeo {
+        /// Wrapped in gzip, as SPlisHSPlasH does
+        gzip: bool,
+    },
+    /// VTU, appended raw, zlib: what ParaView writes
+    Vtu,
+    /// PLY, binary little-endian
+    Ply,
+    /// NPZ, deflated
+    Npz,
+}
+
+impl WriteFormat {
+    /// The format a name asks for: `.bgeo`, `.bgeo.gz`, `.vtu`, `.ply` or `.npz`.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let gzip = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
+        match (Extension::from_path(path), gzip) {
+            (Extension::Bgeo, gzip) => Some(Self::Bgeo { gzip }),
+            (Extension::Vtu, false) => Some(Self::Vtu),
+            (Extension::Ply, false) => Some(Self::Ply),
+            (Extension::Npz, false) => Some(Self::Npz),
+            _ => None,
+        }
+    }
+}
+
+/// Which reader takes the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reader {
+    Bgeo,
+    Geo,
+    VtkLegacy,
+    VtkXml,
+    Ply,
+    Npy,
+    Npz,
+    Csv,
+    XyzText,
+    XyzRaw,
+    Json,
+}
+
+/// Tells the format by the first bytes, and what they leave open by the extension.
+pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError> {
+    if bytes.is_empty() {
+        return Err(ReadError::Empty);
+    }
+    let magic = |m: &[u8]| bytes.starts_with(m);
+    if magic(b"Bgeo") {
+        return Ok(Reader::Bgeo);
+    }
+    if magic(b"PGEOMETRY") {
+        return Ok(Reader::Geo);
+    }
+    if magic(b"\x7fNSJ") {
+        return Err(ReadError::Unsupported {
+            what: "Houdini's binary JSON geometry (BGEO of Houdini 12 and later)".into(),
+            advice: "save classic BGEO (File Cache with the extension .bhclassic, or Partio), VTU, PLY or NPZ",
+        });
+    }
+    if magic(b"scf1") || (hint == Extension::Sc && !is_text(bytes)) {
+        return Err(ReadError::Unsupported {
+            what: "Houdini's Blosc container (.bgeo.sc)".into(),
+            advice: "save classic BGEO (File Cache with the extension .bhclassic, or Partio), VTU, PLY or NPZ",
+        });
+    }
+    if magic(b"# vtk DataFile") {
+        return Ok(Reader::VtkLegacy);
+    }
+    if magic(b"ply\n") || magic(b"ply\r") {
+        return Ok(Reader::Ply);
+    }
+    if magic(b"\x93NUMPY") {
+        return Ok(Reader::Npy);
+    }
+    if magic(b"PK\x03\x04") || magic(b"PK\x05\x06") {
+        return Ok(Reader::Npz);
+    }
+    let text = is_text(bytes);
+    if text {
+        let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+        let head = body.get(..body.len().min(4096)).unwrap_or(body);
+        if body.starts_with(b"<?xml") || body.starts_with(b"<VTKFile") || body.starts_with(b"<!--")
+        {
+            return Ok(Reader::VtkXml);
+        }
+        if body.starts_with(b"[") || body.starts_with(b"{") {
+            return Ok(Reader::Json);
+        }
+        match hint {
+            Extension::Csv => return Ok(Reader::Csv),
+            Extension::Xyz => {
+                let line = head.split(|b| *b == b'\n').next().unwrap_or(head);
+                let named = !line.starts_with(b"#")
+                    && line.iter().any(|b| matches!(b, b',' | b';' | b'\t'))
+                    && line.iter().any(|b| b.is_ascii_alphabetic() && !matches!(b, b'e' | b'E'));
+                return Ok(if named { Reader::Csv } else { Reader::XyzText });
+            }
+            _ => {}
+        }
+    } else if hint == Extension::Xyz {
+        return Ok(Reader::XyzRaw);
+    }
+    // Compressed or raw data may stand so close to the start that the prefix is no text.
+    if bytes.starts_with(b"<?xml") || bytes.starts_with(b"<VTKFile") {
+        return Ok(Reader::VtkXml);
+    }
+    Err(ReadError::UnknownFormat { found: describe(bytes, hint) })
+}
+
+/// Whether the beginning could be text: UTF-8 without control characters.
+fn is_text(bytes: &[u8]) -> bool {
+    let head = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
+    let valid = match std::str::from_utf8(head) {
+        Ok(_) => true,
+        // A character cut by the end of the prefix is no fault.
+        Err(e) => e.error_len().is_none() && head.len() < bytes.len(),
+    };
+    valid
+        && !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
+}
+
+fn describe(bytes: &[u8], hint: Extension) -> String {
+    let head = bytes.get(..bytes.len().min(12)).unwrap_or(bytes);
+    let named = match hint {
+        Extension::Unknown => "an unknown extension".to_string(),
+        hint => format!("the extension of {hint:?}"),
+    };
+    format!("{named} and a file that begins with \"{}\"", head.escape_ascii())
+}

@@ -1,0 +1,141 @@
+//! Particle caches: the files that SPH solvers, Houdini, ParaView and NumPy write.
+//!
+//! [`read`] takes one file and gives its [`Particles`]; [`sequence`] turns what a user names (a file, a glob
+//! or a `%04d` pattern) into numbered frames; [`estimate_spacing`] guesses the rest spacing where the file
+//! does not say it; [`write()`] writes four of the formats.
+//!
+//! | format | read | written |
+//! | --- | --- | --- |
+//! | classic Houdini BGEO v5, plain or gzip | yes | yes |
+//! | classic Houdini GEO v5 (ASCII) | yes | |
+//! | Houdini 12+ BGEO / GEO (JSON), `.bgeo.sc` | refused, says what to do | |
+//! | legacy VTK 1.0 to 5.1, ASCII and binary: POLYDATA, UNSTRUCTURED_GRID | points and point data | |
+//! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points and point data | VTU, appended raw, zlib |
+//! | PLY: ASCII, binary little and big endian | vertices | binary little endian |
+//! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
+//! | CSV (ParaView's names, or `x,y,z`), XYZ text, XYZ raw `f32` triples, JSON | yes | |
+//!
+//! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
+//! Lengths and times are taken as they are; nothing is scaled, recentred or reordered.
+//!
+//! A reader never panics and trusts no count in a header: it allocates in proportion to the bytes that are
+//! there. What decompresses to more than 16 MiB + 64 times the file's size is refused.
+#![forbid(unsafe_code)]
+#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
+
+mod bgeo;
+mod bytes;
+mod columns;
+mod comma;
+mod error;
+mod format;
+mod geo;
+mod json;
+mod numpy;
+mod ply;
+pub mod sequence;
+mod spacing;
+mod vtk_legacy;
+mod vtk_xml;
+mod write;
+mod xyz;
+
+use std::path::Path;
+
+pub use columns::{Attribute, AttributeType};
+pub use error::{Place, ReadError, WriteError};
+pub use format::{Compression, Extension, Format, Storage, WriteFormat};
+pub use spacing::estimate_spacing;
+pub use write::write;
+
+/// One frame of particles as read from a file.
+///
+/// All vectors that are present have the same length, and the same order as the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Particles {
+    /// Centres, in the file's unit of length. May hold NaN or infinities: see [`count_non_finite`].
+    pub positions: Vec<[f32; 3]>,
+    /// Velocities, in the file's unit of length per unit of time.
+    pub velocities: Option<Vec<[f32; 3]>>,
+    /// Mass densities, in the file's unit.
+    pub densities: Option<Vec<f32>>,
+    /// Numbers that follow a particle over the frames. Negative, fractional or larger ones are dropped, with
+    /// a warning.
+    pub ids: Option<Vec<u32>>,
+    /// Time left to live, of diffuse particles. At or below zero the particle dies with the next frame.
+    pub lifetimes: Option<Vec<f32>>,
+    /// What a diffuse particle is: 0 foam, 1 spray, 2 bubble. Other values are kept as they are.
+    pub kinds: Option<Vec<u32>>,
+    /// Every attribute in the file, read or not, positions included.
+    pub attributes: Vec<Attribute>,
+    /// What the file was.
+    pub format: Format,
+    /// What a user should know: values dropped, parts not read, positions that are no numbers.
+    pub warnings: Vec<String>,
+}
+
+impl Particles {
+    /// Particles that have only positions; the format is the raw one and there are no attributes to list.
+    pub fn from_positions(positions: Vec<[f32; 3]>) -> Self {
+        Self {
+            positions,
+            velocities: None,
+            densities: None,
+            ids: None,
+            lifetimes: None,
+            kinds: None,
+            attributes: Vec::new(),
+            format: Format::RawF32,
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// Reads one file.
+///
+/// # Errors
+/// [`ReadError::Io`] and [`ReadError::Directory`] where there is no file to read, else
+/// [`ReadError::File`] with the path and what [`read_bytes`] says.
+pub fn read(path: &Path) -> Result<Particles, ReadError> {
+    let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
+    if std::fs::metadata(path).map_err(io)?.is_dir() {
+        return Err(ReadError::Directory { path: path.to_path_buf() });
+    }
+    let bytes = std::fs::read(path).map_err(io)?;
+    read_bytes(&bytes, Extension::from_path(path))
+        .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
+}
+
+/// Reads one file that lies in memory. `hint` decides only where the content does not: text and raw triples.
+///
+/// # Errors
+/// Says what was expected, what was found, where, and what to do. It never panics, whatever the bytes.
+pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
+    if bytes::is_gzip(bytes) {
+        let inner = bytes::gunzip(bytes)?;
+        return read_plain(&inner, hint, true);
+    }
+    read_plain(bytes, hint, false)
+}
+
+fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, ReadError> {
+    match format::detect(bytes, hint)? {
+        format::Reader::Bgeo => bgeo::read(bytes, gzip),
+        format::Reader::Geo => geo::read(bytes),
+        format::Reader::VtkLegacy => vtk_legacy::read(bytes),
+        format::Reader::VtkXml => vtk_xml::read(bytes),
+        format::Reader::Ply => ply::read(bytes),
+        format::Reader::Npy => numpy::read_npy(bytes),
+        format::Reader::Npz => numpy::read_npz(bytes),
+        format::Reader::Csv => comma::read(bytes),
+        format::Reader::XyzText => xyz::read_text(bytes),
+        format::Reader::XyzRaw => xyz::read_raw(bytes),
+        format::Reader::Json => json::read(bytes),
+    }
+}
+
+/// How many positions have a NaN or an infinity in them. They stay in the arrays, so that the indices hold;
+/// the renderer drops them.
+pub fn count_non_finite(positions: &[[f32; 3]]) -> usize {
+    positions.iter().filter(|p| !p.iter().all(|c| c.is_finite())).count()
+}

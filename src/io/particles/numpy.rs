@@ -1,0 +1,174 @@
+//! NumPy arrays (NPY, versions 1 to 3) and zips of them (NPZ).
+//!
+//! An NPY file is `\x93NUMPY`, two bytes of version, the length of the header (`u16`, from version 2 `u32`, both
+//! little-endian), a header that is a Python dict `{'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }`,
+//! and the numbers. The header is three known keys, read here; the crates for it bring a whole Python parser.
+
+use std::io::{Cursor as IoCursor, Read};
+
+use super::bytes::{Cursor, show, unpack, unpack_limit};
+use super::columns::{AttributeType, Data, Table, wanted};
+use super::error::{Place, ReadError};
+use super::{Format, Particles};
+
+/// What the header of an array says.
+struct Header {
+    ty: AttributeType,
+    big_endian: bool,
+    fortran: bool,
+    shape: Vec<u64>,
+    descr: String,
+}
+
+impl Header {
+    fn count(&self) -> u64 {
+        self.shape.iter().fold(1_u64, |n, d| n.saturating_mul(*d))
+    }
+
+    /// Values per row: 1 for a list, the second extent for a table.
+    fn components(&self) -> usize {
+        let n = self.shape.iter().skip(1).fold(1_u64, |n, d| n.saturating_mul(*d));
+        usize::try_from(n).unwrap_or(usize::MAX)
+    }
+}
+
+pub(super) fn read_npy(bytes: &[u8]) -> Result<Particles, ReadError> {
+    let mut cursor = Cursor::new(bytes);
+    let header = header(&mut cursor)?;
+    let mut table = Table::default();
+    table.list("array", header.components(), header.ty);
+    if header.shape.len() != 2 || header.components() != 3 {
+        return Err(ReadError::malformed(
+            "an array of shape (n, 3)",
+            format!("shape {:?}", header.shape),
+            Place::Unknown,
+        ));
+    }
+    table.positions = Some(values(&mut cursor, &header, "array")?);
+    table.assemble(Format::Npy)
+}
+
+pub(super) fn read_npz(bytes: &[u8]) -> Result<Particles, ReadError> {
+    let bad = |e: zip::result::ZipError| {
+        ReadError::malformed("a sound zip of arrays", e.to_string(), Place::Unknown)
+    };
+    let mut archive = zip::ZipArchive::new(IoCursor::new(bytes)).map_err(bad)?;
+    let mut budget = unpack_limit(bytes.len());
+    let mut table = Table::default();
+    for i in 0..archive.len() {
+        let mut file = archive.by_index(i).map_err(bad)?;
+        let Some(name) =
+            file.name().ok().and_then(|name| Some(name.strip_suffix(".npy")?.to_string()))
+        else {
+            continue;
+        };
+        if !wanted(&name) {
+            // Its header alone is of interest; one that cannot be read is no reason to stop.
+            let mut head = Vec::new();
+            let _ = file.by_ref().take(4096).read_to_end(&mut head);
+            if let Ok(header) = header(&mut Cursor::new(&head)) {
+                table.list(&name, header.components(), header.ty);
+            }
+            continue;
+        }
+        let raw = unpack(&mut file, budget, &format!("array `{name}`"), 0)?;
+        budget = budget.saturating_sub(raw.len());
+        let mut cursor = Cursor::new(&raw);
+        let header = header(&mut cursor)?;
+        table.list(&name, header.components(), header.ty);
+        let data = values(&mut cursor, &header, &name)?;
+        table.push(&name, header.components(), data);
+    }
+    table.assemble(Format::Npz)
+}
+
+fn values(cursor: &mut Cursor<'_>, header: &Header, name: &str) -> Result<Data, ReadError> {
+    let what = format!("array `{name}`");
+    let Some(size) = header.ty.size() else {
+        return Err(ReadError::Unsupported {
+            what: format!("{what} of dtype {}", header.descr),
+            advice: "save it as float32, float64 or an integer type: a.astype('f4')",
+        });
+    };
+    let raw = cursor.take(header.count().saturating_mul(size), &what)?;
+    let mut data = Data::for_type(header.ty);
+    data.push_bytes(header.ty, raw, header.big_endian);
+    Ok(if header.fortran && header.shape.len() == 2 {
+        data.transposed(header.components())
+    } else {
+        data
+    })
+}
+
+fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
+    const WHAT: &str = "the header of an array";
+    let magic = cursor.take(6, WHAT)?;
+    if magic != b"\x93NUMPY" {
+        return Err(ReadError::malformed(
+            "an array that begins with \\x93NUMPY",
+            show(magic),
+            Place::Byte(0),
+        ));
+    }
+    let [major, minor] = cursor.array::<2>(WHAT)?;
+    let length = match major {
+        1 => u64::from(u16::from_le_bytes(cursor.array(WHAT)?)),
+        2 | 3 => u64::from(u32::from_le_bytes(cursor.array(WHAT)?)),
+        _ => {
+            return Err(ReadError::Unsupported {
+                what: format!("NPY version {major}.{minor}"),
+                advice: "save with numpy.save or numpy.savez",
+            });
+        }
+    };
+    let place = cursor.place();
+    let raw = cursor.take(length, WHAT)?;
+    let bad = |key: &str| ReadError::malformed(format!("`{key}` in {WHAT}"), show(raw), place);
+    let text = std::str::from_utf8(raw).map_err(|_| bad("descr"))?;
+    // The value of a key runs from the colon on.
+    let value = |key: &str| {
+        let start = text.find(&format!("'{key}'"))? + key.len() + 2;
+        Some(text.get(start..)?.trim_start().strip_prefix(':')?.trim_start())
+    };
+    let descr = value("descr").ok_or_else(|| bad("descr"))?;
+    let descr = match descr.strip_prefix('\'').and_then(|d| d.split_once('\'')) {
+        Some((descr, _)) => descr.to_string(),
+        None => "of several fields".to_string(),
+    };
+    let fortran = value("fortran_order").ok_or_else(|| bad("fortran_order"))?;
+    let shape = value("shape")
+        .and_then(|v| v.strip_prefix('(')?.split_once(')'))
+        .ok_or_else(|| bad("shape"))?
+        .0;
+    let shape = shape
+        .split(',')
+        .map(str::trim)
+        .filter(|n| !n.is_empty())
+        .map(|n| n.trim_end_matches('L').parse())
+        .collect::<Result<Vec<u64>, _>>()
+        .map_err(|_| bad("shape"))?;
+    Ok(Header {
+        ty: dtype(descr.trim_start_matches(['<', '>', '=', '|'])),
+        big_endian: descr.starts_with('>'),
+        fortran: fortran.starts_with("True"),
+        shape,
+        descr,
+    })
+}
+
+fn dtype(name: &str) -> AttributeType {
+    use AttributeType as T;
+    match name {
+        "i1" => T::I8,
+        "u1" | "b1" => T::U8,
+        "i2" => T::I16,
+        "u2" => T::U16,
+        "i4" => T::I32,
+        "u4" => T::U32,
+        "i8" => T::I64,
+        "u8" => T::U64,
+        "f4" => T::F32,
+        "f8" => T::F64,
+        _ => T::Other,
+    }
+}

@@ -1,0 +1,157 @@
+//! A guess at the rest spacing, for files that do not say it.
+
+/// How many particles are asked for their nearest neighbours.
+const QUERIES: usize = 16_384;
+
+/// The rest spacing (twice the solver's particle radius) from the positions alone, in their unit; `None` where
+/// there are not two finite, distinct positions near each other.
+///
+/// The median distance to the third nearest neighbour, over an even choice of particles: exact where they stand
+/// on their first cubic grid, and within 5 % on most frames of moving fluid (10 % where most of it is spray),
+/// where the nearest neighbour alone reads 12 to 28 % low. Means something for fluids only, not for spray and foam.
+/// It is the same on every run, and a few strays, doubles, NaN or infinities do not move it.
+pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
+    let points: Vec<[f32; 3]> =
+        positions.iter().copied().filter(|p| p.iter().all(|c| c.is_finite())).collect();
+    if points.len() < 2 {
+        return None;
+    }
+    let grid = Grid::fit(&points)?;
+    let step = points.len().div_ceil(QUERIES);
+    let rank = (points.len() - 1).min(3);
+    let mut nearest: Vec<f32> =
+        points.iter().step_by(step).filter_map(|p| grid.neighbour(*p, rank)).collect();
+    if nearest.is_empty() {
+        return None;
+    }
+    let middle = nearest.len() / 2;
+    let (_, median, _) = nearest.select_nth_unstable_by(middle, f32::total_cmp);
+    Some(*median)
+}
+
+/// Points sorted by the cell they lie in.
+struct Grid {
+    cell: f64,
+    origin: [f64; 3],
+    /// Key of the cell and the point.
+    points: Vec<(u64, [f32; 3])>,
+}
+
+impl Grid {
+    /// A grid whose occupied cells hold a few points each, wherever the strays are.
+    fn fit(points: &[[f32; 3]]) -> Option<Self> {
+        let step = points.len().div_ceil(4096);
+        let mut low = [0.0; 3];
+        let mut extent = [0.0_f64; 3];
+        for axis in 0..3 {
+            let mut sorted: Vec<f64> = points
+                .iter()
+                .step_by(step)
+                .filter_map(|p| p.get(axis).map(|c| f64::from(*c)))
+                .collect();
+            sorted.sort_unstable_by(f64::total_cmp);
+            let cut = sorted.len() / 50;
+            let (first, last) = (sorted.get(cut)?, sorted.get(sorted.len() - 1 - cut)?);
+            *low.get_mut(axis)? = *first;
+            *extent.get_mut(axis)? = last - first;
+        }
+        let longest = extent.iter().copied().fold(0.0, f64::max);
+        if longest <= 0.0 {
+            return None;
+        }
+        // A sheet or a line has no volume: every side counts as a sliver at least.
+        let volume: f64 = extent.iter().map(|e| e.max(1e-2 * longest)).product();
+        let mut cell = (volume / points.len() as f64).cbrt();
+        let mut grid = Self { cell, origin: low, points: Vec::new() };
+        for _ in 0..12 {
+            grid.cell = cell;
+            grid.fill(points);
+            let cells = grid.points.chunk_by(|a, b| a.0 == b.0).count();
+            let load = points.len() as f64 / cells as f64;
+            if load > 16.0 {
+                cell *= (4.0 / load).cbrt().max(0.25);
+            } else if load < 1.5 {
+                cell *= 1.6;
+            } else {
+                break;
+            }
+        }
+        Some(grid)
+    }
+
+    fn fill(&mut self, points: &[[f32; 3]]) {
+        let mut filled = std::mem::take(&mut self.points);
+        filled.clear();
+        filled.extend(points.iter().map(|p| (self.key(self.cell_of(*p)), *p)));
+        filled.sort_unstable_by_key(|(key, _)| *key);
+        self.points = filled;
+    }
+
+    fn cell_of(&self, p: [f32; 3]) -> [i64; 3] {
+        let [x, y, z] = p;
+        let [ox, oy, oz] = self.origin;
+        [(x, ox), (y, oy), (z, oz)].map(|(c, o)| ((f64::from(c) - o) / self.cell).floor() as i64)
+    }
+
+    /// 21 bits an axis. Far strays may share a key with other cells, which costs a look, not a wrong answer.
+    fn key(&self, cell: [i64; 3]) -> u64 {
+        cell.iter().fold(0, |key, c| key << 21 | (c.wrapping_add(1 << 20) as u64 & 0x1f_ffff))
+    }
+
+    fn row(&self, from: u64) -> &[(u64, [f32; 3])] {
+        let start = self.points.partition_point(|(key, _)| *key < from);
+        self.points.get(start..).unwrap_or_default()
+    }
+
+    /// Distance to the neighbour of this rank (1 to 3), the nearest being 1; `None` where fewer lie within two
+    /// cells, which makes the point a stray.
+    fn neighbour(&self, p: [f32; 3], rank: usize) -> Option<f32> {
+        let [x, y, z] = self.cell_of(p);
+        let mut best = [f32::INFINITY; 3];
+        for reach in 1..=2_i64 {
+            for dx in -reach..=reach {
+                for dy in -reach..=reach {
+                    for dz in -reach..=reach {
+                        // The second round looks at the shell only.
+                        if reach == 2 && dx.abs().max(dy.abs()).max(dz.abs()) < 2 {
+                            continue;
+                        }
+                        let shift = |a: i64, b: i64| a.wrapping_add(b);
+                        let key = self.key([shift(x, dx), shift(y, dy), shift(z, dz)]);
+                        for (found, q) in self.row(key) {
+                            if *found != key {
+                                break;
+                            }
+                            insert(&mut best, squared(p, *q));
+                        }
+                    }
+                }
+            }
+            // Whatever is nearer than this lies in the cells that were looked at.
+            let distance = best.get(rank - 1)?.sqrt();
+            if f64::from(distance) <= reach as f64 * self.cell {
+                return Some(distance);
+            }
+        }
+        None
+    }
+}
+
+fn squared(p: [f32; 3], q: [f32; 3]) -> f32 {
+    p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum()
+}
+
+/// Keeps the three smallest. The point itself and its doubles, at distance zero, do not count.
+fn insert(best: &mut [f32; 3], new: f32) {
+    let [a, b, c] = *best;
+    if new <= 0.0 || new >= c {
+        return;
+    }
+    *best = if new < a {
+        [new, a, b]
+    } else if new < b {
+        [a, new, b]
+    } else {
+        [a, b, new]
+    };
+}

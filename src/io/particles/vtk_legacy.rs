@@ -1,0 +1,345 @@
+//! Legacy VTK, versions 1.0 to 5.1, ASCII and binary: the points of POLYDATA and UNSTRUCTURED_GRID.
+//!
+//! Four lines (`# vtk DataFile Version x.y`, a title, `ASCII` or `BINARY`, `DATASET type`), then sections, each
+//! a line of words and then its values: words of text, or big-endian bytes. Cells are passed over: up to 4.2
+//! one list of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`. `POINT_DATA n` begins the attributes: `SCALARS`,
+//! `VECTORS` ..., or a `FIELD` of arrays. `METADATA` may stand after any array and ends with an empty line.
+//! The length of a section that is not known cannot be known, so reading ends there, with a warning.
+
+use super::bytes::{Cursor, ascii_values, show};
+use super::columns::{AttributeType, Data, Table};
+use super::error::{Place, ReadError};
+use super::{Format, Particles};
+
+pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
+    let mut cursor = Cursor::new(bytes);
+    let first = cursor.line().unwrap_or_default();
+    let version = version(first).ok_or_else(|| {
+        ReadError::malformed("`# vtk DataFile Version x.y`", show(first), Place::Line(1))
+    })?;
+    cursor.line();
+    let kind = cursor.line().unwrap_or_default().trim_ascii();
+    let binary = match kind.to_ascii_uppercase().as_slice() {
+        b"ASCII" => false,
+        b"BINARY" => true,
+        _ => {
+            return Err(ReadError::malformed("`ASCII` or `BINARY`", show(kind), Place::Line(3)));
+        }
+    };
+    let mut reader = Reader {
+        cursor,
+        binary,
+        version,
+        table: Table::default(),
+        rows: None,
+        wanted: false,
+        has_points: false,
+    };
+    while let Some(line) = reader.keyword_line() {
+        if !reader.section(line)? {
+            let place = reader.words(line).place;
+            reader.table.warnings.push(format!(
+                "legacy VTK: unknown section {}{place}; it and what follows is not read",
+                show(line)
+            ));
+            break;
+        }
+    }
+    if !reader.has_points {
+        return Err(ReadError::malformed("a POINTS section", "none", Place::Unknown));
+    }
+    reader.table.assemble(Format::VtkLegacy { version, binary })
+}
+
+fn version(line: &[u8]) -> Option<(u8, u8)> {
+    let line = std::str::from_utf8(line).ok()?;
+    let (major, minor) = line.strip_prefix("# vtk DataFile Version")?.trim().split_once('.')?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
+}
+
+struct Reader<'a> {
+    cursor: Cursor<'a>,
+    binary: bool,
+    version: (u8, u8),
+    table: Table,
+    /// Of the current POINT_DATA or CELL_DATA.
+    rows: Option<u64>,
+    /// Whether the current attributes are those of the points.
+    wanted: bool,
+    has_points: bool,
+}
+
+/// The words of a section's first line after its keyword.
+struct Words<'a> {
+    line: &'a [u8],
+    words: Vec<&'a [u8]>,
+    place: Place,
+}
+
+impl<'a> Words<'a> {
+    fn text(&self, i: usize, what: &str) -> Result<&'a str, ReadError> {
+        self.words
+            .get(i)
+            .and_then(|word| std::str::from_utf8(word).ok())
+            .ok_or_else(|| self.bad(what))
+    }
+
+    fn count(&self, i: usize, what: &str) -> Result<u64, ReadError> {
+        self.text(i, what)?.parse().map_err(|_| self.bad(what))
+    }
+
+    /// A type, and for the ones that are no plain numbers `Other` (bits) or `Text`.
+    fn ty(&self, i: usize) -> Result<AttributeType, ReadError> {
+        use AttributeType as T;
+        Ok(match self.text(i, "a type")?.to_ascii_lowercase().as_str() {
+            "bit" => T::Other,
+            "char" | "signed_char" => T::I8,
+            "unsigned_char" => T::U8,
+            "short" => T::I16,
+            "unsigned_short" => T::U16,
+            // Ids are written as 32 bits, whatever they were in memory.
+            "int" | "vtkidtype" => T::I32,
+            "unsigned_int" => T::U32,
+            "long" | "long_long" | "vtktypeint64" => T::I64,
+            "unsigned_long" | "unsigned_long_long" | "vtktypeuint64" => T::U64,
+            "float" => T::F32,
+            "double" => T::F64,
+            "string" => T::Text,
+            _ => return Err(self.bad("a VTK type such as float, double or int")),
+        })
+    }
+
+    fn bad(&self, what: &str) -> ReadError {
+        ReadError::malformed(what, show(self.line), self.place)
+    }
+}
+
+impl<'a> Reader<'a> {
+    fn keyword_line(&mut self) -> Option<&'a [u8]> {
+        self.cursor.skip_space();
+        self.cursor.line()
+    }
+
+    fn words(&self, line: &'a [u8]) -> Words<'a> {
+        Words {
+            line,
+            words: line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty()).collect(),
+            place: Place::Byte(self.cursor.at().saturating_sub(line.len() + 1) as u64),
+        }
+    }
+
+    /// Reads one section. False where it is not known.
+    fn section(&mut self, line: &'a [u8]) -> Result<bool, ReadError> {
+        let w = self.words(line);
+        let keyword = w.text(0, "a keyword")?.to_ascii_uppercase();
+        let rows = || self.rows.ok_or_else(|| w.bad("POINT_DATA or CELL_DATA before an attribute"));
+        match keyword.as_str() {
+            "DATASET" => {
+                let kind = w.text(1, "a dataset type")?;
+                if !["POLYDATA", "UNSTRUCTURED_GRID"].contains(&kind.to_ascii_uppercase().as_str())
+                {
+                    return Err(ReadError::Unsupported {
+                        what: format!("the VTK dataset {kind}"),
+                        advice: "particles are POLYDATA or UNSTRUCTURED_GRID: save one of these",
+                    });
+                }
+            }
+            "POINTS" => {
+                let n = w.count(1, "a number of points")?;
+                let ty = w.ty(2)?;
+                if ty.size().is_none() {
+                    return Err(w.bad("a type of numbers for the points"));
+                }
+                self.table.list("Points", 3, ty);
+                self.table.positions =
+                    Some(self.values(ty, n.saturating_mul(3), "POINTS", true)?);
+                self.has_points = true;
+            }
+            "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" | "CELLS" => {
+                let (first, second) = (w.count(1, "a number of cells")?, w.count(2, "a size")?);
+                if self.version.0 >= 5 {
+                    for (part, count) in [("OFFSETS", first), ("CONNECTIVITY", second)] {
+                        let Some(line) = self.keyword_line() else {
+                            return Err(ReadError::truncated(part, self.cursor.at(), 1, 0));
+                        };
+                        let w = self.words(line);
+                        if w.text(0, part)? != part {
+                            return Err(w.bad(part));
+                        }
+                        self.values(w.ty(1)?, count, part, false)?;
+                    }
+                } else {
+                    self.values(AttributeType::I32, second, &keyword, false)?;
+                }
+            }
+            "CELL_TYPES" => {
+                let n = w.count(1, "a number of cells")?;
+                self.values(AttributeType::I32, n, &keyword, false)?;
+            }
+            "POINT_DATA" | "CELL_DATA" => {
+                self.rows = Some(w.count(1, "a number of values")?);
+                self.wanted = keyword == "POINT_DATA";
+            }
+            "METADATA" => self.skip_metadata(),
+            "SCALARS" => {
+                let rows = rows()?;
+                let components = match w.words.len() {
+                    0..=3 => 1,
+                    _ => w.count(3, "a number of components")?,
+                };
+                let (name, ty) = (w.text(1, "a name")?, w.ty(2)?);
+                let here = self.cursor;
+                let table = self.keyword_line().unwrap_or_default();
+                if !table.starts_with(b"LOOKUP_TABLE") {
+                    self.cursor = here;
+                }
+                self.attribute(name, ty, rows, components)?;
+            }
+            "VECTORS" | "NORMALS" => {
+                let rows = rows()?;
+                self.attribute(w.text(1, "a name")?, w.ty(2)?, rows, 3)?;
+            }
+            "TENSORS" | "TENSORS6" => {
+                let rows = rows()?;
+                let components = if keyword == "TENSORS" { 9 } else { 6 };
+                self.attribute(w.text(1, "a name")?, w.ty(2)?, rows, components)?;
+            }
+            "GLOBAL_IDS" | "PEDIGREE_IDS" | "EDGE_FLAGS" => {
+                let rows = rows()?;
+                self.attribute(w.text(1, "a name")?, w.ty(2)?, rows, 1)?;
+            }
+            "TEXTURE_COORDINATES" => {
+                let rows = rows()?;
+                let components = w.count(2, "a number of components")?;
+                self.attribute(w.text(1, "a name")?, w.ty(3)?, rows, components)?;
+            }
+            // Colours are bytes in a binary file and numbers from 0 to 1 in a text.
+            "COLOR_SCALARS" => {
+                let rows = rows()?;
+                let components = w.count(2, "a number of components")?;
+                self.attribute(w.text(1, "a name")?, AttributeType::U8, rows, components)?;
+            }
+            "LOOKUP_TABLE" => {
+                let n = w.count(2, "a number of colours")?;
+                self.values(AttributeType::U8, n.saturating_mul(4), &keyword, false)?;
+            }
+            "FIELD" => {
+                let arrays = w.count(2, "a number of arrays")?;
+                for _ in 0..arrays {
+                    self.field_array()?;
+                }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn field_array(&mut self) -> Result<(), ReadError> {
+        loop {
+            let Some(line) = self.keyword_line() else {
+                return Err(ReadError::truncated("the arrays of a FIELD", self.cursor.at(), 1, 0));
+            };
+            if line.trim_ascii() == b"METADATA" {
+                self.skip_metadata();
+                continue;
+            }
+            let w = self.words(line);
+            let name = w.text(0, "an array: name, components, tuples, type")?;
+            let components = w.count(1, "an array: name, components, tuples, type")?;
+            let rows = w.count(2, "an array: name, components, tuples, type")?;
+            return self.attribute(name, w.ty(3)?, rows, components);
+        }
+    }
+
+    fn attribute(
+        &mut self,
+        name: &str,
+        ty: AttributeType,
+        rows: u64,
+        components: u64,
+    ) -> Result<(), ReadError> {
+        let name = percent_decoded(name);
+        let size = usize::try_from(components).unwrap_or(usize::MAX);
+        let keep = self.wanted && self.table.list(&name, size, ty) && ty.size().is_some();
+        let data = self.values(ty, rows.saturating_mul(components), &name, keep)?;
+        if keep {
+            self.table.push(&name, size, data);
+        }
+        Ok(())
+    }
+
+    fn values(
+        &mut self,
+        ty: AttributeType,
+        count: u64,
+        what: &str,
+        keep: bool,
+    ) -> Result<Data, ReadError> {
+        if ty == AttributeType::Text {
+            self.skip_texts(count, what)?;
+            return Ok(Data::Int(Vec::new()));
+        }
+        if !self.binary {
+            return ascii_values(&mut self.cursor, ty, count, what, keep);
+        }
+        let bytes = match ty.size() {
+            Some(size) => count.saturating_mul(size),
+            None => count.div_ceil(8), // bits
+        };
+        let raw = self.cursor.take(bytes, what)?;
+        let mut data = Data::for_type(ty);
+        if keep {
+            data.push_bytes(ty, raw, true);
+        }
+        Ok(data)
+    }
+
+    /// Texts stand one a line, or with their length before them: its two top bits tell its size.
+    fn skip_texts(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
+        for _ in 0..count {
+            if !self.binary {
+                if self.cursor.line().is_none() {
+                    return Err(ReadError::truncated(what, self.cursor.at(), 1, 0));
+                }
+                continue;
+            }
+            let [first] = self.cursor.array::<1>(what)?;
+            let more = match first >> 6 {
+                3 => 0,
+                2 => 1,
+                1 => 3,
+                _ => 7,
+            };
+            let mut length = u64::from(first & 0x3f);
+            for byte in self.cursor.take(more, what)? {
+                length = length << 8 | u64::from(*byte);
+            }
+            self.cursor.take(length, what)?;
+        }
+        Ok(())
+    }
+
+    fn skip_metadata(&mut self) {
+        while let Some(line) = self.cursor.line() {
+            if line.trim_ascii().is_empty() {
+                return;
+            }
+        }
+    }
+}
+
+/// Names have their spaces and percent signs written as %20, %25.
+fn percent_decoded(name: &str) -> String {
+    let mut out = Vec::with_capacity(name.len());
+    let mut rest = name.as_bytes();
+    while let Some((first, tail)) = rest.split_first() {
+        let code = (*first == b'%')
+            .then(|| tail.get(..2))
+            .flatten()
+            .and_then(|hex| std::str::from_utf8(hex).ok())
+            .and_then(|hex| u8::from_str_radix(hex, 16).ok());
+        out.push(code.unwrap_or(*first));
+        rest = if code.is_some() { tail.get(2..).unwrap_or_default() } else { tail };
+    }
+    String::from_utf8_lossy(&out).into_owned()
+}

@@ -1,0 +1,599 @@
+//! The renderer of one view: owns the techniques and records them in order.
+
+use std::sync::Arc;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use crate::composite::Composite;
+use crate::contract::{
+    Config, Count, Frame, Host, HostImage, MemoryUse, Particles, Recorded, Slot, Stream,
+};
+use crate::environment::{Environment, EnvironmentSource};
+use crate::error::Error;
+use crate::frame::{FrameUniforms, Lens, check_settings};
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::requirements::Offer;
+use crate::gpu::retire::{RetireList, Retired};
+use crate::gpu::timing::{Timer, Timing};
+use crate::water::{Recording, Water};
+
+/// What one frame in flight owns.
+struct SlotState {
+    descriptors: Descriptors,
+    timer: Timer,
+    uniforms: Buffer,
+    /// The output's framebuffer of the frame recorded last.
+    framebuffer: vk::Framebuffer,
+}
+
+/// Draws particle water into a host's frame. One per view; see the crate's documentation for the
+/// contract.
+pub struct Renderer {
+    gpu: Arc<Gpu>,
+    instance: ash::Instance,
+    physical_device: vk::PhysicalDevice,
+    config: Config,
+    slots: Vec<SlotState>,
+    retired: RetireList,
+    water: Water,
+    composite: Composite,
+    environment: Environment,
+    /// Copy of the scene's colour, when it is the output itself.
+    scene_copy: Option<Image>,
+}
+
+impl Renderer {
+    /// Makes all pipelines and memory for a configuration.
+    ///
+    /// # Errors
+    /// Bad configuration, missing features, no memory, and what Vulkan reports.
+    ///
+    /// # Safety
+    /// The host's handles are alive, belong together, and outlive the renderer; what
+    /// [`Enabled`](crate::Enabled) and [`requirements`](crate::requirements) name is enabled.
+    pub unsafe fn new(host: &Host<'_>, config: &Config) -> Result<Self, Error> {
+        check_config(config)?;
+        Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
+        let gpu = Gpu::new(host)?;
+        let parts = Parts::new(&gpu, config)?;
+        let slots =
+            (0..gpu.slots).map(|_| SlotState::new(&gpu, config)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self {
+            instance: host.instance.clone(),
+            physical_device: host.physical_device,
+            gpu,
+            config: *config,
+            slots,
+            retired: RetireList::default(),
+            water: parts.water,
+            composite: parts.composite,
+            environment: parts.environment,
+            scene_copy: parts.scene_copy,
+        })
+    }
+
+    /// Records the first contents of what is read before it is written. Once, before the first
+    /// `record`; again after `reconfigure`.
+    ///
+    /// # Safety
+    /// `cmd` is recording outside a render pass and is submitted before any `record`.
+    pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
+        self.environment.record_setup(&self.gpu, cmd);
+    }
+
+    /// Records the environment that the water reflects, once per environment.
+    ///
+    /// # Errors
+    /// What Vulkan reports; a bad slot.
+    ///
+    /// # Safety
+    /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
+    /// comes before it there.
+    pub unsafe fn record_environment(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        slot: Slot,
+        source: &EnvironmentSource,
+    ) -> Result<(), Error> {
+        let index = self.slot_index(slot)?;
+        self.retired.recorded(slot.0);
+        self.environment.record(&self.gpu, cmd, &self.slots[index].descriptors, source)
+    }
+
+    /// Records one frame: water over the scene, into the output.
+    ///
+    /// Never submits, waits, creates pipelines or allocates device memory. One acquire and one
+    /// release barrier per host image. Every [`Error::BadInput`] is found before the first command.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] with the field; after any other error discard the command buffer.
+    ///
+    /// # Safety
+    /// `cmd` is a primary command buffer of the host's queue family, recording, outside a render
+    /// pass, with no active query or conditional rendering; the frame's handles are alive until
+    /// the slot comes back; the slot's earlier work is complete; command buffers are submitted to
+    /// one queue in the order they were recorded.
+    pub unsafe fn record(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        frame: &Frame<'_>,
+    ) -> Result<Recorded, Error> {
+        let index = self.slot_index(frame.slot)?;
+        let lens = self.check_frame(frame)?;
+        let gpu = &*self.gpu;
+        let in_place = frame.scene_color.image == frame.output.image;
+        let slot = &mut self.slots[index];
+        slot.begin(gpu)?;
+        slot.framebuffer =
+            self.composite.framebuffer(gpu, frame.output.view, frame.output.extent)?;
+        self.retired.recorded(frame.slot.0);
+        let uniforms = FrameUniforms::new(&lens, frame, &self.config);
+        slot.uniforms.mapped_mut()[..size_of::<FrameUniforms>()]
+            .copy_from_slice(bytemuck::bytes_of(&uniforms));
+
+        gpu.begin_label(cmd, c"whitewater");
+        slot.timer.reset(gpu, cmd);
+        let depth_layout = depth_layout(&frame.scene_depth);
+        let (acquire, acquired) = acquire(frame, in_place, depth_layout);
+        gpu.barriers(cmd, &acquire[..acquired], &[]);
+
+        let mut r = Recording {
+            gpu,
+            cmd,
+            descriptors: &slot.descriptors,
+            timer: &mut slot.timer,
+            uniforms: Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64),
+            scene_depth: Resource::SampledIn(
+                frame.scene_depth.view,
+                gpu.samplers.nearest,
+                depth_layout,
+            ),
+        };
+        self.water.record(&mut r, &frame.particles)?;
+        let scene_color = match &self.scene_copy {
+            Some(copy) if in_place => {
+                copy_scene(&mut r, &frame.output, copy);
+                copy.view
+            }
+            _ => frame.scene_color.view,
+        };
+        self.composite.record(
+            &mut r,
+            slot.framebuffer,
+            frame.output.extent,
+            &self.water.layers(),
+            Resource::Sampled(scene_color, gpu.samplers.linear),
+            Resource::Sampled(self.environment.cube.view, gpu.samplers.linear),
+            frame.settings.water.fresnel,
+        )?;
+
+        let (release, released) = release(frame, in_place, depth_layout);
+        let mut buffers = Vec::with_capacity(4);
+        for handle in particle_buffers(&frame.particles) {
+            let barrier = buffer(handle, COMPUTE_READ, frame.particles.after);
+            if !buffers.iter().any(|b: &vk::BufferMemoryBarrier2<'_>| b.buffer == handle) {
+                buffers.push(barrier);
+            }
+        }
+        gpu.barriers(cmd, &release[..released], &buffers);
+        gpu.end_label(cmd);
+        Ok(Recorded {
+            layers: if self.config.keep_layers {
+                self.water.kept(FRAGMENT_SAMPLED)
+            } else {
+                Vec::new()
+            },
+        })
+    }
+
+    /// Times of the slot's last finished frame, pass by pass; empty before there is one. Never
+    /// waits: while the frame is still running these are the times of the one before.
+    pub fn timings(&mut self, slot: Slot) -> &[Timing] {
+        match self.slots.get_mut(slot.0 as usize) {
+            Some(state) => state.timer.timings(&self.gpu),
+            None => &[],
+        }
+    }
+
+    /// Says that the slot has come back (its work is complete): frees what `resize` and
+    /// `reconfigure` retired and no frame in flight uses any more.
+    pub fn collect(&mut self, slot: Slot) {
+        self.retired.collect(&self.gpu, slot.0);
+    }
+
+    /// Says that the command buffer recorded last with this slot was thrown away.
+    pub fn abandon(&mut self, slot: Slot) {
+        if let Some(state) = self.slots.get_mut(slot.0 as usize) {
+            state.timer.abandon();
+        }
+        self.collect(slot);
+    }
+
+    /// Retired objects that still wait for their slots.
+    pub fn retired(&self) -> usize {
+        self.retired.len()
+    }
+
+    /// Changes the output's size. Legal with frames in flight.
+    ///
+    /// # Errors
+    /// A bad extent, no memory; the renderer then keeps its old size.
+    pub fn resize(&mut self, extent: vk::Extent2D) -> Result<(), Error> {
+        let config = Config { extent, ..self.config };
+        self.check_config(&config)?;
+        let (gpu, retired) = (&*self.gpu, &mut self.retired);
+        let copy = Parts::scene_copy(gpu, &config)?;
+        let mut retire = |object| retired.retire(gpu, object);
+        if let Some(old) = std::mem::replace(&mut self.scene_copy, copy) {
+            retire(Retired::Image(old));
+        }
+        self.config = config;
+        self.water.resize(gpu, &config, &mut retire)
+    }
+
+    /// The configuration in force.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Device memory in use.
+    pub fn memory(&self) -> MemoryUse {
+        let mut memory = self.water.memory();
+        memory.images += self.environment.cube.size;
+        memory.images += self.scene_copy.as_ref().map_or(0, |image| image.size);
+        memory.buffers += self.slots.iter().map(|slot| slot.uniforms.size).sum::<u64>();
+        memory
+    }
+
+    /// Frees everything. A plain drop leaks it, safely.
+    ///
+    /// # Safety
+    /// The GPU is done with all recorded work, or it will never be submitted.
+    pub unsafe fn destroy(mut self) {
+        let gpu = &*self.gpu;
+        self.retired.destroy(gpu);
+        for slot in self.slots {
+            slot.destroy(gpu);
+        }
+        if let Some(copy) = self.scene_copy {
+            copy.destroy(gpu);
+        }
+        self.water.destroy(gpu);
+        self.composite.destroy(gpu);
+        self.environment.destroy(gpu);
+        gpu.destroy();
+    }
+
+    fn slot_index(&self, slot: Slot) -> Result<usize, Error> {
+        let index = slot.0 as usize;
+        if index < self.slots.len() {
+            Ok(index)
+        } else {
+            Err(Error::bad(
+                "Frame.slot",
+                format!("{index} of {} frames in flight", self.slots.len()),
+            ))
+        }
+    }
+
+    fn check_config(&self, config: &Config) -> Result<(), Error> {
+        check_config(config)?;
+        Offer::of(&self.instance, self.physical_device, config.output_format).check(config)
+    }
+
+    /// Everything that can be wrong with a frame.
+    fn check_frame(&self, frame: &Frame<'_>) -> Result<Lens, Error> {
+        check_settings(&frame.settings.water, &frame.settings.light)?;
+        if frame.output.extent != self.config.extent {
+            return Err(Error::bad(
+                "Frame.output.extent",
+                format!(
+                    "{}x{}, but the renderer is made for {}x{}: call resize first",
+                    frame.output.extent.width,
+                    frame.output.extent.height,
+                    self.config.extent.width,
+                    self.config.extent.height
+                ),
+            ));
+        }
+        if frame.output.format != self.config.output_format {
+            return Err(Error::bad(
+                "Frame.output.format",
+                format!("{:?} is not Config.output_format", frame.output.format),
+            ));
+        }
+        for (field, image) in [
+            ("Frame.output.before", &frame.output),
+            ("Frame.scene_color.before", &frame.scene_color),
+            ("Frame.scene_depth.before", &frame.scene_depth),
+        ] {
+            if image.before.layout == vk::ImageLayout::UNDEFINED {
+                return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
+            }
+            if matches!(
+                image.after.layout,
+                vk::ImageLayout::UNDEFINED | vk::ImageLayout::PREINITIALIZED
+            ) {
+                return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
+            }
+            if image.extent.width == 0 || image.extent.height == 0 {
+                return Err(Error::bad("HostImage.extent", "zero"));
+            }
+        }
+        if frame.scene_color.image == frame.output.image && !self.config.in_place {
+            return Err(Error::bad(
+                "Frame.scene_color",
+                "is the output itself, but Config.in_place is false",
+            ));
+        }
+        check_particles(&frame.particles, &self.config, &self.gpu.limits)?;
+        Lens::new(&frame.camera)
+    }
+}
+
+fn check_particles(
+    particles: &Particles,
+    config: &Config,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<(), Error> {
+    let count = match particles.count {
+        Count::Cpu(count) if count > config.max_particles => {
+            return Err(Error::bad(
+                "Frame.particles.count",
+                format!("{count} is more than Config.max_particles, {}", config.max_particles),
+            ));
+        }
+        Count::Cpu(count) => count,
+        Count::Gpu { .. } => 0,
+    };
+    let stream = |field, stream: &Stream, bytes: u64| -> Result<(), Error> {
+        if stream.stride % 4 != 0 || u64::from(stream.stride) < bytes || stream.offset % 4 != 0 {
+            return Err(Error::bad(
+                field,
+                format!(
+                    "stride {} and offset {}: multiples of 4 expected, stride at least {bytes}",
+                    stream.stride, stream.offset
+                ),
+            ));
+        }
+        if stream.stride > config.max_stride {
+            return Err(Error::bad(
+                field,
+                format!(
+                    "stride {} is more than Config.max_stride, {}",
+                    stream.stride, config.max_stride
+                ),
+            ));
+        }
+        let end = u64::from(count) * u64::from(stream.stride);
+        let end =
+            stream.offset + if count > 0 { end - u64::from(stream.stride) + bytes } else { 0 };
+        if end > stream.size {
+            return Err(Error::bad(
+                field,
+                format!("{count} particles need {end} bytes, the buffer has {}", stream.size),
+            ));
+        }
+        Ok(())
+    };
+    stream("Frame.particles.positions", &particles.positions, 12)?;
+    if let Some(densities) = &particles.densities {
+        stream("Frame.particles.densities", densities, 4)?;
+    }
+    let aligned = |field, offset: u64| {
+        let to = limits.min_storage_buffer_offset_alignment.max(4);
+        if offset % to == 0 {
+            Ok(())
+        } else {
+            Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
+        }
+    };
+    if let Count::Gpu { offset, .. } = particles.count {
+        aligned("Frame.particles.count.offset", offset)?;
+    }
+    if let Some(packets) = &particles.packets {
+        aligned("Frame.particles.packets.offset", packets.offset)?;
+        if packets.count > 65_535 {
+            return Err(Error::bad(
+                "Frame.particles.packets.count",
+                format!("{} is more than 65535", packets.count),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn check_config(config: &Config) -> Result<(), Error> {
+    let bad = |field, why: String| Err(Error::bad(field, why));
+    if config.extent.width == 0 || config.extent.height == 0 {
+        return bad("Config.extent", "zero; a minimised window has nothing to draw".into());
+    }
+    if config.max_particles == 0 {
+        return bad("Config.max_particles", "zero; it sizes the buffers".into());
+    }
+    if config.max_stride < 4 || config.max_stride % 4 != 0 {
+        return bad("Config.max_stride", format!("{} is no multiple of 4", config.max_stride));
+    }
+    if config.smoothing_level > 2 {
+        return bad("Config.smoothing_level", format!("{} of 0, 1, 2", config.smoothing_level));
+    }
+    if config.thickness_level != 0 && config.thickness_level != config.smoothing_level {
+        return bad(
+            "Config.thickness_level",
+            format!("{}: 0, or the smoothing's level", config.thickness_level),
+        );
+    }
+    if !(1..=256).contains(&config.max_iterations) {
+        return bad("Config.max_iterations", format!("{} of 1 to 256", config.max_iterations));
+    }
+    let size = config.environment_size;
+    if !size.is_power_of_two() || !(16..=2048).contains(&size) {
+        return bad(
+            "Config.environment_size",
+            format!("{size}: a power of two from 16 to 2048 expected"),
+        );
+    }
+    Ok(())
+}
+
+/// What depends on the configuration.
+struct Parts {
+    water: Water,
+    composite: Composite,
+    environment: Environment,
+    scene_copy: Option<Image>,
+}
+
+impl Parts {
+    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        Ok(Self {
+            water: Water::new(gpu, config)?,
+            composite: Composite::new(gpu, config)?,
+            environment: Environment::new(gpu, config)?,
+            scene_copy: Self::scene_copy(gpu, config)?,
+        })
+    }
+
+    fn scene_copy(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
+        if !config.in_place {
+            return Ok(None);
+        }
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let desc = ImageDesc::new("scene copy", config.extent, config.output_format, usage);
+        Image::new(gpu, &desc).map(Some)
+    }
+}
+
+impl SlotState {
+    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        // A few sets a pass, and the splats' for every chunk of particles.
+        let chunks = config.max_particles / (1 << 16) + 1;
+        Ok(Self {
+            descriptors: Descriptors::new(gpu, 64 + 16 * chunks)?,
+            timer: Timer::new(gpu)?,
+            uniforms: Buffer::new(
+                gpu,
+                "slot/uniforms",
+                size_of::<FrameUniforms>() as u64,
+                vk::BufferUsageFlags::UNIFORM_BUFFER,
+                MemoryLocation::CpuToGpu,
+            )?,
+            framebuffer: vk::Framebuffer::null(),
+        })
+    }
+
+    /// The slot's earlier work is complete: its sets and its framebuffer can go.
+    fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
+        Retired::Framebuffer(std::mem::take(&mut self.framebuffer)).destroy(gpu);
+        self.descriptors.reset(gpu)
+    }
+
+    fn destroy(self, gpu: &Gpu) {
+        Retired::Framebuffer(self.framebuffer).destroy(gpu);
+        self.descriptors.destroy(gpu);
+        self.timer.destroy(gpu);
+        self.uniforms.destroy(gpu);
+    }
+}
+
+fn particle_buffers(particles: &Particles) -> impl Iterator<Item = vk::Buffer> {
+    let count = match particles.count {
+        Count::Gpu { buffer, .. } => Some(buffer),
+        Count::Cpu(_) => None,
+    };
+    [
+        Some(particles.positions.buffer),
+        particles.densities.map(|s| s.buffer),
+        particles.packets.map(|p| p.buffer),
+        count,
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// Layout in which the scene's depth is sampled.
+fn depth_layout(image: &HostImage) -> vk::ImageLayout {
+    if image.aspect.contains(vk::ImageAspectFlags::DEPTH) {
+        vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL
+    } else {
+        vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL
+    }
+}
+
+/// How the scene's depth is used here.
+fn depth_use(layout: vk::ImageLayout) -> Access {
+    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+    Access { layout, ..sampled }
+}
+
+type HostBarriers = ([vk::ImageMemoryBarrier2<'static>; 3], usize);
+
+/// The one barrier of each host image on its way in.
+fn acquire(frame: &Frame<'_>, in_place: bool, depth: vk::ImageLayout) -> HostBarriers {
+    let barrier =
+        |image: &HostImage, to| access::raw_image(image.image, image.aspect, image.before, to);
+    let output = if in_place { COPY_READ } else { COLOR_ATTACHMENT };
+    let all = [
+        barrier(&frame.scene_depth, depth_use(depth)),
+        barrier(&frame.output, output),
+        barrier(&frame.scene_color, FRAGMENT_SAMPLED),
+    ];
+    (all, if in_place { 2 } else { 3 })
+}
+
+/// The one barrier of each host image on its way out.
+fn release(frame: &Frame<'_>, in_place: bool, depth: vk::ImageLayout) -> HostBarriers {
+    let barrier =
+        |image: &HostImage, from| access::raw_image(image.image, image.aspect, from, image.after);
+    let all = [
+        barrier(&frame.scene_depth, depth_use(depth)),
+        barrier(&frame.output, COLOR_ATTACHMENT),
+        barrier(&frame.scene_color, FRAGMENT_SAMPLED),
+    ];
+    (all, if in_place { 2 } else { 3 })
+}
+
+/// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.
+/// The output comes in TRANSFER_SRC_OPTIMAL and leaves as an attachment.
+fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image) {
+    let scope = r.begin(c"scene");
+    let (gpu, cmd) = (r.gpu, r.cmd);
+    gpu.barriers(cmd, &[access::image(copy, FRAGMENT_SAMPLED.discarded(), COPY_WRITE)], &[]);
+    let layers = vk::ImageSubresourceLayers {
+        aspect_mask: vk::ImageAspectFlags::COLOR,
+        mip_level: 0,
+        base_array_layer: 0,
+        layer_count: 1,
+    };
+    let region = vk::ImageCopy::default()
+        .src_subresource(layers)
+        .dst_subresource(layers)
+        .extent(output.extent.into());
+    // SAFETY: both images are in their transfer layouts and of one format and size.
+    unsafe {
+        gpu.device.cmd_copy_image(
+            cmd,
+            output.image,
+            vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+            copy.handle,
+            vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+            &[region],
+        );
+    }
+    gpu.barriers(
+        cmd,
+        &[
+            access::image(copy, COPY_WRITE, FRAGMENT_SAMPLED),
+            access::raw_image(output.image, output.aspect, COPY_READ, COLOR_ATTACHMENT),
+        ],
+        &[],
+    );
+    r.end(scope);
+}

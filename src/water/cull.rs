@@ -1,0 +1,351 @@
+//! Pass `cull`: the border between the host's particles and ours (thesis Sec. 4.3).
+//!
+//! Drops NaN and infinite particles, sets spray aside by density, tests the rest against the
+//! frustum and compacts the survivors into eye-space spheres of 16 bytes: small sprites from the
+//! front of the list, large ones from its back. Every later pass reads only that list, by indirect
+//! draws and dispatches. Unlike the source the test runs on the GPU, and a host without packets
+//! has each particle tested.
+//!
+//! More particles than one storage-buffer range are processed in chunks, each with its own counts
+//! and its own part of the list.
+
+use ash::vk;
+use bytemuck::{NoUninit, Pod, Zeroable};
+use gpu_allocator::MemoryLocation;
+
+use super::Recording;
+use crate::contract::{Config, Count, Particles, Stream};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+
+/// Bytes of one chunk's `Counts`: a multiple of every device's offset alignment.
+const COUNTS_STRIDE: u64 = 256;
+/// Byte offsets in `Counts` of the arguments (glsl/include/counts.glsl).
+pub const POINTS: u64 = 0;
+pub const QUADS: u64 = 16;
+pub const SMALL_GROUPS: u64 = 32;
+pub const LARGE_GROUPS: u64 = 44;
+const CULL_GROUPS: u64 = 56;
+const DROPPED: u64 = 72;
+
+const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "quads_vertices") == QUADS as usize);
+const _: () =
+    assert!(shader::WATER_CULL_COMP.offset("Counts", "small_groups") == SMALL_GROUPS as usize);
+const _: () =
+    assert!(shader::WATER_CULL_COMP.offset("Counts", "large_groups") == LARGE_GROUPS as usize);
+const _: () =
+    assert!(shader::WATER_CULL_COMP.offset("Counts", "cull_groups") == CULL_GROUPS as usize);
+const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DROPPED as usize);
+
+/// Particles of a chunk at most: 64 an invocation group, 65 535 groups.
+const MOST_CHUNK: u32 = 1 << 21;
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct BeginPush {
+    count: u32,
+    word: u32,
+    from_gpu: u32,
+    chunks: u32,
+    chunk_size: u32,
+    packets: u32,
+    group_size: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct CullPush {
+    position_word: u32,
+    position_stride: u32,
+    density_word: u32,
+    density_stride: u32,
+    packet_word: u32,
+    chunk_first: u32,
+    capacity: u32,
+    small_limit: f32,
+    small_inside: u32,
+}
+shader::assert_layout!(
+    shader::WATER_CULL_COMP,
+    "Push",
+    CullPush {
+        position_word,
+        position_stride,
+        density_word,
+        density_stride,
+        packet_word,
+        chunk_first,
+        capacity,
+        small_limit,
+        small_inside,
+    }
+);
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct EndPush {
+    chunks: u32,
+    group_size: u32,
+    most_groups: u32,
+}
+
+/// The pass.
+pub struct Cull {
+    begin: Pipeline,
+    each: Pipeline,
+    packets: Pipeline,
+    end: Pipeline,
+    /// `Counts` of every chunk.
+    pub counts: Buffer,
+    /// Spheres in eye space: centre, radius.
+    pub visible: Buffer,
+    max_particles: u32,
+    chunk_size: u32,
+    chunks: u32,
+}
+
+/// One chunk's part of the list.
+#[derive(Clone, Copy)]
+pub struct Chunk {
+    /// `Counts` as a resource.
+    pub counts: Resource,
+    /// The chunk's part of the list as a resource.
+    pub visible: Resource,
+    /// Byte offset of `Counts` in its buffer.
+    pub arguments: u64,
+    /// Spheres the part can hold.
+    pub capacity: u32,
+}
+
+impl Cull {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let range = u64::from(gpu.limits.max_storage_buffer_range);
+        let widest = u64::from(config.max_stride.max(16));
+        let fits = (range - 256) / widest;
+        let chunk_size = (fits.min(u64::from(MOST_CHUNK)) as u32).min(config.max_particles.max(1));
+        // Parts of the list begin at offsets that every device can bind.
+        let chunk_size = chunk_size.next_multiple_of(256).min(MOST_CHUNK);
+        let chunks = config.max_particles.max(1).div_ceil(chunk_size);
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Ok(Self {
+            begin: Pipeline::compute(gpu, shader::WATER_CULL_BEGIN_COMP, &[])?,
+            each: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 0)])?,
+            packets: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 1)])?,
+            end: Pipeline::compute(gpu, shader::WATER_CULL_END_COMP, &[])?,
+            counts: Buffer::new(
+                gpu,
+                "water/cull/counts",
+                COUNTS_STRIDE * u64::from(chunks),
+                storage
+                    | vk::BufferUsageFlags::INDIRECT_BUFFER
+                    | vk::BufferUsageFlags::TRANSFER_SRC,
+                MemoryLocation::GpuOnly,
+            )?,
+            visible: Buffer::new(
+                gpu,
+                "water/cull/visible",
+                16 * u64::from(chunks) * u64::from(chunk_size),
+                storage,
+                MemoryLocation::GpuOnly,
+            )?,
+            max_particles: config.max_particles,
+            chunk_size,
+            chunks,
+        })
+    }
+
+    /// The chunks, for the passes that draw or dispatch them.
+    pub fn chunks(&self) -> impl Iterator<Item = Chunk> + '_ {
+        (0..self.chunks).map(|i| self.chunk(i))
+    }
+
+    fn chunk(&self, index: u32) -> Chunk {
+        let bytes = 16 * u64::from(self.chunk_size);
+        Chunk {
+            counts: Resource::Buffer(
+                self.counts.handle,
+                COUNTS_STRIDE * u64::from(index),
+                COUNTS_STRIDE,
+            ),
+            visible: Resource::Buffer(self.visible.handle, bytes * u64::from(index), bytes),
+            arguments: COUNTS_STRIDE * u64::from(index),
+            capacity: self.chunk_size,
+        }
+    }
+
+    /// `small_limit`: largest small sprite in pixels; `inside`: small ones must have their centre
+    /// on the screen.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: &Particles,
+        small_limit: f32,
+        inside: bool,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"cull");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let consumers = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
+        let streams = [Some(particles.positions), particles.densities];
+
+        // In: the host's buffers, and ours from the frame before.
+        let read = COMPUTE_READ;
+        let mut host: Vec<_> =
+            streams.iter().flatten().map(|s| buffer(s.buffer, particles.before, read)).collect();
+        host.extend(particles.packets.map(|p| buffer(p.buffer, particles.before, read)));
+        if let Count::Gpu { buffer: handle, .. } = particles.count {
+            host.push(buffer(handle, particles.before, read));
+        }
+        // Interleaved streams share a buffer: one barrier is enough.
+        host.sort_by_key(|barrier| vk::Handle::as_raw(barrier.buffer));
+        host.dedup_by_key(|barrier| barrier.buffer);
+        host.push(buffer(self.counts.handle, consumers, COMPUTE_WRITE));
+        host.push(buffer(self.visible.handle, consumers, COMPUTE_WRITE));
+        gpu.barriers(cmd, &[], &host);
+
+        let most = streams.iter().flatten().map(|s| capacity(s)).fold(self.max_particles, u32::min);
+        let (count, from_gpu, host_count) = match particles.count {
+            Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),
+            // A bound offset costs an alignment; the word costs nothing.
+            Count::Gpu { buffer, offset } => (most, 1, Resource::Buffer(buffer, offset, 4)),
+        };
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.begin,
+            &[(1, host_count), (2, Resource::buffer(&self.counts))],
+        )?;
+        let group_size = self.each.local_size[0];
+        self.begin.push(
+            gpu,
+            cmd,
+            &BeginPush {
+                count,
+                word: 0,
+                from_gpu,
+                chunks: self.chunks,
+                chunk_size: self.chunk_size,
+                packets: particles.packets.map_or(0, |p| p.count),
+                group_size,
+            },
+        );
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, self.chunks.div_ceil(32), 1, 1) };
+        gpu.barriers(
+            cmd,
+            &[],
+            &[buffer(self.counts.handle, COMPUTE_WRITE, COMPUTE_READ_WRITE.and(INDIRECT))],
+        );
+
+        let pipeline = if particles.packets.is_some() { &self.packets } else { &self.each };
+        for index in 0..self.chunks {
+            let chunk = self.chunk(index);
+            let first = index * self.chunk_size;
+            let Some((positions, position_word)) = window(gpu, &particles.positions, first) else {
+                break;
+            };
+            let (densities, density_word, density_stride) = match &particles.densities {
+                Some(stream) => match window(gpu, stream, first) {
+                    Some((resource, word)) => (resource, word, stream.stride / 4),
+                    None => break,
+                },
+                None => (positions, 0, 0),
+            };
+            let packets = particles.packets.map_or(positions, |p| {
+                Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count.max(1)))
+            });
+            r.descriptors.bind(
+                gpu,
+                cmd,
+                pipeline,
+                &[
+                    (0, r.uniforms),
+                    (1, positions),
+                    (2, densities),
+                    (3, packets),
+                    (4, chunk.counts),
+                    (5, chunk.visible),
+                ],
+            )?;
+            pipeline.push(
+                gpu,
+                cmd,
+                &CullPush {
+                    position_word,
+                    position_stride: particles.positions.stride / 4,
+                    density_word,
+                    density_stride,
+                    packet_word: 0,
+                    chunk_first: first,
+                    capacity: chunk.capacity,
+                    small_limit,
+                    small_inside: u32::from(inside),
+                },
+            );
+            // SAFETY: as above; the arguments were written by `begin` and made visible.
+            unsafe {
+                gpu.device.cmd_dispatch_indirect(
+                    cmd,
+                    self.counts.handle,
+                    chunk.arguments + CULL_GROUPS,
+                );
+            }
+        }
+        gpu.barriers(
+            cmd,
+            &[],
+            &[buffer(self.counts.handle, COMPUTE_READ_WRITE.and(INDIRECT), COMPUTE_READ_WRITE)],
+        );
+
+        r.descriptors.bind(gpu, cmd, &self.end, &[(1, Resource::buffer(&self.counts))])?;
+        self.end.push(gpu, cmd, &EndPush { chunks: self.chunks, group_size, most_groups: 4096 });
+        // SAFETY: as above.
+        unsafe { gpu.device.cmd_dispatch(cmd, self.chunks.div_ceil(32), 1, 1) };
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(self.counts.handle, COMPUTE_WRITE, consumers),
+                buffer(self.visible.handle, COMPUTE_WRITE, COMPUTE_READ.and(VERTEX_READ)),
+            ],
+        );
+        r.end(scope);
+        Ok(())
+    }
+
+    pub fn memory(&self) -> u64 {
+        self.counts.size + self.visible.size
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        for pipeline in [&self.begin, &self.each, &self.packets, &self.end] {
+            pipeline.destroy(gpu);
+        }
+        self.counts.destroy(gpu);
+        self.visible.destroy(gpu);
+    }
+}
+
+/// Particles a stream can hold.
+pub fn capacity(stream: &Stream) -> u32 {
+    let bytes = stream.size.saturating_sub(stream.offset);
+    u32::try_from(bytes / u64::from(stream.stride.max(4))).unwrap_or(u32::MAX)
+}
+
+/// The part of a stream from a particle on that can be bound, and the word at which that particle
+/// lies in it; none when the stream ends before.
+fn window(gpu: &Gpu, stream: &Stream, first: u32) -> Option<(Resource, u32)> {
+    let start = stream.offset + u64::from(first) * u64::from(stream.stride);
+    let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
+    let left = stream.size.checked_sub(aligned).filter(|left| *left >= 4)?;
+    let range = left.min(u64::from(gpu.limits.max_storage_buffer_range));
+    // WHOLE_SIZE keeps the range legal for buffers whose size is no multiple of 4.
+    let range = if range == left { vk::WHOLE_SIZE } else { range & !3 };
+    Some((Resource::Buffer(stream.buffer, aligned, range), ((start - aligned) / 4) as u32))
+}

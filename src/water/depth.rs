@@ -1,0 +1,276 @@
+//! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
+//!
+//! Exact nearest hit of each pixel's ray with each sphere, where the source offsets a billboard by
+//! N_z·r, which is wrong off the axis and near the eye. Two ways with the same picture: sprites
+//! with MIN blending, and a compute shader with integer atomics on the same image.
+//! Reads: the list of `cull`. Writes: depth, R32F, EMPTY where there is no water.
+
+use ash::vk;
+
+use super::Recording;
+use super::cull::{self, Cull};
+use crate::contract::Config;
+use crate::error::Error;
+use crate::frame::EMPTY;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COPY_READ, FRAGMENT_SAMPLED,
+};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::{Graphics, Pipeline, blend};
+use crate::gpu::retire::Retired;
+use crate::gpu::shader;
+use crate::water::settings::Splat;
+
+/// Last uses of the image in a frame: `composite`, or the host's copy of the layer.
+const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ).and(COMPUTE_READ_WRITE);
+
+enum Path {
+    Raster { points: Pipeline, quads: Pipeline, pass: vk::RenderPass, framebuffer: vk::Framebuffer },
+    Compute { small: Pipeline, large: Pipeline },
+}
+
+/// The pass.
+pub struct Depth {
+    path: Path,
+    /// Eye depth of the frontmost surface.
+    pub image: Image,
+}
+
+/// Points or quads of a splat pass.
+pub fn sprites(
+    gpu: &Gpu,
+    vertex: shader::Shader,
+    fragment: shader::Shader,
+    pass: vk::RenderPass,
+    op: vk::BlendOp,
+) -> Result<(Pipeline, Pipeline), Error> {
+    let make = |topology, quads| {
+        Pipeline::graphics(
+            gpu,
+            &Graphics {
+                vertex,
+                fragment,
+                topology,
+                pass,
+                blend: blend(op),
+                constants: &[(0, quads)],
+            },
+        )
+    };
+    Ok((
+        make(vk::PrimitiveTopology::POINT_LIST, 0)?,
+        make(vk::PrimitiveTopology::TRIANGLE_STRIP, 1)?,
+    ))
+}
+
+impl Depth {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let image = Self::image(gpu, config)?;
+        let path = match config.depth_splat.unwrap_or_else(|| default_splat(gpu)) {
+            Splat::Raster => {
+                let pass =
+                    gpu.color_pass("water/depth", image.format, vk::AttachmentLoadOp::CLEAR)?;
+                let (points, quads) = sprites(
+                    gpu,
+                    shader::WATER_DEPTH_VERT,
+                    shader::WATER_DEPTH_FRAG,
+                    pass,
+                    vk::BlendOp::MIN,
+                )?;
+                let framebuffer = gpu.framebuffer("water/depth", pass, image.view, image.extent)?;
+                Path::Raster { points, quads, pass, framebuffer }
+            }
+            Splat::Compute => Path::Compute {
+                small: Pipeline::compute(gpu, shader::WATER_DEPTH_COMP, &[(0, 0)])?,
+                large: Pipeline::compute(gpu, shader::WATER_DEPTH_COMP, &[(0, 1)])?,
+            },
+        };
+        Ok(Self { path, image })
+    }
+
+    fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
+        Image::new(
+            gpu,
+            &ImageDesc {
+                alias: Some(vk::Format::R32_UINT),
+                ..ImageDesc::new(
+                    "water/depth",
+                    config.extent,
+                    vk::Format::R32_SFLOAT,
+                    vk::ImageUsageFlags::STORAGE
+                        | vk::ImageUsageFlags::SAMPLED
+                        | vk::ImageUsageFlags::COLOR_ATTACHMENT
+                        | vk::ImageUsageFlags::TRANSFER_SRC
+                        | vk::ImageUsageFlags::TRANSFER_DST,
+                )
+            },
+        )
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retire: &mut dyn FnMut(Retired),
+    ) -> Result<(), Error> {
+        let image = Self::image(gpu, config)?;
+        if let Path::Raster { pass, framebuffer, .. } = &mut self.path {
+            let new = gpu.framebuffer("water/depth", *pass, image.view, image.extent)?;
+            retire(Retired::Framebuffer(std::mem::replace(framebuffer, new)));
+        }
+        retire(Retired::Image(std::mem::replace(&mut self.image, image)));
+        Ok(())
+    }
+
+    /// Small sprites are drawn as points.
+    pub fn uses_points(&self) -> bool {
+        matches!(self.path, Path::Raster { .. })
+    }
+
+    /// Largest small sprite in pixels: what a point may be, or what one invocation should do.
+    pub fn point_limit(&self, gpu: &Gpu) -> f32 {
+        match self.path {
+            // The footprint's margin, and the snapping, on top.
+            Path::Raster { .. } => gpu.limits.point_size_range[1] - 1.0,
+            Path::Compute { .. } => 64.0,
+        }
+    }
+
+    pub fn record(&self, r: &mut Recording<'_>, cull: &Cull) -> Result<(), Error> {
+        let scope = r.begin(c"depth");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        match &self.path {
+            Path::Raster { points, quads, pass, framebuffer } => {
+                gpu.barriers(
+                    cmd,
+                    &[access::image(&self.image, BEFORE.discarded(), COLOR_ATTACHMENT)],
+                    &[],
+                );
+                let area = self.image.extent.into();
+                gpu.begin_pass(cmd, *pass, *framebuffer, area, [EMPTY, 0.0, 0.0, 0.0]);
+                draw_sprites(r, cull, points, quads)?;
+                // SAFETY: the pass was begun above.
+                unsafe { gpu.device.cmd_end_render_pass(cmd) };
+                gpu.barriers(
+                    cmd,
+                    &[access::image(&self.image, COLOR_ATTACHMENT, COMPUTE_READ_WRITE)],
+                    &[],
+                );
+            }
+            Path::Compute { small, large } => {
+                gpu.barriers(cmd, &[access::image(&self.image, BEFORE.discarded(), CLEAR)], &[]);
+                let value = vk::ClearColorValue { float32: [EMPTY, 0.0, 0.0, 0.0] };
+                let range = vk::ImageSubresourceRange {
+                    aspect_mask: vk::ImageAspectFlags::COLOR,
+                    level_count: 1,
+                    layer_count: 1,
+                    ..Default::default()
+                };
+                // SAFETY: the image is in TRANSFER_DST_OPTIMAL.
+                unsafe {
+                    gpu.device.cmd_clear_color_image(
+                        cmd,
+                        self.image.handle,
+                        vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                        &value,
+                        &[range],
+                    );
+                }
+                gpu.barriers(cmd, &[access::image(&self.image, CLEAR, COMPUTE_READ_WRITE)], &[]);
+                dispatch_sprites(
+                    r,
+                    cull,
+                    small,
+                    large,
+                    &[(3, Resource::Storage(self.image.alias_view))],
+                )?;
+                gpu.barriers(
+                    cmd,
+                    &[access::image(&self.image, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE)],
+                    &[],
+                );
+            }
+        }
+        r.end(scope);
+        Ok(())
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        match self.path {
+            Path::Raster { points, quads, pass, framebuffer } => {
+                points.destroy(gpu);
+                quads.destroy(gpu);
+                Retired::Framebuffer(framebuffer).destroy(gpu);
+                Retired::RenderPass(pass).destroy(gpu);
+            }
+            Path::Compute { small, large } => {
+                small.destroy(gpu);
+                large.destroy(gpu);
+            }
+        }
+        self.image.destroy(gpu);
+    }
+}
+
+/// The measured fastest: see docs/performance.md.
+pub fn default_splat(gpu: &Gpu) -> Splat {
+    if gpu.is_cpu() { Splat::Compute } else { Splat::Compute }
+}
+
+/// Draws all chunks' sprites inside a render pass: points, then quads.
+pub fn draw_sprites(
+    r: &mut Recording<'_>,
+    cull: &Cull,
+    points: &Pipeline,
+    quads: &Pipeline,
+) -> Result<(), Error> {
+    let (gpu, cmd) = (r.gpu, r.cmd);
+    for (pipeline, offset) in [(points, cull::POINTS), (quads, cull::QUADS)] {
+        for chunk in cull.chunks() {
+            r.descriptors.bind(
+                gpu,
+                cmd,
+                pipeline,
+                &[(0, r.uniforms), (1, chunk.visible), (2, r.scene_depth)],
+            )?;
+            pipeline.push(gpu, cmd, &chunk.capacity);
+            // SAFETY: inside a render pass; the arguments are visible since `cull`.
+            unsafe {
+                gpu.device.cmd_draw_indirect(
+                    cmd,
+                    cull.counts.handle,
+                    chunk.arguments + offset,
+                    1,
+                    16,
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Dispatches all chunks' sprites: small ones an invocation each, large ones a group each.
+pub fn dispatch_sprites(
+    r: &mut Recording<'_>,
+    cull: &Cull,
+    small: &Pipeline,
+    large: &Pipeline,
+    more: &[(u32, Resource)],
+) -> Result<(), Error> {
+    let (gpu, cmd) = (r.gpu, r.cmd);
+    for (pipeline, offset) in [(small, cull::SMALL_GROUPS), (large, cull::LARGE_GROUPS)] {
+        for chunk in cull.chunks() {
+            let mut resources = vec![(0, r.uniforms), (1, chunk.counts), (2, chunk.visible)];
+            resources.extend_from_slice(more);
+            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            pipeline.push(gpu, cmd, &chunk.capacity);
+            // SAFETY: outside a render pass; the arguments are visible since `cull`.
+            unsafe {
+                gpu.device.cmd_dispatch_indirect(cmd, cull.counts.handle, chunk.arguments + offset);
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,158 @@
+//! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green,
+//! Sainz, I3D 2009). A pass a file; [`record`](Water::record) lists them in order.
+
+mod cull;
+mod depth;
+mod reduce;
+pub mod settings;
+mod smooth;
+mod thickness;
+mod tiles;
+
+use ash::vk;
+
+use crate::contract::{Config, Layer, MemoryUse, Particles};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::Access;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::image::Image;
+use crate::gpu::retire::Retired;
+use crate::gpu::timing::{Scope, Timer};
+
+pub use settings::{Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
+
+/// What every pass records with.
+pub(crate) struct Recording<'a> {
+    pub gpu: &'a Gpu,
+    pub cmd: vk::CommandBuffer,
+    pub descriptors: &'a Descriptors,
+    pub timer: &'a mut Timer,
+    /// The frame's uniform block.
+    pub uniforms: Resource,
+    /// The scene's depth, sampled.
+    pub scene_depth: Resource,
+}
+
+impl Recording<'_> {
+    pub fn begin(&mut self, stem: &'static std::ffi::CStr) -> Scope {
+        self.timer.begin(self.gpu, self.cmd, stem)
+    }
+
+    pub fn end(&mut self, scope: Scope) {
+        self.timer.end(self.gpu, self.cmd, scope);
+    }
+
+    /// Dispatches groups that cover an image by `local_size`.
+    pub fn dispatch_over(&self, extent: vk::Extent2D, local_size: [u32; 3]) {
+        let groups = [extent.width.div_ceil(local_size[0]), extent.height.div_ceil(local_size[1])];
+        // SAFETY: cmd is recording outside a render pass with a compute pipeline and its set bound.
+        unsafe { self.gpu.device.cmd_dispatch(self.cmd, groups[0], groups[1], 1) };
+    }
+}
+
+/// The images that `composite` reads, with the tiles that it draws.
+pub(crate) struct WaterLayers<'a> {
+    pub smoothed: &'a Image,
+    pub depth: &'a Image,
+    pub thickness: &'a Image,
+    pub tiles: &'a tiles::Tiles,
+}
+
+/// The technique: its passes in the order of the frame.
+pub(crate) struct Water {
+    cull: cull::Cull,
+    depth: depth::Depth,
+    reduce: reduce::Reduce,
+    tiles: tiles::Tiles,
+    smooth: smooth::Smooth,
+    thickness: thickness::Thickness,
+}
+
+impl Water {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        Ok(Self {
+            cull: cull::Cull::new(gpu, config)?,
+            depth: depth::Depth::new(gpu, config)?,
+            reduce: reduce::Reduce::new(gpu, config)?,
+            tiles: tiles::Tiles::new(gpu, config)?,
+            smooth: smooth::Smooth::new(gpu, config)?,
+            thickness: thickness::Thickness::new(gpu, config)?,
+        })
+    }
+
+    /// Replaces what depends on the extent.
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retire: &mut dyn FnMut(Retired),
+    ) -> Result<(), Error> {
+        self.depth.resize(gpu, config, retire)?;
+        self.reduce.resize(gpu, config, retire)?;
+        self.tiles.resize(gpu, config, retire)?;
+        self.smooth.resize(gpu, config, retire)?;
+        self.thickness.resize(gpu, config, retire)
+    }
+
+    /// The passes of a frame.
+    pub fn record(&self, r: &mut Recording<'_>, particles: &Particles) -> Result<(), Error> {
+        self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
+        self.depth.record(r, &self.cull)?;
+        self.reduce.record(r, &self.depth.image, &self.smooth, &self.tiles)?;
+        self.tiles.record(r)?;
+        self.smooth.record(r, &self.reduce, &self.tiles)?;
+        self.thickness.record(r, &self.cull)
+    }
+
+    /// What `composite` reads.
+    pub fn layers(&self) -> WaterLayers<'_> {
+        WaterLayers {
+            smoothed: &self.smooth.a,
+            depth: &self.depth.image,
+            thickness: &self.thickness.image,
+            tiles: &self.tiles,
+        }
+    }
+
+    /// The layers for the host, in the state `composite` left them in.
+    pub fn kept(&self, access: Access) -> Vec<Layer> {
+        let layer = |name, image: &Image, access| Layer {
+            name,
+            image: image.handle,
+            view: image.view,
+            format: image.format,
+            extent: image.extent,
+            access,
+        };
+        vec![
+            layer("water.depth", &self.depth.image, access),
+            layer("water.surface", &self.smooth.a, access),
+            layer("water.iterations", &self.reduce.plan, reduce::PLAN_AFTER),
+            layer("water.thickness.front", &self.thickness.image, access),
+        ]
+    }
+
+    pub fn memory(&self) -> MemoryUse {
+        let images = [
+            &self.depth.image,
+            &self.smooth.a,
+            &self.smooth.b,
+            &self.reduce.plan,
+            &self.thickness.image,
+        ];
+        MemoryUse {
+            images: images.iter().map(|image| image.size).sum(),
+            buffers: self.cull.memory() + self.tiles.memory() + self.thickness.memory(),
+        }
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        self.cull.destroy(gpu);
+        self.depth.destroy(gpu);
+        self.reduce.destroy(gpu);
+        self.tiles.destroy(gpu);
+        self.smooth.destroy(gpu);
+        self.thickness.destroy(gpu);
+    }
+}

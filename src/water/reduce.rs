@@ -1,0 +1,132 @@
+//! Pass `reduce`: hides what lies behind the scene, reduces the depth to the resolution of the
+//! smoothing (nearest of each block, as the source's downsampling, thesis Sec. 4.7) and plans each
+//! pixel's iterations and step from the depth before any smoothing.
+//!
+//! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
+//! plan, each tile's work.
+
+use ash::vk;
+
+use super::Recording;
+use super::smooth::Smooth;
+use super::tiles::Tiles;
+use crate::contract::Config;
+use crate::error::Error;
+use crate::frame::reduced;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+    FRAGMENT_SAMPLED, buffer,
+};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::Retired;
+use crate::gpu::shader;
+use crate::water::settings::Rule;
+
+/// The plan after a frame: read by every form of the smoothing.
+pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+
+/// The pass.
+pub struct Reduce {
+    pipeline: Pipeline,
+    /// Iterations (9 bits) and step (23 bits) of each reduced pixel.
+    pub plan: Image,
+}
+
+/// Number of a rule in the shaders.
+pub fn rule_constant(rule: Rule) -> u32 {
+    match rule {
+        Rule::Source => 0,
+        Rule::ConstantWidth => 1,
+        Rule::Fixed(_) => 2,
+    }
+}
+
+impl Reduce {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let constants = [(0, config.smoothing_level), (1, rule_constant(config.rule))];
+        Ok(Self {
+            pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
+            plan: Self::plan(gpu, config)?,
+        })
+    }
+
+    fn plan(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
+        Image::new(
+            gpu,
+            &ImageDesc::new(
+                "water/reduce/plan",
+                reduced(config.extent, config.smoothing_level),
+                vk::Format::R32_UINT,
+                vk::ImageUsageFlags::STORAGE
+                    | vk::ImageUsageFlags::SAMPLED
+                    | vk::ImageUsageFlags::TRANSFER_SRC,
+            ),
+        )
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retire: &mut dyn FnMut(Retired),
+    ) -> Result<(), Error> {
+        let plan = Self::plan(gpu, config)?;
+        retire(Retired::Image(std::mem::replace(&mut self.plan, plan)));
+        Ok(())
+    }
+
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        depth: &Image,
+        smooth: &Smooth,
+        tiles: &Tiles,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"reduce");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let smooth_before = super::smooth::BEFORE.discarded();
+        let plan_before = PLAN_AFTER.and(COPY_READ).discarded();
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(&smooth.a, smooth_before, COMPUTE_WRITE),
+                access::image(&smooth.b, smooth_before, COMPUTE_WRITE),
+                access::image(&self.plan, plan_before, COMPUTE_WRITE),
+            ],
+            &[buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE)],
+        );
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.pipeline,
+            &[
+                (0, r.uniforms),
+                (1, Resource::storage(depth)),
+                (2, r.scene_depth),
+                (3, Resource::storage(&smooth.a)),
+                (4, Resource::storage(&smooth.b)),
+                (5, Resource::storage(&self.plan)),
+                (6, Resource::buffer(&tiles.work)),
+            ],
+        )?;
+        r.dispatch_over(self.plan.extent, self.pipeline.local_size);
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(depth, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
+                access::image(&self.plan, COMPUTE_WRITE, PLAN_AFTER),
+            ],
+            &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ)],
+        );
+        r.end(scope);
+        Ok(())
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        self.pipeline.destroy(gpu);
+        self.plan.destroy(gpu);
+    }
+}

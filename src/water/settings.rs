@@ -1,0 +1,160 @@
+//! Settings of the layered water. Lengths scale with the particles: the look does not change with
+//! resolution or unit.
+
+/// Drawn radius over particle spacing, as in the source's demo.
+pub const RADIUS_PER_SPACING: f32 = 0.656;
+
+/// How particles become pixels. Both ways give the same picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Splat {
+    /// Point sprites (quads where a point does not fit) with fixed-function blending.
+    Raster,
+    /// A compute shader with atomics.
+    Compute,
+}
+
+/// How many iterations a pixel of the smoothing gets, and how large its steps are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rule {
+    /// The source's: r_w / (C d) iterations of curvature-proportional steps (thesis, Sec. 3.1).
+    Source,
+    /// Mean curvature flow to a constant width along the surface, whatever distance and slant.
+    ConstantWidth,
+    /// The baseline: the source's step, a fixed count for all pixels (van der Laan et al. 2009).
+    Fixed(u32),
+}
+
+/// Form of the smoothing. All give the same surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Smoothing {
+    /// Raster passes; an occlusion query every fifth iteration stops the rest on the GPU.
+    Query(Gate),
+    /// A dispatch an iteration, over the tiles that still have active pixels.
+    Tiles,
+    /// Several iterations a dispatch in shared memory, over the tiles that have active pixels.
+    Fused,
+}
+
+/// What stops the iterations after the query said so. No gate waits for the host.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Gate {
+    /// An indirect draw count (`drawIndirectCount`).
+    DrawCount,
+    /// Conditional rendering (`VK_EXT_conditional_rendering`).
+    Predicate,
+    /// The vertex shader moves the tiles off the screen; needs nothing.
+    VertexCull,
+}
+
+/// Uniform settings of the layered water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaterSettings {
+    /// Rest spacing of the particles (twice the solver's particle radius), scene units, (0, ∞).
+    pub spacing: f32,
+    /// Rest density in the unit of the density stream, (0, ∞), default 1000.
+    pub rest_density: f32,
+    /// Below this fraction of the rest density a particle is spray: left out here. [0, ∞), default
+    /// 0.35 (an isolated particle reads 0.318 with the usual cubic spline).
+    pub density_threshold: f32,
+    /// From this fraction on a particle has its full radius. Default 0.45.
+    pub density_full: f32,
+    /// Width of the smoothing along the surface in drawn radii, [0, ∞), default 1.5: at 0.7 the
+    /// lattice of the particles shows, 2.5 is silk. (`ConstantWidth`; `Source` has its own 4.8.)
+    pub smoothing_width: f32,
+    /// Depth steps over this many drawn radii are silhouettes, not smoothed over. Default 5.3.
+    pub depth_falloff: f32,
+    /// Optical properties.
+    pub medium: Medium,
+    /// Fresnel reflectance.
+    pub fresnel: Fresnel,
+    /// Strength of the refraction's displacement, [0, ∞), default 0.25.
+    pub refraction: f32,
+    /// Strength of the sun's highlight, [0, ∞), default 1.
+    pub specular: f32,
+    /// Blinn-Phong exponent of the highlight, [1, ∞), default 400.
+    pub shininess: f32,
+}
+
+impl Default for WaterSettings {
+    fn default() -> Self {
+        Self {
+            spacing: 0.05,
+            rest_density: 1000.0,
+            density_threshold: 0.35,
+            density_full: 0.45,
+            smoothing_width: 1.5,
+            depth_falloff: 5.3,
+            medium: Medium::POOL,
+            fresnel: Fresnel::Schlick { f0: 0.02 },
+            refraction: 0.25,
+            specular: 1.0,
+            shininess: 400.0,
+        }
+    }
+}
+
+impl WaterSettings {
+    /// Drawn radius of a particle, scene units.
+    pub fn radius(&self) -> f32 {
+        RADIUS_PER_SPACING * self.spacing
+    }
+}
+
+/// How light is lost and gained on its way through the water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Medium {
+    /// Beer's law per channel, with single scattering of the ambient light.
+    Physical {
+        /// Absorption per metre, linear RGB, [0, ∞).
+        absorption: [f32; 3],
+        /// Scattering per metre, linear RGB, [0, ∞).
+        scattering: [f32; 3],
+    },
+    /// The source's: `mix(base·exp(−k T), background, exp(−k_a T))` (thesis, Eq. 3.5 to 3.7).
+    Source {
+        /// Colour of thin water, linear RGB, [0, 1].
+        base: [f32; 3],
+        /// Falloff per metre of colour (RGB) and background (A), [0, ∞).
+        falloff: [f32; 4],
+    },
+}
+
+impl Medium {
+    /// Pure water.
+    pub const CLEAR: Self =
+        Self::Physical { absorption: [0.35, 0.065, 0.03], scattering: [0.003, 0.006, 0.01] };
+    /// A pool: a few times denser than pure water, so that a metre of it is visibly blue-green.
+    pub const POOL: Self =
+        Self::Physical { absorption: [1.9, 0.42, 0.2], scattering: [0.05, 0.1, 0.13] };
+    /// Coastal ocean.
+    pub const OCEAN: Self =
+        Self::Physical { absorption: [2.4, 0.75, 0.55], scattering: [0.12, 0.3, 0.34] };
+    /// Milk, thinned.
+    pub const MILK: Self =
+        Self::Physical { absorption: [0.05, 0.1, 0.25], scattering: [28.0, 27.0, 25.0] };
+
+    /// The source's demo for particles of this spacing.
+    pub fn source(spacing: f32) -> Self {
+        let k = 0.138 / spacing;
+        Self::Source { base: [0.306, 0.545, 0.957], falloff: [0.784 * k, 0.784 * k, 0.588 * k, k] }
+    }
+}
+
+/// Share of light that the surface reflects, from the cosine between normal and view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fresnel {
+    /// Schlick's approximation; water has f0 = 0.02.
+    Schlick {
+        /// Reflectance at normal incidence, [0, 1].
+        f0: f32,
+    },
+    /// The source's `bias + scale·(1 − n·v)^power` (thesis, Listing A.19 with its sign mended).
+    Source {
+        /// Default 0.1.
+        bias: f32,
+        /// Default 0.4.
+        scale: f32,
+        /// Default 2.
+        power: f32,
+    },
+}

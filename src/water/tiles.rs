@@ -1,0 +1,148 @@
+//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels) that hold water, sorted by their
+//! iterations, and the arguments of every draw and dispatch over them.
+//!
+//! Not in the source, which runs full-screen quads: with the iterations planned, the tiles that
+//! still work in iteration i are a prefix of the list, so that one counting sort writes all gates.
+//! Reads: each tile's work. Writes: list, arguments.
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+use gpu_allocator::MemoryLocation;
+
+use super::Recording;
+use crate::contract::Config;
+use crate::error::Error;
+use crate::frame::reduced;
+use crate::gpu::Gpu;
+use crate::gpu::access::{COMPUTE_READ, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::Retired;
+use crate::gpu::shader;
+
+/// Edge of a tile in reduced pixels.
+pub const TILE: u32 = 16;
+/// Workgroups of a dispatch over tiles; more tiles share them.
+const MOST_GROUPS: u32 = 65_535;
+/// Arguments: the draw of all tiles, then 257 dispatches of 16 bytes.
+const ARGUMENTS: u64 = 16 * 258;
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Push {
+    tiles: u32,
+    most_groups: u32,
+}
+
+/// The pass.
+pub struct Tiles {
+    pipeline: Pipeline,
+    /// Most iterations + 1 of each tile, row by row; 0 without water.
+    pub work: Buffer,
+    /// Indices of tiles with water, most work first.
+    pub list: Buffer,
+    /// `[0]` a draw of all of them (strip of four, one instance each); `[i]` the dispatch of
+    /// iteration i, with the number of tiles in its fourth word.
+    pub arguments: Buffer,
+    /// Tiles a row.
+    pub columns: u32,
+    count: u32,
+}
+
+impl Tiles {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let (columns, count) = grid(config);
+        let (work, list) = Self::sized(gpu, count)?;
+        Ok(Self {
+            pipeline: Pipeline::compute(gpu, shader::WATER_TILES_COMP, &[])?,
+            work,
+            list,
+            arguments: Buffer::new(
+                gpu,
+                "water/tiles/arguments",
+                ARGUMENTS,
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER,
+                MemoryLocation::GpuOnly,
+            )?,
+            columns,
+            count,
+        })
+    }
+
+    fn sized(gpu: &Gpu, count: u32) -> Result<(Buffer, Buffer), Error> {
+        let make = |name| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            Buffer::new(gpu, name, 4 * u64::from(count), usage, MemoryLocation::GpuOnly)
+        };
+        Ok((make("water/tiles/work")?, make("water/tiles/list")?))
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retire: &mut dyn FnMut(Retired),
+    ) -> Result<(), Error> {
+        let (columns, count) = grid(config);
+        let (work, list) = Self::sized(gpu, count)?;
+        retire(Retired::Buffer(std::mem::replace(&mut self.work, work)));
+        retire(Retired::Buffer(std::mem::replace(&mut self.list, list)));
+        (self.columns, self.count) = (columns, count);
+        Ok(())
+    }
+
+    pub fn record(&self, r: &mut Recording<'_>) -> Result<(), Error> {
+        let scope = r.begin(c"tiles");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let readers = COMPUTE_READ.and(VERTEX_READ);
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(self.list.handle, readers, COMPUTE_WRITE),
+                buffer(self.arguments.handle, COMPUTE_READ.and(INDIRECT), COMPUTE_WRITE),
+            ],
+        );
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.pipeline,
+            &[
+                (1, Resource::buffer(&self.work)),
+                (2, Resource::buffer(&self.list)),
+                (3, Resource::buffer(&self.arguments)),
+            ],
+        )?;
+        self.pipeline.push(gpu, cmd, &Push { tiles: self.count, most_groups: MOST_GROUPS });
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, 1, 1, 1) };
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(self.list.handle, COMPUTE_WRITE, readers),
+                buffer(self.arguments.handle, COMPUTE_WRITE, COMPUTE_READ.and(INDIRECT)),
+            ],
+        );
+        r.end(scope);
+        Ok(())
+    }
+
+    pub fn memory(&self) -> u64 {
+        self.work.size + self.list.size + self.arguments.size
+    }
+
+    pub fn destroy(self, gpu: &Gpu) {
+        self.pipeline.destroy(gpu);
+        self.work.destroy(gpu);
+        self.list.destroy(gpu);
+        self.arguments.destroy(gpu);
+    }
+}
+
+fn grid(config: &Config) -> (u32, u32) {
+    let extent = reduced(config.extent, config.smoothing_level);
+    let columns = extent.width.div_ceil(TILE);
+    (columns, columns * extent.height.div_ceil(TILE))
+}

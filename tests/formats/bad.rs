@@ -1,0 +1,372 @@
+//! Bad input: an error that says what is wrong, never a panic, never memory for a header that lies.
+
+use std::path::Path;
+
+use super::samples::{self, Has};
+use super::{allocation, samples::npy};
+use whitewater::io::particles::{
+    Compression, Extension, Particles, ReadError, Storage, read, read_bytes,
+};
+
+const HINTS: [Extension; 13] = [
+    Extension::Bgeo,
+    Extension::Geo,
+    Extension::Sc,
+    Extension::Vtk,
+    Extension::Vtu,
+    Extension::Vtp,
+    Extension::Ply,
+    Extension::Npy,
+    Extension::Npz,
+    Extension::Csv,
+    Extension::Xyz,
+    Extension::Json,
+    Extension::Unknown,
+];
+
+/// The error of bytes that must not be read; its words must have each of `parts` in them.
+fn refused(bytes: &[u8], hint: Extension, parts: &[&str]) -> ReadError {
+    match read_bytes(bytes, hint) {
+        Ok(p) => panic!(
+            "{} particles read from {:?}",
+            p.positions.len(),
+            bytes.escape_ascii().to_string()
+        ),
+        Err(e) => {
+            for part in parts {
+                assert!(e.to_string().contains(part), "`{part}` is not in: {e}");
+            }
+            e
+        }
+    }
+}
+
+/// Reads and checks what holds for all results, and that memory stays in proportion to the input.
+fn read_checked(name: &str, bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
+    let (result, peak) = allocation::peak(|| read_bytes(bytes, hint));
+    // The dictionary of LZMA is set aside whole: 66 MiB at most.
+    let fixed = if name.contains("lzma") { 68 << 20 } else { 1 << 20 };
+    // Compressed samples are a few kB at most: 300 is what LZ4 and JSON come to.
+    let limit = fixed + 300 * bytes.len();
+    assert!(peak <= limit, "{name}: {peak} bytes held for {} of input", bytes.len());
+    if let Ok(p) = &result {
+        let n = p.positions.len();
+        let lengths = [
+            p.velocities.as_ref().map(Vec::len),
+            p.densities.as_ref().map(Vec::len),
+            p.ids.as_ref().map(Vec::len),
+            p.lifetimes.as_ref().map(Vec::len),
+            p.kinds.as_ref().map(Vec::len),
+        ];
+        assert!(lengths.iter().flatten().all(|l| *l == n), "{name}: {lengths:?} for {n}");
+    }
+    if let Err(e) = &result {
+        assert!(e.to_string().len() < 3000, "{name}: {e}");
+    }
+    result
+}
+
+#[test]
+fn no_bytes() {
+    for hint in HINTS {
+        assert!(matches!(refused(b"", hint, &["empty"]), ReadError::Empty));
+    }
+    let empty = samples::gzip(b"");
+    assert!(matches!(refused(&empty, Extension::Bgeo, &[]), ReadError::Empty));
+}
+
+#[test]
+fn missing_file_and_directory() {
+    let missing = read(Path::new("/no/such/folder/frame_1.bgeo")).unwrap_err();
+    assert!(matches!(missing, ReadError::Io { .. }));
+    assert!(missing.to_string().contains("frame_1.bgeo"));
+    let folder = read(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_err();
+    assert!(matches!(folder, ReadError::Directory { .. }));
+    assert!(folder.to_string().contains("*.bgeo"));
+}
+
+#[test]
+fn unknown_extension() {
+    let error = refused(
+        b"1 2 3\n",
+        Extension::from_path(Path::new("a.abc")),
+        &["unknown extension", "1 2 3"],
+    );
+    assert!(matches!(error, ReadError::UnknownFormat { .. }));
+    // A name that does not fit is no excuse to guess either.
+    refused(b"1 2 3\n", Extension::Ply, &["Ply"]);
+    refused(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], Extension::Unknown, &[]);
+}
+
+#[test]
+fn known_formats_that_are_not_read_say_what_to_do() {
+    refused(b"\x7fNSJb\0\0\0", Extension::Bgeo, &["Houdini", "classic BGEO"]);
+    refused(b"scf1\0\0\0\0", Extension::Sc, &["Blosc", "classic BGEO"]);
+    refused(b"[\"fileversion\",\"18.5\"]", Extension::Geo, &["Houdini", "classic BGEO"]);
+    refused(
+        b"<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid/></VTKFile>",
+        Extension::Vtu,
+        &["names other files"],
+    );
+    refused(
+        b"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\n",
+        Extension::Vtk,
+        &["STRUCTURED_POINTS", "POLYDATA"],
+    );
+    refused(&npy("<f2", "(1, 3)", false, 1, &[0; 6]), Extension::Npy, &["<f2", "astype"]);
+}
+
+#[test]
+fn wrong_counts() {
+    // More points than bytes, and the most that the header can say.
+    for (at, value) in [(9, 12_i32), (9, i32::MAX), (9, -1), (25, 1000), (25, i32::MAX)] {
+        let mut bytes = samples::bgeo();
+        bytes[at..at + 4].copy_from_slice(&value.to_be_bytes());
+        assert!(read_checked("bgeo", &bytes, Extension::Bgeo).is_err(), "{at} {value}");
+    }
+    let swap = |bytes: Vec<u8>, from: &str, to: &str| {
+        let at = bytes
+            .windows(from.len())
+            .position(|w| w == from.as_bytes())
+            .unwrap_or_else(|| panic!("no {from}"));
+        [&bytes[..at], to.as_bytes(), &bytes[at + from.len()..]].concat()
+    };
+    let huge = "18446744073709551615";
+    for binary in [false, true] {
+        for (from, to) in [
+            ("POINTS 11", format!("POINTS {huge}")),
+            ("CELLS 12 11", format!("CELLS {huge} {huge}")),
+            ("density 1 11", format!("density 1 {huge}")),
+            ("FieldData 3", format!("FieldData {huge}")),
+            ("density 1 11", "density 3 11".into()),
+            ("density 1 11", "density 1 10".into()),
+            ("POINT_DATA 11", "POINT_DATA 10".into()),
+        ] {
+            let bytes = swap(samples::vtk("5.1", binary, false, false), from, &to);
+            // In a text the values that are left over are found as an unknown section: a warning or an error.
+            let result = read_checked("vtk", &bytes, Extension::Vtk);
+            assert!(result.is_err(), "{binary} {from} {to}");
+        }
+    }
+    for storage in
+        [Storage::Ascii, Storage::InlineBase64, Storage::AppendedBase64, Storage::AppendedRaw]
+    {
+        for compression in [Compression::None, Compression::Zlib, Compression::Lz4] {
+            let xml = samples::Xml {
+                vtp: false,
+                storage,
+                compression,
+                big: false,
+                wide: false,
+                pieces: false,
+                double: false,
+            };
+            for points in ["10", "12", huge, "-1", "many"] {
+                let bytes = swap(
+                    xml.bytes(),
+                    "NumberOfPoints=\"11\"",
+                    &format!("NumberOfPoints=\"{points}\""),
+                );
+                assert!(
+                    read_checked("vtu", &bytes, Extension::Vtu).is_err(),
+                    "{storage:?} {compression:?} {points}"
+                );
+            }
+        }
+    }
+    for format in ["ascii", "binary_little_endian"] {
+        for count in ["12", huge, "-1"] {
+            let bytes =
+                swap(samples::ply(format, false, false), "vertex 11", &format!("vertex {count}"));
+            assert!(read_checked("ply", &bytes, Extension::Ply).is_err(), "{format} {count}");
+        }
+    }
+    for shape in
+        ["(12, 3)", "(18446744073709551615, 3)", "(11, 4)", "(33,)", "(4294967296, 4294967296, 3)"]
+    {
+        let bytes = npy("<f4", shape, false, 1, &[0; 132]);
+        assert!(read_checked("npy", &bytes, Extension::Npy).is_err(), "{shape}");
+    }
+    let raw = samples::floats(samples::positions().as_flattened(), 4, false);
+    refused(&raw[..raw.len() - 1], Extension::Xyz, &["12 bytes", "byte 120"]);
+    refused(b"3\n0 0 0\n1 1 1\n", Extension::Xyz, &["expected 3", "found 2"]);
+}
+
+#[test]
+fn lengths_that_differ_name_the_attribute() {
+    let json = b"{\"position\": [[0,0,0],[1,1,1]], \"density\": [1000]}";
+    let error = refused(json, Extension::Json, &["density", "expected 2", "found 1"]);
+    assert!(matches!(error, ReadError::Length { .. }));
+    let arrays = [
+        ("position", npy("<f4", "(2, 3)", false, 1, &[0; 24])),
+        ("velocity", npy("<f4", "(1, 3)", false, 1, &[0; 12])),
+    ];
+    refused(&samples::npz(&arrays, true), Extension::Npz, &["velocity", "expected 6", "found 3"]);
+}
+
+#[test]
+fn places_are_told() {
+    refused(b"x,y,z\n0,0,0\n0,zero,0\n", Extension::Csv, &["line 3", "zero", "`y`"]);
+    refused(b"x,y,z\n0,0,0\n0,0\n", Extension::Csv, &["line 3", "3 fields"]);
+    refused(b"0 0 0\n0 0\n", Extension::Xyz, &["line 2"]);
+    refused(b"[[0,0,0],\n[0,0]]", Extension::Json, &["3 numbers", "found 2"]);
+    refused(b"[[0,0,0],\n[0,0,]]", Extension::Json, &["line 2"]);
+    refused(
+        b"a,b\n1,2\n",
+        Extension::Csv,
+        &["expected positions", "a: 1 x number", "b: 1 x number"],
+    );
+    refused(
+        b"ply\nformat ascii 1.0\nelement vertex one\n",
+        Extension::Ply,
+        &["line 3", "vertex one"],
+    );
+    let mut bytes = samples::bgeo();
+    bytes.truncate(200);
+    refused(&bytes, Extension::Bgeo, &["the points", "at byte 154", "528", "46 are there"]);
+}
+
+#[test]
+fn an_unknown_vtk_section_ends_the_reading_with_a_warning() {
+    let mut bytes = samples::vtk("4.2", true, false, false);
+    bytes.extend(b"HYPERDATA h 3\n\x00\x01\x02");
+    let p = read_bytes(&bytes, Extension::Vtk).unwrap();
+    samples::check("vtk", &p, Has::All);
+    let place = format!("at byte {}", bytes.len() - 17);
+    assert!(
+        p.warnings[0].contains("HYPERDATA") && p.warnings[0].contains(&place),
+        "{:?}",
+        p.warnings
+    );
+}
+
+#[test]
+fn nan_and_infinity_are_kept_and_counted() {
+    let text = "x y z\n0 0 0\nnan 0 0\n0 -inf 0\n1 1 1e300\n-1.#IND 0 0\n";
+    let p = read_bytes(text.as_bytes(), Extension::Xyz).unwrap();
+    assert_eq!(p.positions.len(), 5);
+    assert_eq!(whitewater::io::particles::count_non_finite(&p.positions), 4);
+    assert!(p.warnings.iter().any(|w| w.contains("4 of 5")), "{:?}", p.warnings);
+    let clean = read_bytes(b"0 0 0\n1 1 1\n", Extension::Xyz).unwrap();
+    assert!(clean.warnings.is_empty(), "{:?}", clean.warnings);
+}
+
+#[test]
+fn ids_that_do_not_fit_are_dropped() {
+    for id in ["-1", "4294967296", "0.5", "1e30", "nan"] {
+        let text = format!("x,y,z,id\n0,0,0,1\n1,1,1,{id}\n");
+        let p = read_bytes(text.as_bytes(), Extension::Csv).unwrap();
+        assert_eq!(p.ids, None, "{id}");
+        assert!(p.warnings.iter().any(|w| w.contains("`id`")), "{id}: {:?}", p.warnings);
+    }
+    let arrays = [
+        ("x", npy("<f4", "(1, 3)", false, 1, &[0; 12])),
+        ("id", npy("<u8", "(1,)", false, 1, &[0xff; 8])),
+    ];
+    let p = read_bytes(&samples::npz(&arrays, false), Extension::Npz).unwrap();
+    assert_eq!(p.ids, None);
+    let p = read_bytes(b"x,y,z,id\n0,0,0,4294967295\n", Extension::Csv).unwrap();
+    assert_eq!(p.ids, Some(vec![u32::MAX]));
+}
+
+#[test]
+fn far_from_the_origin_is_warned_of() {
+    let row = |offset: f64| format!("{} 0 0\n{} 0 1\n", offset, offset + 1.0);
+    let far = read_bytes(row(1e5).as_bytes(), Extension::Xyz).unwrap();
+    assert!(far.warnings.iter().any(|w| w.contains("origin")), "{:?}", far.warnings);
+    let near = read_bytes(row(1e3).as_bytes(), Extension::Xyz).unwrap();
+    assert!(near.warnings.is_empty(), "{:?}", near.warnings);
+}
+
+#[test]
+fn what_unpacks_without_end_is_refused() {
+    let bomb = samples::gzip(&vec![b'0'; 40 << 20]);
+    let (result, peak) = allocation::peak(|| read_bytes(&bomb, Extension::Xyz));
+    assert!(matches!(result, Err(ReadError::TooLarge { .. })), "{result:?}");
+    assert!(peak < 64 << 20, "{peak}");
+}
+
+#[test]
+fn pieces_that_share_data_are_bounded() {
+    // A thousand pieces point to the same packed array of a hundred thousand points.
+    use std::io::Write;
+    let raw = vec![0_u8; 1_200_000];
+    let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+    packed.write_all(&raw).unwrap();
+    let packed = packed.finish().unwrap();
+    let piece = "<Piece NumberOfPoints=\"100000\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points></Piece>";
+    let mut bytes = format!(
+        "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData>{}</PolyData><AppendedData encoding=\"raw\">_",
+        piece.repeat(1000)
+    )
+    .into_bytes();
+    bytes.extend(samples::ints(&[1, 1_200_000, 0, packed.len() as u32], 4, false));
+    bytes.extend(packed);
+    let (result, peak) = allocation::peak(|| read_bytes(&bytes, Extension::Vtp));
+    assert!(matches!(result, Err(ReadError::TooLarge { .. })));
+    assert!(peak < 128 << 20, "{peak}");
+}
+
+/// Every file cut off at every length up to some hundred, and at many beyond.
+#[test]
+fn cut_off_files() {
+    for s in samples::all() {
+        // The rest of a sequence of encodings differ little in their beginning.
+        let step = (s.bytes.len() / 40).max(1);
+        for length in (0..s.bytes.len()).step_by(step) {
+            let result = read_checked(&s.name, &s.bytes[..length], s.hint);
+            // A binary file that lacks half of itself cannot be read.
+            let binary = !s.bytes.is_ascii() && s.has == Has::All;
+            if binary && length < s.bytes.len() / 2 && !s.name.contains("bgeo") {
+                assert!(result.is_err() || s.name.starts_with("vtk"), "{} at {length}", s.name);
+            }
+        }
+    }
+}
+
+/// Seeded flips, cuts, doubled and removed parts over every sample. No seed of the clock: a failure repeats.
+#[test]
+fn mutations() {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = move |n: usize| {
+        // xorshift64*
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        (state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % n.max(1)
+    };
+    let (mut cases, mut read) = (0, 0);
+    for s in samples::all() {
+        for _ in 0..16 {
+            let mut bytes = s.bytes.clone();
+            for _ in 0..1 + next(4) {
+                let (a, b) = (next(bytes.len()), next(bytes.len()));
+                match next(8) {
+                    0 => bytes.truncate(a),
+                    1 => drop(bytes.drain(a.min(b)..a.max(b))),
+                    2 => {
+                        let part = bytes[a.min(b)..a.max(b)].to_vec();
+                        bytes.splice(a..a, part);
+                    }
+                    3 if a < bytes.len() => bytes[a] = [0, 0xff, 0x7f, b'9', b'-'][next(5)],
+                    // Digits make counts that lie.
+                    4 => {
+                        if let Some(i) = bytes.iter().skip(a).position(u8::is_ascii_digit) {
+                            bytes.splice(
+                                a + i..=a + i,
+                                b"999999999999".iter().copied().take(1 + next(12)),
+                            );
+                        }
+                    }
+                    _ if a < bytes.len() => bytes[a] ^= 1 << next(8),
+                    _ => {}
+                }
+            }
+            let hint = if next(8) == 0 { HINTS[next(HINTS.len())] } else { s.hint };
+            cases += 1;
+            read += usize::from(read_checked(&s.name, &bytes, hint).is_ok());
+        }
+    }
+    println!("{cases} damaged files, {read} of them read");
+    assert!(cases > 5000 && read > 0 && read < cases / 2, "{read} of {cases}");
+}
