@@ -85,7 +85,9 @@ void main() {
     float away = length(position);
     vec3 v = -position / away;
     float path = t * away / surface.z;
-    vec2 offset = n.xy * sign(frame.projection.xy) * t * frame.surface.x / (frame.texel.xy * surface.z);
+    // Light bends towards the water's normal: the look-up moves against it (the source has it the
+    // other way, which shows things smaller under a bump).
+    vec2 offset = -n.xy * sign(frame.projection.xy) * t * frame.surface.x / (frame.texel.xy * surface.z);
     vec3 c = through_medium(refracted(gl_FragCoord.xy, offset, surface.z), path);
 
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.

@@ -1,5 +1,4 @@
-// One step of curvature flow at a pixel (thesis Sec. 2.5.3, Eqs. 2.10-2.16 with their misprints
-// mended; van der Laan et al. 2009). z is the eye depth, c = (C_x, C_y) of this image.
+// One step of curvature flow at a pixel. z is the eye depth.
 // `precise`: raster and compute forms must agree bit for bit.
 
 struct Stencil {
@@ -8,54 +7,68 @@ struct Stencil {
     vec4 corner;      // left-up, right-up, left-down, right-down
 };
 
-// No smoothing across silhouettes: an axis with a one-sided difference over the falloff has no
-// derivatives at all.
-bool cut(float a, float b, float z, float falloff) {
-    return abs(a - z) > falloff || abs(b - z) > falloff;
+struct Derivatives {
+    float x, y, xx, yy, xy;
+};
+
+// Central differences. No smoothing across silhouettes: an axis with a one-sided difference over
+// the falloff has no derivatives at all.
+Derivatives derivatives(Stencil s, float falloff, bool mixed) {
+    Derivatives z;
+    vec4 off = abs(s.axis - s.z);
+    bool cut_x = max(off.x, off.y) > falloff;
+    bool cut_y = max(off.z, off.w) > falloff;
+    precise float x = 0.5 * (s.axis.y - s.axis.x);
+    precise float xx = (s.axis.x - s.z) + (s.axis.y - s.z);
+    precise float y = 0.5 * (s.axis.w - s.axis.z);
+    precise float yy = (s.axis.z - s.z) + (s.axis.w - s.z);
+    z.x = cut_x ? 0.0 : x;
+    z.xx = cut_x ? 0.0 : xx;
+    z.y = cut_y ? 0.0 : y;
+    z.yy = cut_y ? 0.0 : yy;
+    z.xy = 0.0;
+    if (mixed) {
+        vec4 far = abs(s.corner - s.z);
+        bool cut = cut_x || cut_y || max(max(far.x, far.y), max(far.z, far.w)) > falloff;
+        precise float xy = 0.25 * ((s.corner.w - s.corner.z) - (s.corner.y - s.corner.x));
+        z.xy = cut ? 0.0 : xy;
+    }
+    return z;
 }
 
-// (C_y E_x + C_x E_y) and D.
-vec2 curvature_terms(Stencil s, vec2 c, float falloff, bool mixed) {
-    precise float zx = 0.5 * (s.axis.y - s.axis.x);
-    precise float zxx = s.axis.x - 2.0 * s.z + s.axis.y;
-    precise float zy = 0.5 * (s.axis.w - s.axis.z);
-    precise float zyy = s.axis.z - 2.0 * s.z + s.axis.w;
-    bool cut_x = cut(s.axis.x, s.axis.y, s.z, falloff);
-    bool cut_y = cut(s.axis.z, s.axis.w, s.z, falloff);
-    if (cut_x) {
-        zx = 0.0;
-        zxx = 0.0;
-    }
-    if (cut_y) {
-        zy = 0.0;
-        zyy = 0.0;
-    }
-    precise float zxy = 0.0;
-    if (mixed) {
-        vec4 off = abs(s.corner - s.z);
-        bool corner_cut = max(max(off.x, off.y), max(off.z, off.w)) > falloff;
-        if (!(cut_x || cut_y || corner_cut)) {
-            zxy = 0.25 * ((s.corner.w - s.corner.z) - (s.corner.y - s.corner.x));
-        }
-    }
+// The source's step (thesis Sec. 2.5.3, Eqs. 2.10-2.16 with their misprints mended; van der Laan
+// et al. 2009; mixed derivative dropped as in Listing A.13): z - epsilon 2H, c = (C_x, C_y).
+float source_step(Stencil s, vec2 c, float falloff, float epsilon) {
+    Derivatives z = derivatives(s, falloff, false);
     precise float cx2 = c.x * c.x;
     precise float cy2 = c.y * c.y;
     precise float cc = cx2 * cy2;
-    precise float d = cy2 * zx * zx + cx2 * zy * zy + cc * s.z * s.z;
+    precise float d = cy2 * z.x * z.x + cx2 * z.y * z.y + cc * s.z * s.z;
     // Half of D_x and D_y.
-    precise float dx = cy2 * zx * zxx + cx2 * zy * zxy + cc * s.z * zx;
-    precise float dy = cy2 * zx * zxy + cx2 * zy * zyy + cc * s.z * zy;
-    precise float ex = zx * dx - zxx * d;
-    precise float ey = zy * dy - zyy * d;
-    precise float sum = c.y * ex + c.x * ey;
-    return vec2(sum, d);
+    precise float dx = cy2 * z.x * z.xx + cc * s.z * z.x;
+    precise float dy = cx2 * z.y * z.yy + cc * s.z * z.y;
+    precise float ex = z.x * dx - z.xx * d;
+    precise float ey = z.y * dy - z.yy * d;
+    precise float moved = s.z - epsilon * (c.y * ex + c.x * ey) / (d * sqrt(d));
+    return moved;
 }
 
-// The new depth. `step` is kappa (ConstantWidth) or epsilon (the source's rules).
-float curvature_step(Stencil s, vec2 c, float falloff, uint rule, float step) {
-    bool constant_width = rule == RULE_CONSTANT_WIDTH;
-    vec2 terms = curvature_terms(s, c, falloff, constant_width);
-    precise float divisor = constant_width ? terms.y * c.y : terms.y * sqrt(terms.y);
-    precise float moved = s.z - step * terms.x / divisor;
+// Mean curvature flow of the surface P = (slope, -1) z itself, from its two fundamental forms:
+// the width smoothed along the surface is the same at every distance, slant and place in the
+// image. (The source's D leaves the ray's slope out: right on the optical axis only, and planes
+// creep away.) g: signed slope per pixel. kappa: square pixels of diffusion, facing.
+float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
+    Derivatives z = derivatives(s, falloff, true);
+    precise float ww = 1.0 + slope.x * slope.x + slope.y * slope.y;
+    precise float gx = g.x * s.z;
+    precise float gy = g.y * s.z;
+    precise float e = ww * z.x * z.x + gx * (2.0 * slope.x * z.x + gx);
+    precise float f = ww * z.x * z.y + gx * slope.x * z.y + gy * slope.y * z.x;
+    precise float h = ww * z.y * z.y + gy * (2.0 * slope.y * z.y + gy);
+    precise float bend = 2.0 / s.z;
+    precise float l = z.xx - bend * z.x * z.x;
+    precise float m = z.xy - bend * z.x * z.y;
+    precise float n = z.yy - bend * z.y * z.y;
+    precise float moved = s.z + kappa * gx * gx * (h * l - 2.0 * f * m + e * n) / (e * h - f * f);
     return moved;
 }

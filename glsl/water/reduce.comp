@@ -45,20 +45,20 @@ float nearest(ivec2 block) {
     return best;
 }
 
-uint plan_pixel(float z) {
+uint plan_pixel(float z, vec2 slope) {
     float width = frame.texel.z * z; // of the pixel in the world
     float cap = frame.smoothing.z;
     if (RULE == RULE_CONSTANT_WIDTH) {
         float sigma = frame.smoothing.x / width;
-        float count = min(ceil(2.0 * sigma * sigma), cap);
-        float kappa = min(sigma * sigma / (2.0 * max(count, 1.0)), MOST_KAPPA);
-        return plan_pack(uint(count), kappa / MOST_KAPPA);
+        // Off the axis a pixel sees the surface foreshortened: more, smaller steps keep it stable.
+        float count = ceil((2.0 + dot(slope, slope)) * sigma * sigma);
+        float kappa = sigma * sigma / (2.0 * max(count, 1.0));
+        return plan_pack(uint(min(count, cap)), kappa / MOST_KAPPA);
     }
     float r = frame.particle.x;
-    float count = RULE == RULE_FIXED ? frame.smoothing.w
-                                     : min(floor(SOURCE_RADIUS * r / width) + 1.0, cap);
+    float count = RULE == RULE_FIXED ? frame.smoothing.w : floor(SOURCE_RADIUS * r / width) + 1.0;
     float share = min(1.0, 0.25 * width / (SOURCE_STEP * r));
-    return plan_pack(uint(count), share);
+    return plan_pack(uint(min(count, cap)), share);
 }
 
 void main() {
@@ -69,7 +69,7 @@ void main() {
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(block, ivec2(frame.extent.zw)))) {
         float z = nearest(block);
-        uint planned = z < EMPTY ? plan_pixel(z) : 0u;
+        uint planned = z < EMPTY ? plan_pixel(z, ray_slope(vec2(block) + 0.5, frame.reduced_slope)) : 0u;
         imageStore(smooth_a, block, vec4(z));
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));

@@ -49,11 +49,13 @@ impl Smooth {
         }
         let (a, b) = Self::images(gpu, config)?;
         Ok(Self {
-            tiles: Pipeline::compute(
-                gpu,
-                shader::WATER_SMOOTH_COMP,
-                &[(1, rule_constant(config.rule))],
-            )?,
+            tiles: {
+                // Few threads do better with long columns.
+                let rows = if gpu.is_cpu() { 16 } else { 1 };
+                let rule = rule_constant(config.rule);
+                let constants = [(1, rule), (2, 16 / rows), (3, rows)];
+                Pipeline::compute(gpu, shader::WATER_SMOOTH_COMP, &constants)?
+            },
             iterations: match config.rule {
                 Rule::Fixed(count) => count.min(config.max_iterations),
                 _ => config.max_iterations,
