@@ -270,6 +270,10 @@ pub struct Layer {
 pub struct Recorded {
     /// The kept layers (none unless [`Config::keep_layers`]).
     pub layers: Vec<Layer>,
+    /// With [`Smoothing::Query`]: a buffer of that many `u32`, the samples still active in
+    /// iterations 5, 10, …, for blocks that ran (0 for others; the last block is not counted).
+    /// Transfer source; last written by a transfer.
+    pub active_samples: Option<(vk::Buffer, u32)>,
 }
 
 /// Device memory in use.

@@ -190,6 +190,7 @@ impl Renderer {
             } else {
                 Vec::new()
             },
+            active_samples: self.water.query_results(),
         })
     }
 

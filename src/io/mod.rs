@@ -1,3 +1,4 @@
 //! Files: particle caches in, pictures out.
 
 pub mod particles;
+pub mod picture;

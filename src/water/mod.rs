@@ -6,6 +6,7 @@ mod depth;
 mod reduce;
 pub mod settings;
 mod smooth;
+mod smooth_query;
 mod thickness;
 mod tiles;
 
@@ -115,6 +116,11 @@ impl Water {
         }
     }
 
+    /// Samples counted by the smoothing's queries, when it has them.
+    pub fn query_results(&self) -> Option<(vk::Buffer, u32)> {
+        self.smooth.query_results()
+    }
+
     /// The layers for the host, in the state `composite` left them in.
     pub fn kept(&self, access: Access) -> Vec<Layer> {
         let layer = |name, image: &Image, access| Layer {
@@ -143,7 +149,10 @@ impl Water {
         ];
         MemoryUse {
             images: images.iter().map(|image| image.size).sum(),
-            buffers: self.cull.memory() + self.tiles.memory() + self.thickness.memory(),
+            buffers: self.cull.memory()
+                + self.tiles.memory()
+                + self.smooth.memory()
+                + self.thickness.memory(),
         }
     }
 

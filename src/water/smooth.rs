@@ -1,19 +1,24 @@
 //! Pass `smooth`: adaptive curvature flow (thesis Sec. 3.1 and 4.7; van der Laan et al. 2009).
 //!
 //! Two images change places with each iteration. All forms do the same arithmetic on the same plan
-//! and give the same surface, in image `a`.
+//! and give the same surface, in image `a`: a dispatch an iteration over the tiles with work left,
+//! several iterations a dispatch in shared memory, or the source's raster passes that an occlusion
+//! query ends (in `smooth_query`). What the source decides on the CPU, the GPU decides here.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
 use super::Recording;
 use super::reduce::{Reduce, rule_constant};
+use super::smooth_query::Query;
 use super::tiles::Tiles;
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
-use crate::gpu::access::{self, Access, COMPUTE_READ, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED};
+use crate::gpu::access::{
+    self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED,
+};
 use crate::gpu::descriptors::{Resource, bind_set};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
@@ -22,18 +27,43 @@ use crate::gpu::shader;
 use crate::water::settings::{Rule, Smoothing};
 
 /// Last uses of both images in a frame: `composite`, the host's copy, the forms themselves.
-pub const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ).and(COMPUTE_READ).and(COMPUTE_WRITE);
+pub const BEFORE: Access =
+    FRAGMENT_SAMPLED.and(COPY_READ).and(COMPUTE_READ).and(COMPUTE_WRITE).and(COLOR_ATTACHMENT);
+
+/// Iterations of one dispatch of the fused form.
+const FUSED_STEPS: u32 = 8;
+
+/// Sampled by compute shaders, in the layout of a storage image.
+const COMPUTE_SAMPLED_GENERAL: Access = Access::new(
+    vk::PipelineStageFlags2::COMPUTE_SHADER,
+    vk::AccessFlags2::SHADER_SAMPLED_READ,
+    vk::ImageLayout::GENERAL,
+);
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-struct Push {
+struct TilesPush {
     iteration: u32,
     columns: u32,
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct FusedPush {
+    iteration: u32,
+    columns: u32,
+    arguments_index: u32,
+}
+
+enum Form {
+    Tiles(Pipeline),
+    Fused(Pipeline),
+    Query(Query),
+}
+
 /// The pass.
 pub struct Smooth {
-    tiles: Pipeline,
+    form: Form,
     iterations: u32,
     /// Holds the reduced depth before, the smoothed surface after.
     pub a: Image,
@@ -43,26 +73,27 @@ pub struct Smooth {
 
 impl Smooth {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let form = config.smoothing.unwrap_or(Smoothing::Tiles);
-        if form != Smoothing::Tiles {
-            return Err(Error::bad("Config.smoothing", format!("{form:?} is not built yet")));
-        }
         let (a, b) = Self::images(gpu, config)?;
-        Ok(Self {
-            tiles: {
+        let rule = (1, rule_constant(config.rule));
+        let iterations = match config.rule {
+            Rule::Fixed(count) => count.min(config.max_iterations),
+            _ => config.max_iterations,
+        };
+        let form = match config.smoothing.unwrap_or_else(|| default_form(gpu)) {
+            Smoothing::Tiles => {
                 // Few threads do better with long columns.
                 let rows = if gpu.is_cpu() { 16 } else { 1 };
-                let rule = rule_constant(config.rule);
-                let constants = [(1, rule), (2, 16 / rows), (3, rows)];
-                Pipeline::compute(gpu, shader::WATER_SMOOTH_COMP, &constants)?
-            },
-            iterations: match config.rule {
-                Rule::Fixed(count) => count.min(config.max_iterations),
-                _ => config.max_iterations,
-            },
-            a,
-            b,
-        })
+                let constants = [rule, (2, 16 / rows), (3, rows)];
+                Form::Tiles(Pipeline::compute(gpu, shader::WATER_SMOOTH_COMP, &constants)?)
+            }
+            Smoothing::Fused => {
+                Form::Fused(Pipeline::compute(gpu, shader::WATER_SMOOTH_FUSED_COMP, &[rule])?)
+            }
+            Smoothing::Query(gate) => {
+                Form::Query(Query::new(gpu, gate, config.rule, iterations, &a, &b)?)
+            }
+        };
+        Ok(Self { form, iterations, a, b })
     }
 
     fn images(gpu: &Gpu, config: &Config) -> Result<(Image, Image), Error> {
@@ -90,6 +121,9 @@ impl Smooth {
         retire: &mut dyn FnMut(Retired),
     ) -> Result<(), Error> {
         let (a, b) = Self::images(gpu, config)?;
+        if let Form::Query(query) = &mut self.form {
+            query.resize(gpu, &a, &b, retire)?;
+        }
         retire(Retired::Image(std::mem::replace(&mut self.a, a)));
         retire(Retired::Image(std::mem::replace(&mut self.b, b)));
         Ok(())
@@ -103,7 +137,11 @@ impl Smooth {
         tiles: &Tiles,
     ) -> Result<(), Error> {
         let scope = r.begin(c"smooth");
-        self.record_tiles(r, reduce, tiles)?;
+        match &self.form {
+            Form::Tiles(pipeline) => self.record_tiles(r, pipeline, reduce, tiles)?,
+            Form::Fused(pipeline) => self.record_fused(r, pipeline, reduce, tiles)?,
+            Form::Query(query) => query.record(r, [&self.a, &self.b], &reduce.plan, tiles)?,
+        }
         r.end(scope);
         Ok(())
     }
@@ -114,78 +152,131 @@ impl Smooth {
     fn record_tiles(
         &self,
         r: &mut Recording<'_>,
+        pipeline: &Pipeline,
         reduce: &Reduce,
         tiles: &Tiles,
     ) -> Result<(), Error> {
+        // One more than the most, for the copies; made even, so that the roles end as they began.
+        let dispatches = (self.iterations + 1).next_multiple_of(2).min(256);
+        self.record_dispatches(r, pipeline, reduce, tiles, dispatches, |r, index| {
+            let push = TilesPush { iteration: index + 1, columns: tiles.columns };
+            pipeline.push(r.gpu, r.cmd, &push);
+            index + 1
+        })
+    }
+
+    /// The same with several iterations a dispatch, and one dispatch more that copies.
+    fn record_fused(
+        &self,
+        r: &mut Recording<'_>,
+        pipeline: &Pipeline,
+        reduce: &Reduce,
+        tiles: &Tiles,
+    ) -> Result<(), Error> {
+        let dispatches = self.iterations.div_ceil(FUSED_STEPS) + 1;
+        self.record_dispatches(r, pipeline, reduce, tiles, dispatches, |r, index| {
+            let iteration = FUSED_STEPS * index + 1;
+            // Arguments [i] hold the tiles with at least i - 1 iterations.
+            let arguments_index =
+                if index == 0 { 1 } else { (iteration + 1 - FUSED_STEPS).min(257) };
+            let push = FusedPush { iteration, columns: tiles.columns, arguments_index };
+            pipeline.push(r.gpu, r.cmd, &push);
+            arguments_index
+        })
+    }
+
+    /// Dispatches that read one image and write the other in turn. `push` sets the constants of a
+    /// dispatch and says which arguments it takes.
+    fn record_dispatches(
+        &self,
+        r: &mut Recording<'_>,
+        pipeline: &Pipeline,
+        reduce: &Reduce,
+        tiles: &Tiles,
+        dispatches: u32,
+        push: impl Fn(&Recording<'_>, u32) -> u32,
+    ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let sampled = |image: &Image| {
-            Resource::SampledIn(image.view, gpu.samplers.nearest, vk::ImageLayout::GENERAL)
-        };
         let set = |from: &Image, to: &Image| {
+            let nearest = gpu.samplers.nearest;
             r.descriptors.set(
                 gpu,
-                &self.tiles,
+                pipeline,
                 &[
                     (0, r.uniforms),
-                    (1, sampled(from)),
+                    (1, Resource::SampledIn(from.view, nearest, vk::ImageLayout::GENERAL)),
                     (2, Resource::storage(to)),
-                    (3, Resource::Sampled(reduce.plan.view, gpu.samplers.nearest)),
+                    (3, Resource::Sampled(reduce.plan.view, nearest)),
                     (4, Resource::buffer(&tiles.list)),
                     (5, Resource::buffer(&tiles.arguments)),
                 ],
             )
         };
         let sets = [set(&self.a, &self.b)?, set(&self.b, &self.a)?];
-        let sampled_read = Access::new(
-            vk::PipelineStageFlags2::COMPUTE_SHADER,
-            vk::AccessFlags2::SHADER_SAMPLED_READ,
-            vk::ImageLayout::GENERAL,
-        );
         gpu.barriers(
             cmd,
             &[
-                access::image(&self.a, COMPUTE_WRITE, sampled_read),
+                access::image(&self.a, COMPUTE_WRITE, COMPUTE_SAMPLED_GENERAL),
                 access::image(&self.b, COMPUTE_WRITE, COMPUTE_WRITE),
             ],
             &[],
         );
-        self.tiles.bind(gpu, cmd);
+        pipeline.bind(gpu, cmd);
         let images = [&self.a, &self.b];
-        // One more than the most, for the copies; made even, so that the roles end as they began.
-        let dispatches = (self.iterations + 1).next_multiple_of(2).min(256);
-        for iteration in 1..=dispatches {
-            let odd = (iteration % 2) as usize;
-            bind_set(gpu, cmd, &self.tiles, sets[1 - odd]);
-            self.tiles.push(gpu, cmd, &Push { iteration, columns: tiles.columns });
+        for index in 0..dispatches {
+            let from = (index % 2) as usize;
+            bind_set(gpu, cmd, pipeline, sets[from]);
+            let arguments = push(r, index);
             // SAFETY: outside a render pass; the arguments are visible since `tiles`.
             unsafe {
                 gpu.device.cmd_dispatch_indirect(
                     cmd,
                     tiles.arguments.handle,
-                    16 * u64::from(iteration),
+                    16 * u64::from(arguments),
                 );
             }
             // What was written is read next, what was read is written next.
             gpu.barriers(
                 cmd,
                 &[
-                    access::image(images[odd], COMPUTE_WRITE, sampled_read),
-                    access::image(images[1 - odd], sampled_read, COMPUTE_WRITE),
+                    access::image(images[1 - from], COMPUTE_WRITE, COMPUTE_SAMPLED_GENERAL),
+                    access::image(images[from], COMPUTE_SAMPLED_GENERAL, COMPUTE_WRITE),
                 ],
                 &[],
             );
         }
-        gpu.barriers(
-            cmd,
-            &[access::image(&self.a, sampled_read.and(COMPUTE_WRITE), FRAGMENT_SAMPLED)],
-            &[],
-        );
+        // Written or read last, as the number of dispatches has it.
+        let last = COMPUTE_SAMPLED_GENERAL.and(COMPUTE_WRITE);
+        gpu.barriers(cmd, &[access::image(&self.a, last, FRAGMENT_SAMPLED)], &[]);
         Ok(())
     }
 
+    /// The samples counted by the queries, when the form has them.
+    pub fn query_results(&self) -> Option<(vk::Buffer, u32)> {
+        match &self.form {
+            Form::Query(query) => Some((query.results.handle, query.blocks)),
+            _ => None,
+        }
+    }
+
+    pub fn memory(&self) -> u64 {
+        match &self.form {
+            Form::Query(query) => query.results.size + query.predicates.size,
+            _ => 0,
+        }
+    }
+
     pub fn destroy(self, gpu: &Gpu) {
-        self.tiles.destroy(gpu);
+        match self.form {
+            Form::Tiles(pipeline) | Form::Fused(pipeline) => pipeline.destroy(gpu),
+            Form::Query(query) => query.destroy(gpu),
+        }
         self.a.destroy(gpu);
         self.b.destroy(gpu);
     }
+}
+
+/// The measured fastest: see docs/performance.md.
+fn default_form(gpu: &Gpu) -> Smoothing {
+    if gpu.is_cpu() { Smoothing::Tiles } else { Smoothing::Fused }
 }

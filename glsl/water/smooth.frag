@@ -1,0 +1,56 @@
+#version 460
+// Pass `smooth`, form Query: one iteration of curvature flow, and the two draws beside it.
+// Reads: one smoothing image, plan. Writes: the other smoothing image.
+
+#include "frame.glsl"
+#include "plan.glsl"
+#include "curvature.glsl"
+
+layout(constant_id = 1) const uint RULE = 1;
+// 0: an iteration. 1: counts the pixels that are active in it (no colour writes). 2: copies.
+layout(constant_id = 2) const uint TASK = 0;
+
+layout(set = 0, binding = 1) uniform sampler2D source;
+layout(set = 0, binding = 2) uniform usampler2D plan;
+
+layout(push_constant, std430) uniform Push {
+    uint iteration; // from 1
+    uint columns;   // tiles a row
+    uint block;
+} push;
+
+layout(location = 0) out float moved;
+
+#include "smoothing.glsl"
+
+float fetch(ivec2 p) {
+    ivec2 last = ivec2(frame.extent.zw) - 1;
+    bool outside = p.x < 0 || p.y < 0 || p.x > last.x || p.y > last.y;
+    return outside ? EMPTY : texelFetch(source, p, 0).x;
+}
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    moved = texelFetch(source, p, 0).x;
+    if (TASK == 2u) {
+        return;
+    }
+    uint planned = texelFetch(plan, p, 0).x;
+    bool active_here = plan_count(planned) >= push.iteration;
+    // No early_fragment_tests: with it lavapipe would count what is discarded.
+    if (TASK == 1u) {
+        if (!active_here) {
+            discard;
+        }
+        return;
+    }
+    if (active_here) {
+        Stencil s;
+        s.z = moved;
+        s.axis = vec4(fetch(p + ivec2(-1, 0)), fetch(p + ivec2(1, 0)),
+                      fetch(p + ivec2(0, -1)), fetch(p + ivec2(0, 1)));
+        s.corner = vec4(fetch(p + ivec2(-1, -1)), fetch(p + ivec2(1, -1)),
+                        fetch(p + ivec2(-1, 1)), fetch(p + ivec2(1, 1)));
+        moved = smooth_pixel(s, p, planned);
+    }
+}

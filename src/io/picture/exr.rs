@@ -1,0 +1,71 @@
+//! OpenEXR: all channels in one layer, dots in their names as the convention for layers wants it.
+
+use std::io::{self, Cursor, Seek, Write};
+
+use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
+use exr::meta::attribute::{AttributeValue, Text};
+use exr::meta::header::LayerAttributes;
+use exr::prelude::{ReadChannels, ReadLayers, WritableImage, read as reader};
+
+use super::{Channel, Layers};
+
+pub fn write(layers: &Layers, to: impl Write + Seek) -> io::Result<()> {
+    let channels = layers
+        .channels
+        .iter()
+        .map(|c| {
+            AnyChannel::new(text(&c.name).unwrap_or_default(), FlatSamples::F32(c.data.clone()))
+        })
+        .collect();
+    let mut attributes =
+        LayerAttributes { software_name: text("whitewater"), ..Default::default() };
+    for (name, value) in &layers.attributes {
+        // EXR text is Latin-1 to the crate; what does not fit is shown, not lost.
+        let value = text(value).or_else(|| text(&value.escape_unicode().to_string()));
+        if let (Some(name), Some(value)) = (text(name), value) {
+            attributes.other.insert(name, AttributeValue::Text(value));
+        }
+    }
+    let layer = Layer::new(
+        (layers.width, layers.height),
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels),
+    );
+    Image::from_layer(layer).write().to_buffered(to).map_err(|error| match error {
+        exr::error::Error::Io(error) => error,
+        other => io::Error::other(other.to_string()),
+    })
+}
+
+fn text(value: &str) -> Option<Text> {
+    Text::new_or_none(value)
+}
+
+pub fn read(bytes: &[u8]) -> Result<Layers, String> {
+    let image = reader()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|error| error.to_string())?;
+    let layer = image.layer_data;
+    let mut layers = Layers::new(layer.size.x(), layer.size.y());
+    let pixels = layers.width * layers.height;
+    for channel in layer.channel_data.list {
+        let data: Vec<f32> = channel.sample_data.values_as_f32().collect();
+        if data.len() != pixels {
+            return Err(format!("channel {} at another resolution", channel.name));
+        }
+        layers.channels.push(Channel { name: channel.name.to_string(), data });
+    }
+    for (name, value) in layer.attributes.other {
+        if let AttributeValue::Text(value) = value {
+            layers.attributes.push((name.to_string(), value.to_string()));
+        }
+    }
+    layers.attributes.sort();
+    Ok(layers)
+}

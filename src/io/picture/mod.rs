@@ -1,0 +1,266 @@
+//! Pictures: multi-layer OpenEXR out, PNG through a tone map out, EXR, PNG and Radiance HDR in.
+//!
+//! A picture is a set of named channels of one size, see [`Layers`]. Channels of the beauty are `R G B A`,
+//! linear, scene-referred, Rec. 709 primaries; the others are named as their pass (`water.depth.Z`).
+#![forbid(unsafe_code)]
+
+mod exr;
+mod normal;
+mod png;
+mod tone;
+
+use std::io::{Seek, Write};
+use std::path::{Path, PathBuf};
+
+pub use normal::normals;
+pub use tone::{neutral, srgb_decode, srgb_encode};
+
+/// Value of every depth channel where there is nothing.
+pub const EMPTY: f32 = 1.0e10;
+
+/// How the numbers of `R G B` are meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// Proportional to light, without a bound.
+    #[default]
+    Linear,
+    /// sRGB's curve, 0 to 1: what a PNG holds.
+    Srgb,
+}
+
+/// One channel, row by row, row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Its name, `water.depth.Z`.
+    pub name: String,
+    /// As many as the picture has pixels.
+    pub data: Vec<f32>,
+}
+
+/// Named channels of one size, and text about them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Layers {
+    /// Width in pixels.
+    pub width: usize,
+    /// Height in pixels.
+    pub height: usize,
+    /// In no certain order; no name twice.
+    pub channels: Vec<Channel>,
+    /// Name and text of each attribute.
+    pub attributes: Vec<(String, String)>,
+    /// Of `R G B`.
+    pub encoding: Encoding,
+}
+
+impl Layers {
+    /// A picture without channels.
+    pub fn new(width: usize, height: usize) -> Self {
+        Self { width, height, ..Self::default() }
+    }
+
+    /// Adds a channel, or replaces the one of that name. A channel of a reduced resolution (halved `n` times,
+    /// rounded up each time) is brought to the picture's size by repeating its texels.
+    ///
+    /// # Errors
+    /// [`PictureError::Size`] where `data` is neither of the picture's size nor a reduced one.
+    pub fn push(
+        &mut self,
+        name: &str,
+        width: usize,
+        height: usize,
+        data: Vec<f32>,
+    ) -> Result<(), PictureError> {
+        let size = || PictureError::Size {
+            channel: name.into(),
+            expected: (self.width, self.height),
+            found: (width, height),
+            values: data.len(),
+        };
+        if Some(data.len()) != width.checked_mul(height) {
+            return Err(size());
+        }
+        let half = |full: usize, level: u32| full.div_ceil(1 << level);
+        let level = (0..=8)
+            .find(|l| half(self.width, *l) == width && half(self.height, *l) == height)
+            .ok_or_else(size)?;
+        let data = if level == 0 {
+            data
+        } else {
+            let row = |y: usize| &data[(y >> level) * width..][..width];
+            (0..self.height)
+                .flat_map(|y| (0..self.width).map(move |x| row(y)[x >> level]))
+                .collect()
+        };
+        self.channels.retain(|c| c.name != name);
+        self.channels.push(Channel { name: name.into(), data });
+        Ok(())
+    }
+
+    /// The channel of a name.
+    pub fn channel(&self, name: &str) -> Option<&[f32]> {
+        self.channels.iter().find(|c| c.name == name).map(|c| c.data.as_slice())
+    }
+
+    /// Red, green and blue of all pixels; `None` where the picture has no colour. A picture with `Y` alone is
+    /// grey.
+    pub fn rgb(&self) -> Option<Vec<[f32; 3]>> {
+        let one = |name| self.channel(name);
+        let (r, g, b) = match (one("R"), one("G"), one("B")) {
+            (Some(r), Some(g), Some(b)) => (r, g, b),
+            _ => one("Y").map(|y| (y, y, y))?,
+        };
+        Some(r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect())
+    }
+
+    /// The colour as a screen shows it, sRGB 0 to 1: the tone map of [`write_png`] on linear light.
+    pub fn display(&self, exposure: f32) -> Option<Vec<[f32; 3]>> {
+        let mut rgb = self.rgb()?;
+        if self.encoding == Encoding::Linear {
+            for c in &mut rgb {
+                *c = neutral(c.map(|v| v * exposure.exp2())).map(srgb_encode);
+            }
+        }
+        Some(rgb)
+    }
+}
+
+/// Why a picture could not be read or put together.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PictureError {
+    /// The file is missing or may not be read.
+    #[error("cannot read {}: {reason}; check the name and the permissions", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: std::io::Error,
+    },
+    /// The content of the file is at fault.
+    #[error("{}: expected {expected}, found {found}; write the file again", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What it should be.
+        expected: &'static str,
+        /// What is wrong.
+        found: String,
+    },
+    /// A channel of another size.
+    #[error(
+        "channel {channel}: expected {}x{} values or a halved size, found {}x{} with {values} values",
+        expected.0, expected.1, found.0, found.1
+    )]
+    Size {
+        /// The channel.
+        channel: String,
+        /// Size of the picture.
+        expected: (usize, usize),
+        /// Size of the channel.
+        found: (usize, usize),
+        /// Values it came with.
+        values: usize,
+    },
+}
+
+/// Reads an EXR (first layer, any channels), a PNG or a Radiance HDR; the content decides which it is.
+///
+/// # Errors
+/// Says what was expected, and what was found.
+pub fn read(path: &Path) -> Result<Layers, PictureError> {
+    let io = |reason| PictureError::Io { path: path.to_path_buf(), reason };
+    let bytes = std::fs::read(path).map_err(io)?;
+    let content = |expected, found| PictureError::Content { path: path.into(), expected, found };
+    if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        exr::read(&bytes).map_err(|found| content("an OpenEXR picture", found))
+    } else if bytes.starts_with(b"\x89PNG") {
+        png::read_png(&bytes).map_err(|found| content("a PNG", found))
+    } else if bytes.starts_with(b"#?") {
+        png::read_hdr(&bytes).map_err(|found| content("a Radiance HDR", found))
+    } else {
+        let found = match bytes.len() {
+            0 => "an empty file".to_string(),
+            _ => "none of their first bytes".to_string(),
+        };
+        Err(content("an EXR, PNG or HDR", found))
+    }
+}
+
+/// Writes all channels and attributes as one OpenEXR layer: 32-bit float, ZIP.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> {
+    exr::write(layers, to)
+}
+
+/// Writes the colour as an 8-bit sRGB PNG: exposure in stops, [`neutral`], and a dither of half a step against
+/// banding (the same on every run). A picture without colour is an error.
+///
+/// # Errors
+/// What the writer says.
+pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Result<()> {
+    png::write(layers, exposure, to)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reduced_channels_are_repeated() {
+        let mut layers = Layers::new(5, 3);
+        layers.push("half", 3, 2, vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]).unwrap();
+        let expected = [0.0, 0.0, 1.0, 1.0, 2.0, 0.0, 0.0, 1.0, 1.0, 2.0, 3.0, 3.0, 4.0, 4.0, 5.0];
+        assert_eq!(layers.channel("half").unwrap(), expected);
+        layers.push("quarter", 2, 1, vec![7.0, 8.0]).unwrap();
+        assert_eq!(layers.channel("quarter").unwrap()[..5], [7.0, 7.0, 7.0, 7.0, 8.0]);
+        for (width, height, values) in [(4, 3, 12), (5, 3, 14), (0, 0, 0)] {
+            assert!(matches!(
+                layers.push("bad", width, height, vec![0.0; values]),
+                Err(PictureError::Size { .. })
+            ));
+        }
+    }
+
+    #[test]
+    fn exr_comes_back_as_it_went() {
+        let mut layers = Layers::new(7, 5);
+        for (i, name) in
+            ["R", "G", "B", "A", "water.depth.Z", "water.iterations"].iter().enumerate()
+        {
+            let data =
+                (0..35).map(|p| if p == 3 { EMPTY } else { (p * (i + 1)) as f32 * 0.37 }).collect();
+            layers.push(name, 7, 5, data).unwrap();
+        }
+        layers.attributes.push(("whitewater.adapter".into(), "llvmpipe, 8 bits µ".into()));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        write_exr(&layers, &mut bytes).unwrap();
+        let back = exr::read(bytes.get_ref()).unwrap();
+        assert_eq!((back.width, back.height), (7, 5));
+        for channel in &layers.channels {
+            assert_eq!(back.channel(&channel.name).unwrap(), channel.data, "{}", channel.name);
+        }
+        assert!(back.attributes.contains(&layers.attributes[0]));
+        for cut in [5, 100, bytes.get_ref().len() - 9] {
+            assert!(exr::read(&bytes.get_ref()[..cut]).is_err(), "{cut}");
+        }
+    }
+
+    #[test]
+    fn png_is_the_tone_mapped_colour_within_a_step() {
+        let mut layers = Layers::new(16, 4);
+        for (i, name) in ["R", "G", "B"].iter().enumerate() {
+            let data = (0..64).map(|p| p as f32 * 0.02 * (i + 1) as f32).collect();
+            layers.push(name, 16, 4, data).unwrap();
+        }
+        let mut bytes = Vec::new();
+        write_png(&layers, -0.5, &mut bytes).unwrap();
+        let back = png::read_png(&bytes).unwrap();
+        assert_eq!(back.encoding, Encoding::Srgb);
+        let (expected, found) = (layers.display(-0.5).unwrap(), back.display(0.0).unwrap());
+        for (e, f) in expected.iter().flatten().zip(found.iter().flatten()) {
+            assert!((e - f).abs() <= 1.0 / 255.0, "{e} {f}");
+        }
+    }
+}
