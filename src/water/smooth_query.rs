@@ -231,7 +231,10 @@ impl Query {
         );
         // SAFETY: outside a render pass; the frame before is done with both (barriers above).
         unsafe {
-            gpu.device.cmd_fill_buffer(cmd, self.predicates.handle, 0, 4, 1);
+            // Word 0: the first predicate. Words 4 to 7: the arguments of an empty draw.
+            let first: [u32; 8] = [1, 0, 0, 0, 0, 0, 0, 0];
+            let bytes = bytemuck::bytes_of(&first);
+            gpu.device.cmd_update_buffer(cmd, self.predicates.handle, 0, bytes);
             gpu.device.cmd_reset_query_pool(cmd, self.pool, 0, self.blocks);
         }
         gpu.barriers(cmd, &[], &[buffer(self.predicates.handle, CLEAR, self.gate_use())]);
@@ -255,7 +258,24 @@ impl Query {
                 self.record_gate(r, gate, block);
             }
         }
+        if self.gate == Gate::DrawCount && gpu.is_cpu() {
+            self.forget_draw_count(r, images[0]);
+        }
         Ok(())
+    }
+
+    /// lavapipe up to 22.3 applies the count buffer of the last counted draw to every later
+    /// indirect draw of the command buffer: an empty draw with a count of one makes that harmless
+    /// (but for a host's own draws of more than one).
+    fn forget_draw_count(&self, r: &Recording<'_>, image: &Image) {
+        self.begin(r, image, 0);
+        // SAFETY: inside a render pass; the copy's pipeline, set and constants are still bound;
+        // the words were written above and made visible.
+        unsafe {
+            let words = self.predicates.handle;
+            r.gpu.device.cmd_draw_indirect_count(r.cmd, words, 16, words, 0, 1, 16);
+        }
+        self.end(r, image);
     }
 
     /// Begins a pass on an image that was sampled before.

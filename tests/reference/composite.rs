@@ -126,12 +126,8 @@ fn derivative(
 ) -> f64 {
     let here = z.clamped(x, y);
     let outside = f64::INFINITY;
-    let a = z
-        .checked(x - dx, y - dy)
-        .map_or(outside, |before| here - before);
-    let b = z
-        .checked(x + dx, y + dy)
-        .map_or(outside, |after| after - here);
+    let a = z.checked(x - dx, y - dy).map_or(outside, |before| here - before);
+    let b = z.checked(x + dx, y + dy).map_or(outside, |after| after - here);
     let smaller = if a.abs() <= b.abs() { a } else { b };
     if a.abs() <= threshold && b.abs() <= threshold {
         (a + b) / 2.0
@@ -159,9 +155,7 @@ pub fn surface(
 
     // The texels of the smoothed depth on this pixel's surface and their weights.
     let away = |x, y| (inputs.smoothed.clamped(x, y) - zf).abs();
-    let mut texels = inputs
-        .smoothed
-        .bilinear(pixel / f64::from(1 << inputs.level));
+    let mut texels = inputs.smoothed.bilinear(pixel / f64::from(1 << inputs.level));
     for (x, y, weight) in &mut texels {
         *weight *= f64::from(away(*x, *y) <= threshold);
     }
@@ -179,10 +173,7 @@ pub fn surface(
         alone = away(texels[nearest].0, texels[nearest].1) > threshold;
     }
     let mean = |value: &dyn Fn(isize, isize) -> f64| {
-        let weighted = texels
-            .iter()
-            .filter(|t| t.2 > 0.0)
-            .map(|t| t.2 * value(t.0, t.1));
+        let weighted = texels.iter().filter(|t| t.2 > 0.0).map(|t| t.2 * value(t.0, t.1));
         weighted.sum::<f64>() / sum
     };
 
@@ -207,20 +198,12 @@ pub fn surface(
     let along_x = DVec3::new(g.x * z, 0.0, 0.0) + ray * z_x;
     let along_y = DVec3::new(0.0, g.y * z, 0.0) + ray * z_y;
     let normal = along_x.cross(along_y).normalize();
-    let normal = if normal.dot(position) > 0.0 {
-        -normal
-    } else {
-        normal
-    };
-    Some(Surface {
-        position,
-        normal,
-        thickness,
-    })
+    let normal = if normal.dot(position) > 0.0 { -normal } else { normal };
+    Some(Surface { position, normal, thickness })
 }
 
 /// The scene's colour behind a surface, displaced by refraction but never onto what stands before
-/// the water.
+/// the water. Light bends towards the water's normal, so the look-up moves against it.
 fn background(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -231,17 +214,11 @@ fn background(
     let z = -surface.position.z;
     // Pixels per length at z, signed as the image's axes run.
     let scale = 1.0 / (view.slope_step() * z);
-    let offset = surface.normal.truncate() * surface.thickness * settings.refraction * scale;
+    let offset = -surface.normal.truncate() * surface.thickness * settings.refraction * scale;
     let q = (pixel + offset).clamp(DVec2::splat(0.5), view.extent() - 0.5);
     let texels = inputs.scene_color.bilinear(q);
-    let hidden = texels
-        .iter()
-        .any(|t| inputs.scene_depth.clamped(t.0, t.1) < z);
-    let texels = if hidden {
-        inputs.scene_color.bilinear(pixel)
-    } else {
-        texels
-    };
+    let hidden = texels.iter().any(|t| inputs.scene_depth.clamped(t.0, t.1) < z);
+    let texels = if hidden { inputs.scene_color.bilinear(pixel) } else { texels };
     let color = |t: &(isize, isize, f64)| {
         let [r, g, b, _] = inputs.scene_color.clamped(t.0, t.1);
         DVec3::new(r, g, b) * t.2
@@ -257,19 +234,12 @@ pub fn shade(
     env: impl Fn(DVec3) -> DVec3 + Sync,
     view: &View,
 ) -> Image<[f64; 4]> {
-    assert!(
-        [0, inputs.level].contains(&inputs.thickness_level),
-        "the thickness' level"
-    );
+    assert!([0, inputs.level].contains(&inputs.thickness_level), "the thickness' level");
     Image::from_fn(view.width, view.height, |x, y| {
         let Some(surface) = surface(inputs, settings.radius, view, x, y) else {
             return inputs.scene_color.at(x, y);
         };
-        let Surface {
-            position,
-            normal: n,
-            thickness,
-        } = surface;
+        let Surface { position, normal: n, thickness } = surface;
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
         let v = -position.normalize();
         let path = thickness * position.length() / -position.z;
@@ -277,21 +247,14 @@ pub fn shade(
         let background = background(inputs, settings, &surface, view, pixel);
         let exp = |k: DVec3| (-k * path).exp();
         let mut color = match settings.medium {
-            Medium::Physical {
-                absorption,
-                scattering,
-                ambient,
-            } => {
+            Medium::Physical { absorption, scattering, ambient } => {
                 let scattering = DVec3::from(scattering);
                 let ext = DVec3::from(absorption) + scattering;
                 let albedo = DVec3::select(ext.cmpgt(DVec3::ZERO), scattering / ext, DVec3::ZERO);
                 let t = exp(ext);
                 background * t + DVec3::from(ambient) * albedo * (1.0 - t)
             }
-            Medium::Source {
-                base,
-                k: [r, g, b, a],
-            } => {
+            Medium::Source { base, k: [r, g, b, a] } => {
                 let water = DVec3::from(base) * exp(DVec3::new(r, g, b));
                 water.lerp(background, (-a * path).exp())
             }
@@ -412,29 +375,15 @@ mod tests {
             let path = 2.0 * view.ray(x, y).length();
             let fresnel = 1.0 - (1.0 - 1.0 / view.ray(x, y).length()).powi(5);
             let t = (-0.6 * path).exp();
-            let expected = [
-                x as f64 * t + 2.0 * (0.1 / 0.6) * (1.0 - t),
-                y as f64 * (-0.2 * path).exp(),
-                1.0,
-            ];
+            let expected =
+                [x as f64 * t + 2.0 * (0.1 / 0.6) * (1.0 - t), y as f64 * (-0.2 * path).exp(), 1.0];
             for (found, expected) in picture.at(x, y).iter().zip(expected) {
                 assert!((found - expected * fresnel).abs() < 1e-9);
             }
             assert_eq!(picture.at(x, y)[3], 1.0);
         }
-        let source = Medium::Source {
-            base: [0.3, 0.5, 0.9],
-            k: [0.4, 0.3, 0.2, 0.1],
-        };
-        let picture = shade(
-            &scene.inputs(0),
-            &Settings {
-                medium: source,
-                ..PLAIN
-            },
-            BLACK,
-            &view,
-        );
+        let source = Medium::Source { base: [0.3, 0.5, 0.9], k: [0.4, 0.3, 0.2, 0.1] };
+        let picture = shade(&scene.inputs(0), &Settings { medium: source, ..PLAIN }, BLACK, &view);
         let a = (-0.2_f64).exp();
         let expected = 0.5 * (-0.6_f64).exp() * (1.0 - a) + 16.0 * a;
         assert!((picture.at(16, 16)[1] - expected).abs() < 1e-9);
@@ -450,30 +399,21 @@ mod tests {
 
     #[test]
     fn the_background_is_displaced_in_pixels_but_not_onto_what_is_in_front() {
-        let clear = Medium::Physical {
-            absorption: [0.0; 3],
-            scattering: [0.0; 3],
-            ambient: [0.0; 3],
-        };
-        let settings = Settings {
-            medium: clear,
-            ..PLAIN
-        };
+        let clear =
+            Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3], ambient: [0.0; 3] };
+        let settings = Settings { medium: clear, ..PLAIN };
         let view = view(DVec2::new(2.0, -2.0), DVec2::ZERO, 65, 65);
         let n = DVec3::new(0.2, 0.1, 1.0).normalize();
         let mut scene = Scene::new(&view, 0, 3.0, |ray| -n.z * 10.0 / ray.dot(n));
         let fresnel = |c: f64| 1.0 - (1.0 - c).powi(5);
         let found = shade(&scene.inputs(0), &settings, BLACK, &view).at(32, 32);
-        // Right and, as the image runs down, up; beta T n / (C z).
+        // Left and, as the image runs down, down: -beta T n / (C z).
         let shift = 3.0 * 0.25 / (10.0 * 2.0 / (65.0 * 2.0));
-        let expected = [32.0 + n.x * shift, 32.0 - n.y * shift];
+        let expected = [32.0 - n.x * shift, 32.0 + n.y * shift];
         for axis in [0, 1] {
-            assert!(
-                (found[axis] / fresnel(n.z) - expected[axis]).abs() < 0.02,
-                "{found:?}"
-            );
+            assert!((found[axis] / fresnel(n.z) - expected[axis]).abs() < 0.02, "{found:?}");
         }
-        *scene.scene.at_mut(33, 31) = 5.0;
+        *scene.scene.at_mut(31, 33) = 5.0;
         let found = shade(&scene.inputs(0), &settings, BLACK, &view).at(32, 32);
         assert!((found[0] / fresnel(n.z) - 32.0).abs() < 1e-3, "{found:?}");
     }
@@ -490,33 +430,17 @@ mod tests {
         let view = View::new(world_to_eye, p, 65, 65).expect("a valid view");
         let up = world_to_eye.transform_vector3(DVec3::Y);
         let scene = Scene::new(&view, 0, 5.0, |ray| -5.0 / ray.dot(up));
-        let mirror = Settings {
-            fresnel: Fresnel::Source {
-                bias: 2.0,
-                scale: 0.0,
-                power: 1.0,
-            },
-            ..PLAIN
-        };
+        let mirror =
+            Settings { fresnel: Fresnel::Source { bias: 2.0, scale: 0.0, power: 1.0 }, ..PLAIN };
         let picture = shade(&scene.inputs(0), &mirror, |direction| direction, &view);
         let found = DVec3::from_slice(&picture.at(32, 32)[..3]);
-        assert!(
-            (found - DVec3::new(0.0, 0.5, forward.z)).length() < 2e-3,
-            "{found}"
-        );
+        assert!((found - DVec3::new(0.0, 0.5, forward.z)).length() < 2e-3, "{found}");
 
         // The sun where the ray goes: the whole highlight; thin water has none.
         let sun = world_to_eye.transform_vector3(found.normalize());
-        let lit = Settings {
-            specular: [0.5; 3],
-            sun_direction: sun,
-            ..mirror
-        };
+        let lit = Settings { specular: [0.5; 3], sun_direction: sun, ..mirror };
         let glint = shade(&scene.inputs(0), &lit, |direction| direction, &view).at(32, 32);
-        assert!(
-            (glint[0] - picture.at(32, 32)[0] - 0.5).abs() < 1e-3,
-            "{glint:?}"
-        );
+        assert!((glint[0] - picture.at(32, 32)[0] - 0.5).abs() < 1e-3, "{glint:?}");
         let dry = Scene::new(&view, 0, 0.0, |ray| -5.0 / ray.dot(up));
         let found = shade(&dry.inputs(0), &lit, |direction| direction, &view).at(32, 32);
         assert!((found[0] - 32.0).abs() < 1e-9, "{found:?}");

@@ -16,21 +16,15 @@ pub struct CullParams {
     pub density_threshold: f64,
     /// From this fraction on a particle has its whole radius.
     pub density_full: f64,
-    /// The bounding sphere's radius in drawn radii: 1 for the depth sprites, 2 to keep all that
-    /// adds to the thickness.
+    /// The bounding sphere's radius in (density-scaled) drawn radii: 2 keeps all that adds to the
+    /// thickness.
     pub bound: f64,
 }
 
 impl CullParams {
     /// The defaults for a drawn radius and a rest density.
     pub fn new(radius: f64, rest_density: f64) -> Self {
-        Self {
-            radius,
-            rest_density,
-            density_threshold: 0.35,
-            density_full: 0.45,
-            bound: 1.0,
-        }
+        Self { radius, rest_density, density_threshold: 0.35, density_full: 0.45, bound: 2.0 }
     }
 }
 
@@ -72,18 +66,12 @@ pub fn cull(
     let planes = frustum(view);
     let mut culled = Culled::default();
     for (index, position) in positions.iter().enumerate() {
-        let density = densities
-            .and_then(|all| all.get(index))
-            .map_or(0.0, |d| f64::from(*d));
+        let density = densities.and_then(|all| all.get(index)).map_or(0.0, |d| f64::from(*d));
         if !position.iter().all(|x| x.is_finite()) || !density.is_finite() {
             culled.dropped += 1;
             continue;
         }
-        let fraction = if density <= 0.0 {
-            1.0
-        } else {
-            density / params.rest_density
-        };
+        let fraction = if density <= 0.0 { 1.0 } else { density / params.rest_density };
         let spray = fraction < params.density_threshold;
         let scale = match spray {
             true => 1.0,
@@ -92,12 +80,8 @@ pub fn cull(
             }
         };
         let radius = params.radius * scale;
-        let center = view
-            .view
-            .transform_point3(DVec3::from(position.map(f64::from)));
-        let seen = planes
-            .iter()
-            .all(|p| p.dot(center.extend(1.0)) >= -params.bound * radius);
+        let center = view.view.transform_point3(DVec3::from(position.map(f64::from)));
+        let seen = planes.iter().all(|p| p.dot(center.extend(1.0)) >= -params.bound * radius);
         if seen && spray {
             culled.spray.push(Sphere { center, radius });
             culled.spray_index.push(index);
@@ -135,12 +119,9 @@ mod tests {
 
     #[test]
     fn a_sphere_goes_when_it_is_wholly_outside() {
-        for depth in [
-            Depth::Standard,
-            Depth::Reversed,
-            Depth::StandardInfinite,
-            Depth::ReversedInfinite,
-        ] {
+        for depth in
+            [Depth::Standard, Depth::Reversed, Depth::StandardInfinite, Depth::ReversedInfinite]
+        {
             // Half angle 45 degrees: the side planes are x = d and the like.
             let p = projection(DVec2::new(1.0, -1.0), DVec2::ZERO, depth);
             let eye = DMat4::from_translation(DVec3::new(-3.0, 0.0, 0.0));
@@ -152,16 +133,8 @@ mod tests {
             };
             let far = 2.0_f64.sqrt();
             for (x, y) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {
-                assert!(seen(
-                    x * (10.0 + 0.99 * far),
-                    y * (10.0 + 0.99 * far),
-                    -10.0
-                ));
-                assert!(!seen(
-                    x * (10.0 + 1.01 * far),
-                    y * (10.0 + 1.01 * far),
-                    -10.0
-                ));
+                assert!(seen(x * (10.0 + 0.99 * far), y * (10.0 + 0.99 * far), -10.0));
+                assert!(!seen(x * (10.0 + 1.01 * far), y * (10.0 + 1.01 * far), -10.0));
             }
             assert!(seen(0.0, 0.0, 0.89) && !seen(0.0, 0.0, 0.91));
             let finite = matches!(depth, Depth::Standard | Depth::Reversed);

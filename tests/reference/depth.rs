@@ -48,10 +48,7 @@ mod tests {
     fn every_hit_is_on_the_sphere_and_the_silhouette_is_its_cone() {
         let view = view(DVec2::new(0.9, -1.2), DVec2::new(0.2, -0.1), 64, 48);
         for center in [DVec3::new(0.3, -0.2, -4.0), DVec3::new(2.4, 1.9, -3.0)] {
-            let sphere = Sphere {
-                center,
-                radius: 0.8,
-            };
+            let sphere = Sphere { center, radius: 0.8 };
             let depth = splat(&[sphere], &view);
             let mut covered = 0;
             for (x, y) in (0..48).flat_map(|y| (0..64).map(move |x| (x, y))) {
@@ -72,10 +69,7 @@ mod tests {
     #[test]
     fn the_nearest_counts_and_what_is_before_the_near_plane_does_not() {
         let view = view(DVec2::ONE, DVec2::ZERO, 5, 5);
-        let at = |d: f64| Sphere {
-            center: DVec3::new(0.0, 0.0, -d),
-            radius: 1.0,
-        };
+        let at = |d: f64| Sphere { center: DVec3::new(0.0, 0.0, -d), radius: 1.0 };
         assert!((splat(&[at(7.0), at(5.0), at(9.0)], &view).at(2, 2) - 4.0).abs() < 1e-12);
         // The eye within, the near root before the near plane (0.1), behind the eye.
         for d in [0.5, 1.05, -3.0] {
@@ -87,10 +81,7 @@ mod tests {
     #[test]
     fn the_discriminant_keeps_its_digits() {
         let ray = DVec3::new(0.6, -0.7, -1.0);
-        let sphere = Sphere {
-            center: ray * 1e6,
-            radius: 1.0,
-        };
+        let sphere = Sphere { center: ray * 1e6, radius: 1.0 };
         let t = hit(ray, &sphere).unwrap_or(0.0);
         assert!((t - (1e6 - 1.0 / ray.length())).abs() < 1e-8);
     }

@@ -52,20 +52,12 @@ impl<T: Clone> Image<T> {
     /// An image of one value.
     pub fn new(width: usize, height: usize, value: T) -> Self {
         let data = vec![value; width * height];
-        Self {
-            width,
-            height,
-            data,
-        }
+        Self { width, height, data }
     }
 
     /// The image over the given values, or nothing if they are not `width * height`.
     pub fn from_vec(width: usize, height: usize, data: Vec<T>) -> Option<Self> {
-        (data.len() == width * height).then_some(Self {
-            width,
-            height,
-            data,
-        })
+        (data.len() == width * height).then_some(Self { width, height, data })
     }
 
     /// The value at (x, y) of the nearest pixel inside.
@@ -83,29 +75,19 @@ impl<T: Clone> Image<T> {
 
     /// The value at (x, y), which must be inside.
     pub fn at(&self, x: usize, y: usize) -> T {
-        assert!(
-            x < self.width && y < self.height,
-            "({x}, {y}) is outside the image"
-        );
+        assert!(x < self.width && y < self.height, "({x}, {y}) is outside the image");
         self.data[y * self.width + x].clone()
     }
 
     /// The value at (x, y), to write to.
     pub fn at_mut(&mut self, x: usize, y: usize) -> &mut T {
-        assert!(
-            x < self.width && y < self.height,
-            "({x}, {y}) is outside the image"
-        );
+        assert!(x < self.width && y < self.height, "({x}, {y}) is outside the image");
         &mut self.data[y * self.width + x]
     }
 
     /// The image of a function of each value: one channel of a picture, say.
     pub fn map<U>(&self, f: impl Fn(&T) -> U) -> Image<U> {
-        Image {
-            width: self.width,
-            height: self.height,
-            data: self.data.iter().map(f).collect(),
-        }
+        Image { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
     }
 
     /// The four texels bilinear filtering blends at a position in pixels, clamped to the image,
@@ -127,17 +109,11 @@ impl<T: Send> Image<T> {
     /// The image of a function of the pixel, by rows on all cores.
     pub fn from_fn(width: usize, height: usize, f: impl Fn(usize, usize) -> T + Sync) -> Self {
         let rows = |rows: Range<usize>| -> Vec<T> {
-            rows.flat_map(|y| (0..width).map(move |x| (x, y)))
-                .map(|(x, y)| f(x, y))
-                .collect()
+            rows.flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| f(x, y)).collect()
         };
         let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         if cores == 1 || width * height < 16384 {
-            return Self {
-                width,
-                height,
-                data: rows(0..height),
-            };
+            return Self { width, height, data: rows(0..height) };
         }
         let chunk = height.div_ceil(cores);
         let data = std::thread::scope(|scope| {
@@ -151,17 +127,11 @@ impl<T: Send> Image<T> {
             workers
                 .into_iter()
                 .flat_map(|worker| {
-                    worker
-                        .join()
-                        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+                    worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
                 })
                 .collect()
         });
-        Self {
-            width,
-            height,
-            data,
-        }
+        Self { width, height, data }
     }
 }
 
@@ -192,27 +162,16 @@ impl View {
         let p = projection;
         let w = p.row(3).to_array();
         if w != [0.0, 0.0, -1.0, 0.0] {
-            return Err(format!(
-                "a perspective projection has w = -z, found the row {w:?}"
-            ));
+            return Err(format!("a perspective projection has w = -z, found the row {w:?}"));
         }
-        let skew = [
-            p.x_axis.y, p.y_axis.x, p.w_axis.x, p.w_axis.y, p.x_axis.z, p.y_axis.z,
-        ];
+        let skew = [p.x_axis.y, p.y_axis.x, p.w_axis.x, p.w_axis.y, p.x_axis.z, p.y_axis.z];
         if skew != [0.0; 6] || p.x_axis.x == 0.0 || p.y_axis.y == 0.0 || p.w_axis.z == 0.0 {
-            return Err(format!(
-                "expected a perspective projection without skew, found {p}"
-            ));
+            return Err(format!("expected a perspective projection without skew, found {p}"));
         }
         if !p.is_finite() || !view.is_finite() || width == 0 || height == 0 {
             return Err("expected finite matrices and an image of one pixel at least".into());
         }
-        Ok(Self {
-            view,
-            projection,
-            width,
-            height,
-        })
+        Ok(Self { view, projection, width, height })
     }
 
     /// The extent in pixels.
@@ -271,10 +230,7 @@ impl View {
     /// planes of device depth 0 and 1 (a far plane at infinity divides by zero or turns negative).
     pub fn near(&self) -> f64 {
         let planes = [self.eye_depth(0.0), self.eye_depth(1.0)];
-        planes
-            .into_iter()
-            .filter(|d| *d > 0.0)
-            .fold(f64::INFINITY, f64::min)
+        planes.into_iter().filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min)
     }
 
     /// The eye depth of the far plane, none if it is at infinity (or beyond).
@@ -307,12 +263,7 @@ impl View {
         projection.y_axis.y = focal.y;
         projection.z_axis.x = shift.x;
         projection.z_axis.y = shift.y;
-        Self {
-            view: self.view,
-            projection,
-            width,
-            height,
-        }
+        Self { view: self.view, projection, width, height }
     }
 
     /// The pixels that may see anything of a box in eye space: its middle and half extent in x and
@@ -337,10 +288,7 @@ impl View {
             let start = (low.max(0.0) as usize).min(extent);
             start..(high.max(0.0).ceil() as usize).clamp(start, extent)
         };
-        (
-            range(low.x, high.x, self.width),
-            range(low.y, high.y, self.height),
-        )
+        (range(low.x, high.x, self.width), range(low.y, high.y, self.height))
     }
 }
 
@@ -399,10 +347,7 @@ impl fmt::Display for Census {
             )?;
         }
         if let Some((x, y, actual, expected)) = self.mismatch_at {
-            writeln!(
-                out,
-                "coverage: first at ({x}, {y}): {actual:e}, expected {expected:e}"
-            )?;
+            writeln!(out, "coverage: first at ({x}, {y}): {actual:e}, expected {expected:e}")?;
         }
         write!(out, "errors in tolerances:")?;
         for (bin, count) in self.histogram.iter().enumerate() {
@@ -422,11 +367,7 @@ pub fn compare(
     expected: &Image<f64>,
     tolerance: impl Fn(usize, usize, f64) -> f64,
 ) -> Census {
-    assert_eq!(
-        (actual.width, actual.height),
-        (expected.width, expected.height),
-        "extents"
-    );
+    assert_eq!((actual.width, actual.height), (expected.width, expected.height), "extents");
     let mut census = Census {
         compared: 0,
         failed: 0,
@@ -454,10 +395,7 @@ pub fn compare(
                     };
                     census.compared += 1;
                     census.failed += usize::from(ratio > 1.0);
-                    let bin = BINS
-                        .iter()
-                        .position(|end| ratio <= *end)
-                        .unwrap_or(BINS.len());
+                    let bin = BINS.iter().position(|end| ratio <= *end).unwrap_or(BINS.len());
                     census.histogram[bin] += 1;
                     if error.is_finite() {
                         sum += error;
@@ -516,12 +454,8 @@ pub(crate) mod tests {
         View::new(DMat4::IDENTITY, projection, width, height).expect("a valid view")
     }
 
-    const DEPTHS: [Depth; 4] = [
-        Depth::Standard,
-        Depth::Reversed,
-        Depth::StandardInfinite,
-        Depth::ReversedInfinite,
-    ];
+    const DEPTHS: [Depth; 4] =
+        [Depth::Standard, Depth::Reversed, Depth::StandardInfinite, Depth::ReversedInfinite];
 
     #[test]
     fn rays_project_back_to_their_pixels() {
@@ -598,10 +532,7 @@ pub(crate) mod tests {
         let census = compare(&actual, &expected, |_, _, _| 0.25);
         assert_eq!((census.compared, census.failed, census.empty), (4, 2, 1));
         assert_eq!(
-            (
-                census.coverage_mismatch,
-                census.worst_at.map(|w| (w.0, w.1))
-            ),
+            (census.coverage_mismatch, census.worst_at.map(|w| (w.0, w.1))),
             (1, Some((1, 1)))
         );
         assert!((census.mean_abs - 0.625 / 3.0).abs() < 1e-12);

@@ -8,35 +8,21 @@ pub fn clip(depth: &Image<f64>, scene_eye_depth: Option<&Image<f64>>) -> Image<f
     let Some(scene) = scene_eye_depth else {
         return depth.clone();
     };
-    assert_eq!(
-        (depth.width, depth.height),
-        (scene.width, scene.height),
-        "extents"
-    );
+    assert_eq!((depth.width, depth.height), (scene.width, scene.height), "extents");
     Image::from_fn(depth.width, depth.height, |x, y| {
-        if depth.at(x, y) < scene.at(x, y) {
-            depth.at(x, y)
-        } else {
-            EMPTY
-        }
+        if depth.at(x, y) < scene.at(x, y) { depth.at(x, y) } else { EMPTY }
     })
 }
 
 /// The nearest depth of each block; at the right and lower border a block may be partly outside.
 pub fn reduce(depth: &Image<f64>, level: u32) -> Image<f64> {
     let block = 1_usize << level;
-    Image::from_fn(
-        depth.width.div_ceil(block),
-        depth.height.div_ceil(block),
-        |x, y| {
-            let columns = x * block..((x + 1) * block).min(depth.width);
-            (y * block..((y + 1) * block).min(depth.height))
-                .flat_map(|row| columns.clone().map(move |column| (column, row)))
-                .fold(EMPTY, |nearest, (column, row)| {
-                    nearest.min(depth.at(column, row))
-                })
-        },
-    )
+    Image::from_fn(depth.width.div_ceil(block), depth.height.div_ceil(block), |x, y| {
+        let columns = x * block..((x + 1) * block).min(depth.width);
+        (y * block..((y + 1) * block).min(depth.height))
+            .flat_map(|row| columns.clone().map(move |column| (column, row)))
+            .fold(EMPTY, |nearest, (column, row)| nearest.min(depth.at(column, row)))
+    })
 }
 
 #[cfg(test)]

@@ -41,11 +41,8 @@ pub fn splat(
     let near = view.near();
     let mut thickness = Image::new(view.width, view.height, 0.0);
     for sphere in spheres {
-        let (center, depth, half) = (
-            sphere.center.truncate(),
-            -sphere.center.z,
-            2.0 * sphere.radius,
-        );
+        let (center, depth, half) =
+            (sphere.center.truncate(), -sphere.center.z, 2.0 * sphere.radius);
         if depth < near || half <= 0.0 {
             continue;
         }
@@ -91,13 +88,8 @@ mod tests {
     fn the_integral_over_the_plane_is_the_volume() {
         let view = view(DVec2::new(1.1, -1.4), DVec2::new(0.2, -0.1), 301, 203);
         for (x, y, d) in [(0.3, -0.2, 4.0), (1.5, 1.2, 6.0)] {
-            let sphere = Sphere {
-                center: DVec3::new(x, y, -d),
-                radius: 0.5,
-            };
-            let volume = Amplitude::Volume {
-                particle_volume: 0.3,
-            };
+            let sphere = Sphere { center: DVec3::new(x, y, -d), radius: 0.5 };
+            let volume = Amplitude::Volume { particle_volume: 0.3 };
             let thickness = splat(&[sphere, sphere], &view, None, volume);
             let pixel = view.c_x() * view.c_y() * d * d;
             let integral = thickness.data.iter().sum::<f64>() * pixel;
@@ -110,13 +102,8 @@ mod tests {
     #[test]
     fn a_source_splat_holds_about_four_particles() {
         let view = view(DVec2::new(1.1, -1.1), DVec2::ZERO, 301, 301);
-        let sphere = Sphere {
-            center: DVec3::new(0.0, 0.0, -6.0),
-            radius: 0.656,
-        };
-        let source = Amplitude::Source {
-            particle_size: 2.0 * 0.656,
-        };
+        let sphere = Sphere { center: DVec3::new(0.0, 0.0, -6.0), radius: 0.656 };
+        let source = Amplitude::Source { particle_size: 2.0 * 0.656 };
         let thickness = splat(&[sphere], &view, None, source);
         let integral = thickness.data.iter().sum::<f64>() * view.c_x() * view.c_y() * 36.0;
         assert!((integral - 3.86).abs() < 0.02, "{integral}");
@@ -125,29 +112,16 @@ mod tests {
     #[test]
     fn the_centre_is_tested_against_the_scene() {
         let view = view(DVec2::ONE, DVec2::ZERO, 32, 32);
-        let sphere = Sphere {
-            center: DVec3::new(0.0, 0.0, -4.0),
-            radius: 1.0,
-        };
+        let sphere = Sphere { center: DVec3::new(0.0, 0.0, -4.0), radius: 1.0 };
         let scene = Image::from_fn(32, 32, |x, _| if x < 16 { 3.9 } else { 4.1 });
         let unit = Amplitude::Source { particle_size: 1.0 };
-        let (cut, whole) = (
-            splat(&[sphere], &view, Some(&scene), unit),
-            splat(&[sphere], &view, None, unit),
-        );
+        let (cut, whole) =
+            (splat(&[sphere], &view, Some(&scene), unit), splat(&[sphere], &view, None, unit));
         for (x, y) in (0..32).flat_map(|y| (0..32).map(move |x| (x, y))) {
             assert_eq!(cut.at(x, y), if x < 16 { 0.0 } else { whole.at(x, y) });
         }
         assert!(cut.at(16, 16) > 1.5);
-        let behind = Sphere {
-            center: DVec3::new(0.0, 0.0, 1.0),
-            radius: 2.0,
-        };
-        assert!(
-            splat(&[behind], &view, None, unit)
-                .data
-                .iter()
-                .all(|t| *t == 0.0)
-        );
+        let behind = Sphere { center: DVec3::new(0.0, 0.0, 1.0), radius: 2.0 };
+        assert!(splat(&[behind], &view, None, unit).data.iter().all(|t| *t == 0.0));
     }
 }
