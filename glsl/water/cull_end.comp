@@ -17,6 +17,8 @@ void main() {
         return;
     }
     uint base = chunk * 64u;
-    words[base + 8u] = (words[base] + push.group_size - 1u) / push.group_size;
-    words[base + 11u] = min(words[base + 5u], push.most_groups);
+    uint large = words[base + 5u];
+    // Where there are only large ones, the dispatch over the small ones still takes care of them.
+    words[base + 8u] = max((words[base] + push.group_size - 1u) / push.group_size, min(large, 1u));
+    words[base + 11u] = min(large, push.most_groups);
 }

@@ -18,7 +18,7 @@ use crate::contract::{Config, Count, Particles, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer,
+    Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -46,6 +46,8 @@ const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DRO
 
 /// Particles of a chunk at most: 64 an invocation group, 65 535 groups.
 const MOST_CHUNK: u32 = 1 << 21;
+/// Workgroups over large sprites; more sprites share them.
+const MOST_LARGE_GROUPS: u32 = 4096;
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -96,66 +98,59 @@ struct EndPush {
     most_groups: u32,
 }
 
-/// The pass.
-pub struct Cull {
-    begin: Pipeline,
-    each: Pipeline,
-    packets: Pipeline,
-    end: Pipeline,
+/// How lists are read by the passes that draw or dispatch them.
+pub const LIST_USE: Access = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
+
+/// Spheres in eye space with the counts that draw them, chunk by chunk.
+pub struct SphereList {
     /// `Counts` of every chunk.
     pub counts: Buffer,
-    /// Spheres in eye space: centre, radius.
-    pub visible: Buffer,
-    max_particles: u32,
-    chunk_size: u32,
-    chunks: u32,
+    /// Centre and radius of each sphere: small sprites from the front of each chunk's part, large
+    /// ones from its back.
+    pub spheres: Buffer,
+    pub chunk_size: u32,
+    pub chunks: u32,
 }
 
-/// One chunk's part of the list.
+/// One chunk's part of a list.
 #[derive(Clone, Copy)]
 pub struct Chunk {
     /// `Counts` as a resource.
     pub counts: Resource,
     /// The chunk's part of the list as a resource.
-    pub visible: Resource,
+    pub spheres: Resource,
     /// Byte offset of `Counts` in its buffer.
     pub arguments: u64,
     /// Spheres the part can hold.
     pub capacity: u32,
 }
 
-impl Cull {
-    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+impl SphereList {
+    /// Room for the configuration's particles, in chunks that can be bound.
+    pub fn new(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
         let range = u64::from(gpu.limits.max_storage_buffer_range);
         let widest = u64::from(config.max_stride.max(16));
-        let fits = (range - 256) / widest;
-        let chunk_size = (fits.min(u64::from(MOST_CHUNK)) as u32).min(config.max_particles.max(1));
+        let fits = ((range - 256) / widest).min(u64::from(MOST_CHUNK)) as u32;
         // Parts of the list begin at offsets that every device can bind.
-        let chunk_size = chunk_size.next_multiple_of(256).min(MOST_CHUNK);
+        let chunk_size =
+            fits.min(config.max_particles.max(1)).next_multiple_of(256).min(fits & !255).max(256);
         let chunks = config.max_particles.max(1).div_ceil(chunk_size);
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Ok(Self {
-            begin: Pipeline::compute(gpu, shader::WATER_CULL_BEGIN_COMP, &[])?,
-            each: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 0)])?,
-            packets: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 1)])?,
-            end: Pipeline::compute(gpu, shader::WATER_CULL_END_COMP, &[])?,
             counts: Buffer::new(
                 gpu,
-                "water/cull/counts",
+                &format!("{name}/counts"),
                 COUNTS_STRIDE * u64::from(chunks),
-                storage
-                    | vk::BufferUsageFlags::INDIRECT_BUFFER
-                    | vk::BufferUsageFlags::TRANSFER_SRC,
+                storage | vk::BufferUsageFlags::INDIRECT_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC,
                 MemoryLocation::GpuOnly,
             )?,
-            visible: Buffer::new(
+            spheres: Buffer::new(
                 gpu,
-                "water/cull/visible",
+                &format!("{name}/spheres"),
                 16 * u64::from(chunks) * u64::from(chunk_size),
                 storage,
                 MemoryLocation::GpuOnly,
             )?,
-            max_particles: config.max_particles,
             chunk_size,
             chunks,
         })
@@ -166,7 +161,8 @@ impl Cull {
         (0..self.chunks).map(|i| self.chunk(i))
     }
 
-    fn chunk(&self, index: u32) -> Chunk {
+    /// One chunk.
+    pub fn chunk(&self, index: u32) -> Chunk {
         let bytes = 16 * u64::from(self.chunk_size);
         Chunk {
             counts: Resource::Buffer(
@@ -174,10 +170,102 @@ impl Cull {
                 COUNTS_STRIDE * u64::from(index),
                 COUNTS_STRIDE,
             ),
-            visible: Resource::Buffer(self.visible.handle, bytes * u64::from(index), bytes),
+            spheres: Resource::Buffer(self.spheres.handle, bytes * u64::from(index), bytes),
             arguments: COUNTS_STRIDE * u64::from(index),
             capacity: self.chunk_size,
         }
+    }
+
+    /// Bytes of device memory.
+    pub fn memory(&self) -> u64 {
+        self.counts.size + self.spheres.size
+    }
+
+    /// Frees it. The GPU must be done with it.
+    pub fn destroy(self, gpu: &Gpu) {
+        self.counts.destroy(gpu);
+        self.spheres.destroy(gpu);
+    }
+}
+
+/// The pass.
+pub struct Cull {
+    begin: Pipeline,
+    each: Pipeline,
+    packets: Pipeline,
+    end: Pipeline,
+    /// All spheres on the screen.
+    pub list: SphereList,
+    max_particles: u32,
+}
+
+impl Cull {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        Ok(Self {
+            begin: Pipeline::compute(gpu, shader::WATER_CULL_BEGIN_COMP, &[])?,
+            each: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 0)])?,
+            packets: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 1)])?,
+            end: Pipeline::compute(gpu, shader::WATER_CULL_END_COMP, &[])?,
+            list: SphereList::new(gpu, config, "water/cull")?,
+            max_particles: config.max_particles,
+        })
+    }
+
+    /// Empties a list: its counts become those of no particles, or of `count`.
+    fn record_begin(
+        &self,
+        r: &Recording<'_>,
+        list: &SphereList,
+        host_count: Resource,
+        count: u32,
+        from_gpu: bool,
+        packets: u32,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let resources = [(1, host_count), (2, Resource::buffer(&list.counts))];
+        r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
+        self.begin.push(
+            gpu,
+            cmd,
+            &BeginPush {
+                count,
+                word: 0,
+                from_gpu: u32::from(from_gpu),
+                chunks: list.chunks,
+                chunk_size: list.chunk_size,
+                packets,
+                group_size: self.each.local_size[0],
+            },
+        );
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, list.chunks.div_ceil(32), 1, 1) };
+        Ok(())
+    }
+
+    /// Makes a list's dispatches from its counts.
+    fn record_end(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        r.descriptors.bind(gpu, cmd, &self.end, &[(1, Resource::buffer(&list.counts))])?;
+        let group_size = self.each.local_size[0];
+        self.end.push(
+            gpu,
+            cmd,
+            &EndPush { chunks: list.chunks, group_size, most_groups: MOST_LARGE_GROUPS },
+        );
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, list.chunks.div_ceil(32), 1, 1) };
+        Ok(())
+    }
+
+    /// Empties another list, before [`end_list`](Self::end_list) closes it.
+    pub fn begin_list(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
+        let unread = Resource::buffer(&self.list.counts);
+        self.record_begin(r, list, unread, 0, false, 0)
+    }
+
+    /// Closes another list.
+    pub fn end_list(&self, r: &Recording<'_>, list: &SphereList) -> Result<(), Error> {
+        self.record_end(r, list)
     }
 
     /// `small_limit`: largest small sprite in pixels; `inside`: small ones must have their centre
@@ -191,144 +279,133 @@ impl Cull {
     ) -> Result<(), Error> {
         let scope = r.begin(c"cull");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let consumers = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
+        let list = &self.list;
         let streams = [Some(particles.positions), particles.densities];
 
         // In: the host's buffers, and ours from the frame before.
-        let read = COMPUTE_READ;
-        let mut host: Vec<_> =
-            streams.iter().flatten().map(|s| buffer(s.buffer, particles.before, read)).collect();
-        host.extend(particles.packets.map(|p| buffer(p.buffer, particles.before, read)));
-        if let Count::Gpu { buffer: handle, .. } = particles.count {
-            host.push(buffer(handle, particles.before, read));
-        }
+        let mut host: Vec<_> = streams
+            .iter()
+            .flatten()
+            .map(|s| s.buffer)
+            .chain(particles.packets.map(|p| p.buffer))
+            .chain(match particles.count {
+                Count::Gpu { buffer, .. } => Some(buffer),
+                Count::Cpu(_) => None,
+            })
+            .map(|handle| buffer(handle, particles.before, COMPUTE_READ))
+            .collect();
         // Interleaved streams share a buffer: one barrier is enough.
         host.sort_by_key(|barrier| vk::Handle::as_raw(barrier.buffer));
         host.dedup_by_key(|barrier| barrier.buffer);
-        host.push(buffer(self.counts.handle, consumers, COMPUTE_WRITE));
-        host.push(buffer(self.visible.handle, consumers, COMPUTE_WRITE));
+        host.push(buffer(list.counts.handle, LIST_USE, COMPUTE_WRITE));
+        host.push(buffer(list.spheres.handle, LIST_USE, COMPUTE_WRITE));
         gpu.barriers(cmd, &[], &host);
 
-        let most = streams.iter().flatten().map(|s| capacity(s)).fold(self.max_particles, u32::min);
+        let most = streams.iter().flatten().map(capacity).fold(self.max_particles, u32::min);
         let (count, from_gpu, host_count) = match particles.count {
-            Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),
-            // A bound offset costs an alignment; the word costs nothing.
-            Count::Gpu { buffer, offset } => (most, 1, Resource::Buffer(buffer, offset, 4)),
+            Count::Cpu(count) => (count.min(most), false, Resource::buffer(&list.counts)),
+            Count::Gpu { buffer, offset } => (most, true, Resource::Buffer(buffer, offset, 4)),
         };
-        r.descriptors.bind(
-            gpu,
-            cmd,
-            &self.begin,
-            &[(1, host_count), (2, Resource::buffer(&self.counts))],
-        )?;
-        let group_size = self.each.local_size[0];
-        self.begin.push(
-            gpu,
-            cmd,
-            &BeginPush {
-                count,
-                word: 0,
-                from_gpu,
-                chunks: self.chunks,
-                chunk_size: self.chunk_size,
-                packets: particles.packets.map_or(0, |p| p.count),
-                group_size,
-            },
-        );
-        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, self.chunks.div_ceil(32), 1, 1) };
+        let packets = particles.packets.map_or(0, |p| p.count);
+        self.record_begin(r, list, host_count, count, from_gpu, packets)?;
         gpu.barriers(
             cmd,
             &[],
-            &[buffer(self.counts.handle, COMPUTE_WRITE, COMPUTE_READ_WRITE.and(INDIRECT))],
+            &[buffer(list.counts.handle, COMPUTE_WRITE, COMPUTE_READ_WRITE.and(INDIRECT))],
         );
 
-        let pipeline = if particles.packets.is_some() { &self.packets } else { &self.each };
-        for index in 0..self.chunks {
-            let chunk = self.chunk(index);
-            let first = index * self.chunk_size;
-            let Some((positions, position_word)) = window(gpu, &particles.positions, first) else {
-                break;
-            };
-            let (densities, density_word, density_stride) = match &particles.densities {
-                Some(stream) => match window(gpu, stream, first) {
-                    Some((resource, word)) => (resource, word, stream.stride / 4),
-                    None => break,
-                },
-                None => (positions, 0, 0),
-            };
-            let packets = particles.packets.map_or(positions, |p| {
-                Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count.max(1)))
-            });
-            r.descriptors.bind(
-                gpu,
-                cmd,
-                pipeline,
-                &[
-                    (0, r.uniforms),
-                    (1, positions),
-                    (2, densities),
-                    (3, packets),
-                    (4, chunk.counts),
-                    (5, chunk.visible),
-                ],
-            )?;
-            pipeline.push(
-                gpu,
-                cmd,
-                &CullPush {
-                    position_word,
-                    position_stride: particles.positions.stride / 4,
-                    density_word,
-                    density_stride,
-                    packet_word: 0,
-                    chunk_first: first,
-                    capacity: chunk.capacity,
-                    small_limit,
-                    small_inside: u32::from(inside),
-                },
-            );
-            // SAFETY: as above; the arguments were written by `begin` and made visible.
-            unsafe {
-                gpu.device.cmd_dispatch_indirect(
-                    cmd,
-                    self.counts.handle,
-                    chunk.arguments + CULL_GROUPS,
-                );
-            }
+        for index in 0..list.chunks {
+            self.record_chunk(r, particles, index, small_limit, inside)?;
         }
         gpu.barriers(
             cmd,
             &[],
-            &[buffer(self.counts.handle, COMPUTE_READ_WRITE.and(INDIRECT), COMPUTE_READ_WRITE)],
+            &[buffer(list.counts.handle, COMPUTE_READ_WRITE.and(INDIRECT), COMPUTE_READ_WRITE)],
         );
 
-        r.descriptors.bind(gpu, cmd, &self.end, &[(1, Resource::buffer(&self.counts))])?;
-        self.end.push(gpu, cmd, &EndPush { chunks: self.chunks, group_size, most_groups: 4096 });
-        // SAFETY: as above.
-        unsafe { gpu.device.cmd_dispatch(cmd, self.chunks.div_ceil(32), 1, 1) };
+        self.record_end(r, list)?;
         gpu.barriers(
             cmd,
             &[],
             &[
-                buffer(self.counts.handle, COMPUTE_WRITE, consumers),
-                buffer(self.visible.handle, COMPUTE_WRITE, COMPUTE_READ.and(VERTEX_READ)),
+                buffer(list.counts.handle, COMPUTE_WRITE, LIST_USE),
+                buffer(list.spheres.handle, COMPUTE_WRITE, LIST_USE),
             ],
         );
         r.end(scope);
         Ok(())
     }
 
-    pub fn memory(&self) -> u64 {
-        self.counts.size + self.visible.size
+    fn record_chunk(
+        &self,
+        r: &Recording<'_>,
+        particles: &Particles,
+        index: u32,
+        small_limit: f32,
+        inside: bool,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let chunk = self.list.chunk(index);
+        let first = index * self.list.chunk_size;
+        // A stream that ends before the chunk has no particles in it: the count was clamped.
+        let Some((positions, position_word)) = window(gpu, &particles.positions, first) else {
+            return Ok(());
+        };
+        let (densities, density_word, density_stride) = match &particles.densities {
+            Some(stream) => match window(gpu, stream, first) {
+                Some((resource, word)) => (resource, word, stream.stride / 4),
+                None => return Ok(()),
+            },
+            None => (positions, 0, 0),
+        };
+        let packets = particles.packets.map_or(positions, |p| {
+            Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count.max(1)))
+        });
+        let pipeline = if particles.packets.is_some() { &self.packets } else { &self.each };
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            pipeline,
+            &[
+                (0, r.uniforms),
+                (1, positions),
+                (2, densities),
+                (3, packets),
+                (4, chunk.counts),
+                (5, chunk.spheres),
+            ],
+        )?;
+        pipeline.push(
+            gpu,
+            cmd,
+            &CullPush {
+                position_word,
+                position_stride: particles.positions.stride / 4,
+                density_word,
+                density_stride,
+                packet_word: 0,
+                chunk_first: first,
+                capacity: chunk.capacity,
+                small_limit,
+                small_inside: u32::from(inside),
+            },
+        );
+        // SAFETY: outside a render pass; the arguments were written by `begin` and made visible.
+        unsafe {
+            gpu.device.cmd_dispatch_indirect(
+                cmd,
+                self.list.counts.handle,
+                chunk.arguments + CULL_GROUPS,
+            );
+        }
+        Ok(())
     }
 
     pub fn destroy(self, gpu: &Gpu) {
         for pipeline in [&self.begin, &self.each, &self.packets, &self.end] {
             pipeline.destroy(gpu);
         }
-        self.counts.destroy(gpu);
-        self.visible.destroy(gpu);
+        self.list.destroy(gpu);
     }
 }
 

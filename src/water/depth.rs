@@ -3,12 +3,12 @@
 //! Exact nearest hit of each pixel's ray with each sphere, where the source offsets a billboard by
 //! N_z·r, which is wrong off the axis and near the eye. Two ways with the same picture: sprites
 //! with MIN blending, and a compute shader with integer atomics on the same image.
-//! Reads: the list of `cull`. Writes: depth, R32F, EMPTY where there is no water.
+//! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;
 
 use super::Recording;
-use super::cull::{self, Cull};
+use super::cull::{self, SphereList};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::EMPTY;
@@ -138,7 +138,7 @@ impl Depth {
         }
     }
 
-    pub fn record(&self, r: &mut Recording<'_>, cull: &Cull) -> Result<(), Error> {
+    pub fn record(&self, r: &mut Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let scope = r.begin(c"depth");
         let (gpu, cmd) = (r.gpu, r.cmd);
         match &self.path {
@@ -150,7 +150,7 @@ impl Depth {
                 );
                 let area = self.image.extent.into();
                 gpu.begin_pass(cmd, *pass, *framebuffer, area, [EMPTY, 0.0, 0.0, 0.0]);
-                draw_sprites(r, cull, points, quads)?;
+                draw_sprites(r, list, points, quads)?;
                 // SAFETY: the pass was begun above.
                 unsafe { gpu.device.cmd_end_render_pass(cmd) };
                 gpu.barriers(
@@ -181,7 +181,7 @@ impl Depth {
                 gpu.barriers(cmd, &[access::image(&self.image, CLEAR, COMPUTE_READ_WRITE)], &[]);
                 dispatch_sprites(
                     r,
-                    cull,
+                    list,
                     small,
                     large,
                     &[(3, Resource::Storage(self.image.alias_view))],
@@ -222,25 +222,25 @@ pub fn default_splat(gpu: &Gpu) -> Splat {
 /// Draws all chunks' sprites inside a render pass: points, then quads.
 pub fn draw_sprites(
     r: &mut Recording<'_>,
-    cull: &Cull,
+    list: &SphereList,
     points: &Pipeline,
     quads: &Pipeline,
 ) -> Result<(), Error> {
     let (gpu, cmd) = (r.gpu, r.cmd);
     for (pipeline, offset) in [(points, cull::POINTS), (quads, cull::QUADS)] {
-        for chunk in cull.chunks() {
+        for chunk in list.chunks() {
             r.descriptors.bind(
                 gpu,
                 cmd,
                 pipeline,
-                &[(0, r.uniforms), (1, chunk.visible), (2, r.scene_depth)],
+                &[(0, r.uniforms), (1, chunk.spheres), (2, r.scene_depth)],
             )?;
             pipeline.push(gpu, cmd, &chunk.capacity);
             // SAFETY: inside a render pass; the arguments are visible since `cull`.
             unsafe {
                 gpu.device.cmd_draw_indirect(
                     cmd,
-                    cull.counts.handle,
+                    list.counts.handle,
                     chunk.arguments + offset,
                     1,
                     16,
@@ -254,21 +254,21 @@ pub fn draw_sprites(
 /// Dispatches all chunks' sprites: small ones an invocation each, large ones a group each.
 pub fn dispatch_sprites(
     r: &mut Recording<'_>,
-    cull: &Cull,
+    list: &SphereList,
     small: &Pipeline,
     large: &Pipeline,
     more: &[(u32, Resource)],
 ) -> Result<(), Error> {
     let (gpu, cmd) = (r.gpu, r.cmd);
     for (pipeline, offset) in [(small, cull::SMALL_GROUPS), (large, cull::LARGE_GROUPS)] {
-        for chunk in cull.chunks() {
-            let mut resources = vec![(0, r.uniforms), (1, chunk.counts), (2, chunk.visible)];
+        for chunk in list.chunks() {
+            let mut resources = vec![(0, r.uniforms), (1, chunk.counts), (2, chunk.spheres)];
             resources.extend_from_slice(more);
             r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
             pipeline.push(gpu, cmd, &chunk.capacity);
             // SAFETY: outside a render pass; the arguments are visible since `cull`.
             unsafe {
-                gpu.device.cmd_dispatch_indirect(cmd, cull.counts.handle, chunk.arguments + offset);
+                gpu.device.cmd_dispatch_indirect(cmd, list.counts.handle, chunk.arguments + offset);
             }
         }
     }

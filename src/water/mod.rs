@@ -3,6 +3,7 @@
 
 mod cull;
 mod depth;
+mod front;
 mod reduce;
 pub mod settings;
 mod smooth;
@@ -63,6 +64,7 @@ pub(crate) struct WaterLayers<'a> {
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Water {
     cull: cull::Cull,
+    front: front::Front,
     depth: depth::Depth,
     reduce: reduce::Reduce,
     tiles: tiles::Tiles,
@@ -74,6 +76,7 @@ impl Water {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         Ok(Self {
             cull: cull::Cull::new(gpu, config)?,
+            front: front::Front::new(gpu, config)?,
             depth: depth::Depth::new(gpu, config)?,
             reduce: reduce::Reduce::new(gpu, config)?,
             tiles: tiles::Tiles::new(gpu, config)?,
@@ -89,6 +92,7 @@ impl Water {
         config: &Config,
         retire: &mut dyn FnMut(Retired),
     ) -> Result<(), Error> {
+        self.front.resize(gpu, config, retire)?;
         self.depth.resize(gpu, config, retire)?;
         self.reduce.resize(gpu, config, retire)?;
         self.tiles.resize(gpu, config, retire)?;
@@ -99,11 +103,12 @@ impl Water {
     /// The passes of a frame.
     pub fn record(&self, r: &mut Recording<'_>, particles: &Particles) -> Result<(), Error> {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
-        self.depth.record(r, &self.cull)?;
+        self.front.record(r, &self.cull)?;
+        self.depth.record(r, &self.front.list)?;
         self.reduce.record(r, &self.depth.image, &self.smooth, &self.tiles)?;
         self.tiles.record(r)?;
         self.smooth.record(r, &self.reduce, &self.tiles)?;
-        self.thickness.record(r, &self.cull)
+        self.thickness.record(r, &self.cull.list)
     }
 
     /// What `composite` reads.
@@ -149,7 +154,8 @@ impl Water {
         ];
         MemoryUse {
             images: images.iter().map(|image| image.size).sum(),
-            buffers: self.cull.memory()
+            buffers: self.cull.list.memory()
+                + self.front.memory()
                 + self.tiles.memory()
                 + self.smooth.memory()
                 + self.thickness.memory(),
@@ -158,6 +164,7 @@ impl Water {
 
     pub fn destroy(self, gpu: &Gpu) {
         self.cull.destroy(gpu);
+        self.front.destroy(gpu);
         self.depth.destroy(gpu);
         self.reduce.destroy(gpu);
         self.tiles.destroy(gpu);

@@ -12,7 +12,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::cull::Cull;
+use super::cull::SphereList;
 use super::depth::{default_splat, dispatch_sprites, draw_sprites, sprites};
 use crate::contract::Config;
 use crate::error::Error;
@@ -119,7 +119,7 @@ impl Thickness {
         Ok(())
     }
 
-    pub fn record(&self, r: &mut Recording<'_>, cull: &Cull) -> Result<(), Error> {
+    pub fn record(&self, r: &mut Recording<'_>, list: &SphereList) -> Result<(), Error> {
         let scope = r.begin(c"thickness");
         let (gpu, cmd) = (r.gpu, r.cmd);
         match &self.path {
@@ -130,7 +130,7 @@ impl Thickness {
                     &[],
                 );
                 gpu.begin_pass(cmd, *pass, *framebuffer, self.image.extent.into(), [0.0; 4]);
-                draw_sprites(r, cull, points, quads)?;
+                draw_sprites(r, list, points, quads)?;
                 // SAFETY: the pass was begun above.
                 unsafe { gpu.device.cmd_end_render_pass(cmd) };
                 gpu.barriers(
@@ -150,7 +150,7 @@ impl Thickness {
                 gpu.barriers(cmd, &[], &[buffer(sums.handle, CLEAR, COMPUTE_READ_WRITE)]);
                 dispatch_sprites(
                     r,
-                    cull,
+                    list,
                     small,
                     large,
                     &[(3, r.scene_depth), (4, Resource::buffer(sums))],

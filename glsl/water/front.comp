@@ -1,0 +1,79 @@
+#version 460
+// Pass `front`, second part: keeps the sprites that can show in some cell they touch, in a list of
+// the same form. In a deep body of water that is the surface alone.
+// Reads: Counts, visible, cells. Writes: front counts, front list.
+
+#include "frame.glsl"
+#include "sphere.glsl"
+#include "counts.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Cells { uint cells[]; };
+layout(set = 0, binding = 4, std430) buffer FrontCounts { Counts front_counts; };
+layout(set = 0, binding = 5, std430) writeonly buffer Front { vec4 front[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint capacity;
+    int columns;
+    int rows;
+} push;
+
+shared uint group_count;
+shared uint group_first;
+
+bool can_show(vec4 sphere) {
+    vec4 slopes;
+    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    ivec4 span = pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
+    if (span.z < span.x || span.w < span.y) {
+        return false;
+    }
+    // Wide sprites are kept without a look: it would cost more than it saves.
+    ivec4 touched = span >> 2;
+    if (touched.z - touched.x > 7 || touched.w - touched.y > 7) {
+        return true;
+    }
+    uint near = floatBitsToUint(max(-sphere.z - sphere.w, frame.depth.z));
+    for (int y = touched.y; y <= touched.w; ++y) {
+        for (int x = touched.x; x <= touched.z; ++x) {
+            if (near < cells[uint(y * push.columns + x)]) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    vec4 sphere = vec4(0.0);
+    bool keep = false;
+    if (index < counts.small) {
+        sphere = visible[index];
+        keep = can_show(sphere);
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        group_count = 0u;
+    }
+    barrier();
+    uint slot = keep ? atomicAdd(group_count, 1u) : 0u;
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) {
+        group_first = group_count > 0u ? atomicAdd(front_counts.small, group_count) : 0u;
+    }
+    barrier();
+    if (keep) {
+        front[group_first + slot] = sphere;
+    }
+    // Large sprites are few: they are copied.
+    uint large = counts.large;
+    if (index == 0u) {
+        front_counts.large = large;
+    }
+    for (uint i = index; i < large; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
+        front[push.capacity - 1u - i] = visible[push.capacity - 1u - i];
+    }
+}

@@ -1,0 +1,54 @@
+#version 460
+// Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing shows,
+// because one sphere covers all of it. Each small sprite tries the four cells nearest its centre.
+// The part of a sphere's front before some depth has a convex outline, so that the farthest point
+// over a cell is at one of its corners.
+// Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY where none covers).
+
+#include "frame.glsl"
+#include "sphere.glsl"
+#include "counts.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
+layout(set = 0, binding = 3, std430) buffer Cells { uint cells[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint capacity;
+    int columns;
+    int rows;
+} push;
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= counts.small) {
+        return;
+    }
+    vec4 sphere = visible[index];
+    // Too small to cover a cell (its half diagonal is 2.83 pixels).
+    if (sphere.w * 2.9 < 8.0 * frame.texel.x * -sphere.z) {
+        return;
+    }
+    vec2 middle = (sphere.xy / -sphere.z - frame.slope.zw) / frame.slope.xy;
+    ivec2 first = ivec2(floor(middle * 0.25 - 0.5));
+    float hit[9];
+    for (int i = 0; i < 9; ++i) {
+        vec2 corner = vec2(first + ivec2(i % 3, i / 3)) * 4.0;
+        hit[i] = sphere_hit(ray_slope(corner, frame.slope), sphere.xyz, sphere.w, frame.depth.z);
+    }
+    for (int i = 0; i < 4; ++i) {
+        ivec2 cell = first + ivec2(i & 1, i >> 1);
+        int at = (i & 1) + 3 * (i >> 1);
+        float farthest = max(max(hit[at], hit[at + 1]), max(hit[at + 3], hit[at + 4]));
+        bool inside = cell.x >= 0 && cell.y >= 0 && cell.x < push.columns && cell.y < push.rows;
+        if (inside && farthest < EMPTY) {
+            uint where = uint(cell.y * push.columns + cell.x);
+            uint bits = floatBitsToUint(farthest);
+            if (bits < cells[where]) {
+                atomicMin(cells[where], bits);
+            }
+        }
+    }
+}
