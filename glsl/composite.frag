@@ -7,7 +7,8 @@
 #include "frame.glsl"
 #include "surface.glsl"
 
-layout(constant_id = 0) const uint THICKNESS_REDUCED = 1; // thickness at the smoothing's resolution
+// Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 coarser.
+layout(constant_id = 0) const uint THICKNESS = 1;
 layout(constant_id = 1) const uint SCHLICK = 1;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -18,17 +19,35 @@ layout(set = 0, binding = 6) uniform samplerCube environment;
 
 layout(location = 0) out vec4 color;
 
-float thickness_at(Surface s, ivec2 pixel) {
-    if (THICKNESS_REDUCED == 0u) {
-        ivec2 p = ivec2((vec2(pixel) + 0.5) / frame.thick_extent.z);
-        return texelFetch(thickness, p, 0).x;
+// Upsampled with the weights of texels on the same surface.
+float thickness_at(Surface s, vec2 pixel, float threshold) {
+    if (THICKNESS == 0u) {
+        return texelFetch(thickness, ivec2(pixel), 0).x;
     }
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    ivec2 base = s.base;
+    vec4 weights = s.weights;
+    if (THICKNESS == 2u) {
+        vec2 h = pixel / frame.thick_extent.z - 0.5;
+        base = ivec2(floor(h));
+        vec2 f = h - vec2(base);
+        weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+        // The surface at the middle of each coarse texel.
+        vec4 same;
+        float ratio = frame.thick_extent.z / frame.thick_extent.w;
+        for (int i = 0; i < 4; ++i) {
+            vec2 middle = (vec2(base + ivec2(i & 1, i >> 1)) + 0.5) * ratio;
+            float z = texelFetch(smoothed, clamp(ivec2(middle), ivec2(0), ivec2(frame.extent.zw) - 1), 0).x;
+            same[i] = abs(z - s.z) <= threshold ? weights[i] : 0.0;
+        }
+        float sum = same.x + same.y + same.z + same.w;
+        weights = sum > 1.0e-3 ? same / sum : weights;
+    }
     float sum = 0.0;
     for (int i = 0; i < 4; ++i) {
-        if (s.weights[i] > 0.0) {
-            ivec2 t = clamp(s.base + ivec2(i & 1, i >> 1), ivec2(0), last);
-            sum += s.weights[i] * texelFetch(thickness, t, 0).x;
+        if (weights[i] > 0.0) {
+            ivec2 t = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
+            sum += weights[i] * texelFetch(thickness, t, 0).x;
         }
     }
     return sum;
@@ -37,14 +56,10 @@ float thickness_at(Surface s, ivec2 pixel) {
 // Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     vec2 q = clamp(pixel + offset, vec2(0.5), frame.extent.xy - 0.5);
-    ivec2 base = ivec2(floor(q - 0.5));
-    for (int i = 0; i < 4; ++i) {
-        vec2 at = clamp(vec2(base + ivec2(i & 1, i >> 1)) + 0.5, vec2(0.5), frame.extent.xy - 0.5);
-        float scene = eye_depth(texelFetch(scene_depth, scene_texel(at), 0).x);
-        if (scene > 0.0 && scene < z) {
-            q = pixel;
-        }
-    }
+    // The four texels that filtering would touch, in device depth mapped to the eye's.
+    vec4 scene = frame.depth.x / (textureGather(scene_depth, q / frame.extent.xy) + frame.depth.y);
+    bool before = any(greaterThan(scene, vec4(0.0)) ) && any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
+    q = before ? pixel : q;
     return textureLod(scene_color, q / frame.extent.xy, 0.0).rgb;
 }
 
@@ -80,7 +95,7 @@ void main() {
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, frame.reduced_slope.xy, position, n);
-    float t = thickness_at(surface, pixel);
+    float t = thickness_at(surface, gl_FragCoord.xy, threshold);
 
     float away = length(position);
     vec3 v = -position / away;

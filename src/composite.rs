@@ -25,9 +25,11 @@ pub struct Composite {
 impl Composite {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let pass = gpu.color_pass("composite", config.output_format, vk::AttachmentLoadOp::LOAD)?;
-        let reduced = u32::from(
-            config.thickness_level == config.smoothing_level && config.thickness_level > 0,
-        );
+        let thickness = match config.thickness_level {
+            0 => 0,
+            level if level == config.smoothing_level => 1,
+            _ => 2,
+        };
         let make = |schlick| {
             Pipeline::graphics(
                 gpu,
@@ -37,7 +39,7 @@ impl Composite {
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                     pass,
                     blend: no_blend(),
-                    constants: &[(0, reduced), (1, schlick)],
+                    constants: &[(0, thickness), (1, schlick)],
                 },
             )
         };

@@ -425,11 +425,8 @@ fn check_config(config: &Config) -> Result<(), Error> {
     if config.smoothing_level > 2 {
         return bad("Config.smoothing_level", format!("{} of 0, 1, 2", config.smoothing_level));
     }
-    if config.thickness_level != 0 && config.thickness_level != config.smoothing_level {
-        return bad(
-            "Config.thickness_level",
-            format!("{}: 0, or the smoothing's level", config.thickness_level),
-        );
+    if config.thickness_level > 3 {
+        return bad("Config.thickness_level", format!("{} of 0 to 3", config.thickness_level));
     }
     if !(1..=256).contains(&config.max_iterations) {
         return bad("Config.max_iterations", format!("{} of 1 to 256", config.max_iterations));

@@ -10,3 +10,13 @@ float thickness_rho2(vec2 slope, vec3 centre, float inverse_axis) {
     vec2 off = (slope * -centre.z - centre.xy) * inverse_axis;
     return dot(off, off);
 }
+
+// Half-axis that is drawn for a sprite at a depth, and what its amplitude is divided by: one
+// narrower than a pixel is widened to it and holds the same volume, so that far water neither
+// sparkles nor vanishes between the pixel centres.
+float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
+    float least = depth * max(abs(slope.x), abs(slope.y));
+    float drawn = max(axis, least);
+    widened = drawn * drawn / (axis * axis);
+    return drawn;
+}

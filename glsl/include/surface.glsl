@@ -13,23 +13,16 @@ struct Surface {
 
 layout(set = 0, binding = 1) uniform sampler2D smoothed;
 
-float smoothed_at(ivec2 p) {
-    ivec2 last = ivec2(frame.extent.zw) - 1;
-    bool outside = p.x < 0 || p.y < 0 || p.x > last.x || p.y > last.y;
-    return outside ? EMPTY : texelFetch(smoothed, p, 0).x;
-}
-
-// One-sided where the other side is another surface; the smaller one where both might do.
-float difference(float before, float z, float after, float threshold) {
-    float a = z - before;
-    float b = after - z;
-    bool has_a = abs(a) <= threshold;
-    bool has_b = abs(b) <= threshold;
-    if (has_a && has_b) {
-        return 0.5 * (a + b);
-    }
-    float smaller = abs(a) < abs(b) ? a : b;
-    return has_a || has_b ? smaller : 0.0;
+// Per texel: central, or one-sided where the other side is another surface, or none.
+vec4 differences(vec4 before, vec4 z, vec4 after, float threshold) {
+    vec4 a = z - before;
+    vec4 b = after - z;
+    bvec4 has_a = lessThanEqual(abs(a), vec4(threshold));
+    bvec4 has_b = lessThanEqual(abs(b), vec4(threshold));
+    vec4 either = mix(mix(vec4(0.0), b, has_b), a, has_a);
+    vec4 both = 0.5 * (a + b);
+    return vec4(has_a.x && has_b.x ? both.x : either.x, has_a.y && has_b.y ? both.y : either.y,
+                has_a.z && has_b.z ? both.z : either.z, has_a.w && has_b.w ? both.w : either.w);
 }
 
 Surface surface_at(vec2 pixel, float front, float threshold) {
@@ -40,51 +33,49 @@ Surface surface_at(vec2 pixel, float front, float threshold) {
     ivec2 last = ivec2(frame.extent.zw) - 1;
     s.base = base;
 
-    // 4x4 block around the four texels, corners left out.
-    float z[16];
-    for (int y = 0; y < 4; ++y) {
-        for (int x = 0; x < 4; ++x) {
-            bool corner = (x == 0 || x == 3) && (y == 0 || y == 3);
-            z[4 * y + x] = corner ? EMPTY : smoothed_at(base + ivec2(x - 1, y - 1));
-        }
-    }
-    vec4 centre = vec4(z[5], z[6], z[9], z[10]);
+    // The four texels in order left-up, right-up, left-down, right-down, with the neighbours of
+    // each on one side. Vectors, not an array: that would live in memory.
+    vec2 texel = 1.0 / vec2(last + 1);
+    vec4 upper_left = textureGather(smoothed, vec2(base) * texel);
+    vec4 upper_right = textureGather(smoothed, vec2(base + ivec2(2, 0)) * texel);
+    vec4 lower_left = textureGather(smoothed, vec2(base + ivec2(0, 2)) * texel);
+    vec4 lower_right = textureGather(smoothed, vec2(base + 2) * texel);
+    bool first_x = base.x < 1;
+    bool last_x = base.x + 2 > last.x;
+    bool first_y = base.y < 1;
+    bool last_y = base.y + 2 > last.y;
+    // A neighbour beyond the image's edge is another surface.
+    vec2 row0 = first_y ? vec2(EMPTY) : vec2(upper_left.z, upper_right.w);
+    vec4 row1 = vec4(first_x ? EMPTY : upper_left.x, upper_left.y, upper_right.x, last_x ? EMPTY : upper_right.y);
+    vec4 row2 = vec4(first_x ? EMPTY : lower_left.w, lower_left.z, lower_right.w, last_x ? EMPTY : lower_right.z);
+    vec2 row3 = last_y ? vec2(EMPTY) : vec2(lower_left.y, lower_right.x);
+    vec4 z = vec4(row1.yz, row2.yz);
+    vec4 left = vec4(row1.xy, row2.xy);
+    vec4 right = vec4(row1.zw, row2.zw);
+    vec4 up = vec4(row0, row1.yz);
+    vec4 down = vec4(row2.yz, row3);
+    vec4 dx = differences(left, z, right, threshold);
+    vec4 dy = differences(up, z, down, threshold);
     // Texels beyond the image's edge repeat it.
-    if (base.x < 0) { centre.xz = centre.yw; }
-    if (base.x >= last.x) { centre.yw = centre.xz; }
-    if (base.y < 0) { centre.xy = centre.zw; }
-    if (base.y >= last.y) { centre.zw = centre.xy; }
+    if (base.x < 0) { z.xz = z.yw; dx.xz = dx.yw; dy.xz = dy.yw; }
+    if (base.x >= last.x) { z.yw = z.xz; dx.yw = dx.xz; dy.yw = dy.xz; }
+    if (base.y < 0) { z.xy = z.zw; dx.xy = dx.zw; dy.xy = dy.zw; }
+    if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; }
 
-    vec4 bilinear = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    vec4 off = abs(centre - front);
-    vec4 w = bilinear * vec4(lessThanEqual(off, vec4(threshold)));
+    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    vec4 off = abs(z - front);
+    w *= vec4(lessThanEqual(off, vec4(threshold)));
     float sum = w.x + w.y + w.z + w.w;
+    float least = min(min(off.x, off.y), min(off.z, off.w));
     if (sum < 1.0e-4) {
-        float least = min(min(off.x, off.y), min(off.z, off.w));
         w = off.x == least ? vec4(1, 0, 0, 0) : off.y == least ? vec4(0, 1, 0, 0)
           : off.z == least ? vec4(0, 0, 1, 0) : vec4(0, 0, 0, 1);
         sum = 1.0;
-        if (least > threshold) {
-            s.z = front;
-            s.dz = vec2(0.0);
-            s.weights = w;
-            return s;
-        }
     }
-    w /= sum;
-    s.weights = w;
-    s.z = 0.0;
-    s.dz = vec2(0.0);
-    for (int i = 0; i < 4; ++i) {
-        if (w[i] == 0.0) {
-            continue;
-        }
-        ivec2 t = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last) - base;
-        int at = 4 * (t.y + 1) + t.x + 1;
-        s.z += w[i] * z[at];
-        s.dz += w[i] * vec2(difference(z[at - 1], z[at], z[at + 1], threshold),
-                            difference(z[at - 4], z[at], z[at + 4], threshold));
-    }
+    s.weights = w / sum;
+    bool lost = least > threshold;
+    s.z = lost ? front : dot(s.weights, z);
+    s.dz = lost ? vec2(0.0) : vec2(dot(s.weights, dx), dot(s.weights, dy));
     return s;
 }
 

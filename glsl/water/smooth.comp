@@ -6,11 +6,11 @@
 #include "plan.glsl"
 #include "curvature.glsl"
 
-// An invocation smooths ROWS pixels of a column and keeps the three rows it needs in registers:
-// three fetches a pixel in place of nine. 1 where threads are plenty, 16 where they are few.
-layout(local_size_x = 16, local_size_y_id = 2) in;
+// An invocation smooths ROWS rows of two columns: a gather brings four texels, and the rows it
+// needs stay in registers. 2 where threads are plenty, 16 where they are few.
+layout(local_size_x = 8, local_size_y_id = 2) in;
 layout(constant_id = 1) const uint RULE = 1;
-layout(constant_id = 3) const int ROWS = 1;
+layout(constant_id = 3) const int ROWS = 2;
 
 layout(set = 0, binding = 1) uniform sampler2D source;
 layout(set = 0, binding = 2, r32f) uniform writeonly image2D target;
@@ -25,34 +25,49 @@ layout(push_constant, std430) uniform Push {
 
 #include "smoothing.glsl"
 
-// Left, middle and right texel of a row; EMPTY outside the image.
-vec3 fetch_row(ivec2 p, ivec2 last) {
-    bool outside = p.y < 0 || p.y > last.y;
-    int y = clamp(p.y, 0, last.y);
-    vec3 row = vec3(texelFetch(source, ivec2(max(p.x - 1, 0), y), 0).x,
-                    texelFetch(source, ivec2(p.x, y), 0).x,
-                    texelFetch(source, ivec2(min(p.x + 1, last.x), y), 0).x);
-    return vec3(outside || p.x == 0 ? EMPTY : row.x,
-                outside ? EMPTY : row.y,
-                outside || p.x == last.x ? EMPTY : row.z);
+// Texels x - 1 to x + 2 of the rows y and y + 1; EMPTY outside the image.
+void fetch_rows(ivec2 p, ivec2 last, out vec4 row0, out vec4 row1) {
+    vec2 texel = 1.0 / vec2(last + 1);
+    vec4 g0 = textureGather(source, vec2(p.x, p.y + 1) * texel);
+    vec4 g1 = textureGather(source, vec2(p.x + 2, p.y + 1) * texel);
+    row0 = vec4(g0.wz, g1.wz);
+    row1 = vec4(g0.xy, g1.xy);
+    bvec4 outside = bvec4(p.x < 1, false, p.x + 1 > last.x, p.x + 2 > last.x);
+    row0 = mix(row0, vec4(EMPTY), outside);
+    row1 = mix(row1, vec4(EMPTY), outside);
+    row0 = p.y < 0 || p.y > last.y ? vec4(EMPTY) : row0;
+    row1 = p.y + 1 > last.y ? vec4(EMPTY) : row1;
 }
 
-void smooth_column(ivec2 p, ivec2 last) {
-    vec3 above = fetch_row(p - ivec2(0, 1), last);
-    vec3 here = fetch_row(p, last);
-    for (int k = 0; k < ROWS && p.y <= last.y; ++k) {
-        vec3 below = fetch_row(p + ivec2(0, 1), last);
-        uint planned = texelFetch(plan, p, 0).x;
-        Stencil s;
-        s.z = here.y;
-        s.axis = vec4(here.x, here.z, above.y, below.y);
-        s.corner = vec4(above.x, above.z, below.x, below.z);
-        float moved = smooth_pixel(s, p, planned);
-        float z = plan_count(planned) >= push.iteration ? moved : here.y;
+void smooth_at(ivec2 p, ivec2 last, uint planned, vec3 above, vec3 here, vec3 below) {
+    Stencil s;
+    s.z = here.y;
+    s.axis = vec4(here.x, here.z, above.y, below.y);
+    s.corner = vec4(above.x, above.z, below.x, below.z);
+    float moved = smooth_pixel(s, p, planned);
+    float z = plan_count(planned) >= push.iteration ? moved : here.y;
+    if (p.x <= last.x && p.y <= last.y) {
         imageStore(target, p, vec4(z));
-        above = here;
-        here = below;
-        ++p.y;
+    }
+}
+
+void smooth_columns(ivec2 p, ivec2 last) {
+    vec2 texel = 1.0 / vec2(last + 1);
+    vec4 a;
+    vec4 b;
+    fetch_rows(p - ivec2(0, 1), last, a, b);
+    for (int k = 0; k < ROWS && p.y <= last.y; k += 2) {
+        vec4 c;
+        vec4 d;
+        fetch_rows(p + ivec2(0, 1), last, c, d);
+        uvec4 planned = textureGather(plan, vec2(p + 1) * texel);
+        smooth_at(p, last, planned.w, a.xyz, b.xyz, c.xyz);
+        smooth_at(p + ivec2(1, 0), last, planned.z, a.yzw, b.yzw, c.yzw);
+        smooth_at(p + ivec2(0, 1), last, planned.x, b.xyz, c.xyz, d.xyz);
+        smooth_at(p + ivec2(1, 1), last, planned.y, b.yzw, c.yzw, d.yzw);
+        a = c;
+        b = d;
+        p.y += 2;
     }
 }
 
@@ -62,9 +77,9 @@ void main() {
     for (uint i = gl_WorkGroupID.x; i < tiles; i += gl_NumWorkGroups.x) {
         uint tile = list[i];
         ivec2 p = ivec2(tile % push.columns, tile / push.columns) * 16
-                + ivec2(gl_LocalInvocationID.xy) * ivec2(1, ROWS);
+                + ivec2(gl_LocalInvocationID.xy) * ivec2(2, ROWS);
         if (p.x <= last.x && p.y <= last.y) {
-            smooth_column(p, last);
+            smooth_columns(p, last);
         }
     }
 }

@@ -56,8 +56,9 @@ void main() {
         if (-sphere.z <= frame.depth.z) {
             return;
         }
-        float axis = share * sphere.w;
-        float scale = units(sphere.w);
+        float widened;
+        float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
+        float scale = units(sphere.w) / widened;
         ivec4 box = span(sphere, axis);
         for (int y = box.y; y <= box.w; ++y) {
             for (int x = box.x; x <= box.z; ++x) {
@@ -71,8 +72,9 @@ void main() {
         if (-sphere.z <= frame.depth.z) {
             continue;
         }
-        float axis = share * sphere.w;
-        float scale = units(sphere.w);
+        float widened;
+        float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
+        float scale = units(sphere.w) / widened;
         ivec4 box = span(sphere, axis);
         ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
         for (int y = box.y + lane.y; y <= box.w; y += 8) {

@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "kernel.glsl"
 
 // 0: points from the front of the list. 1: quads from its back.
 layout(constant_id = 0) const uint QUADS = 0;
@@ -17,11 +18,12 @@ layout(location = 1) flat out float amplitude;
 void main() {
     uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
     vec4 sphere = visible[index];
-    float axis = sphere.w * frame.particle.z / frame.particle.x;
+    float widened;
+    float axis = drawn_axis(sphere.w * frame.particle.z / frame.particle.x, -sphere.z, frame.thick_slope, widened);
     disc = vec4(sphere.xyz, 1.0 / axis);
     // A smaller sprite holds the same volume.
     float grown = frame.particle.x / sphere.w;
-    amplitude = frame.particle.w * grown * grown;
+    amplitude = frame.particle.w * grown * grown / widened;
     vec4 slopes = vec4(sphere.xy - axis, sphere.xy + axis) / -sphere.z;
     vec4 pixels = pixel_bounds(slopes, frame.thick_slope);
     pixels += vec4(-0.125, -0.125, 0.125, 0.125);

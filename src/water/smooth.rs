@@ -82,7 +82,7 @@ impl Smooth {
         let form = match config.smoothing.unwrap_or_else(|| default_form(gpu)) {
             Smoothing::Tiles => {
                 // Few threads do better with long columns.
-                let rows = if gpu.is_cpu() { 16 } else { 1 };
+                let rows = if gpu.is_cpu() { 16 } else { 2 };
                 let constants = [rule, (2, 16 / rows), (3, rows)];
                 Form::Tiles(Pipeline::compute(gpu, shader::WATER_SMOOTH_COMP, &constants)?)
             }
