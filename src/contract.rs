@@ -274,6 +274,22 @@ pub struct Recorded {
     /// iterations 5, 10, …, for blocks that ran (0 for others; the last block is not counted).
     /// Transfer source; last written by a transfer.
     pub active_samples: Option<(vk::Buffer, u32)>,
+    /// What became of the particles.
+    pub counts: Option<ParticleCounts>,
+}
+
+/// Buffers that say what became of the particles, 256 bytes for each of `chunks`: word 0 and 5 are
+/// the small and the large sprites, word 18 the particles dropped for NaN or infinite positions,
+/// word 19 those set aside as spray (0 in `front`). Transfer source; last written by a compute
+/// shader, read as indirect arguments.
+#[derive(Clone, Copy, Debug)]
+pub struct ParticleCounts {
+    /// Particles on the screen.
+    pub all: vk::Buffer,
+    /// Those that can show; depth was splatted from them.
+    pub front: vk::Buffer,
+    /// Number of chunks.
+    pub chunks: u32,
 }
 
 /// Device memory in use.

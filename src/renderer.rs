@@ -125,6 +125,18 @@ impl Renderer {
         cmd: vk::CommandBuffer,
         frame: &Frame<'_>,
     ) -> Result<Recorded, Error> {
+        // SAFETY: the caller's promises, passed on.
+        unsafe { self.record_frame(cmd, frame, None) }.map(|(recorded, _)| recorded)
+    }
+
+    /// [`record`](Self::record), where the smoothing may be ended by the host's look at the
+    /// queries; also returns the command buffer that was recorded last.
+    pub(crate) unsafe fn record_frame<'a>(
+        &'a mut self,
+        cmd: vk::CommandBuffer,
+        frame: &Frame<'_>,
+        read_back: Option<crate::water::ReadBack<'a>>,
+    ) -> Result<(Recorded, vk::CommandBuffer), Error> {
         let index = self.slot_index(frame.slot)?;
         let lens = self.check_frame(frame)?;
         let gpu = &*self.gpu;
@@ -155,6 +167,7 @@ impl Renderer {
                 gpu.samplers.nearest,
                 depth_layout,
             ),
+            read_back,
         };
         self.water.record(&mut r, &frame.particles)?;
         let scene_color = match &self.scene_copy {
@@ -174,6 +187,7 @@ impl Renderer {
             frame.settings.water.fresnel,
         )?;
 
+        let cmd = r.cmd;
         let (release, released) = release(frame, in_place, depth_layout);
         let mut buffers = Vec::with_capacity(4);
         for handle in particle_buffers(&frame.particles) {
@@ -184,14 +198,16 @@ impl Renderer {
         }
         gpu.barriers(cmd, &release[..released], &buffers);
         gpu.end_label(cmd);
-        Ok(Recorded {
+        let recorded = Recorded {
             layers: if self.config.keep_layers {
                 self.water.kept(FRAGMENT_SAMPLED)
             } else {
                 Vec::new()
             },
             active_samples: self.water.query_results(),
-        })
+            counts: Some(self.water.counts()),
+        };
+        Ok((recorded, cmd))
     }
 
     /// Times of the slot's last finished frame, pass by pass; empty before there is one. Never

@@ -13,7 +13,8 @@ pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
 
 use crate::contract::{
-    Access, Camera, Config, Count, Frame, HostImage, Layer, Particles, Settings, Slot, Stream,
+    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
+    Slot, Stream,
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
@@ -44,6 +45,26 @@ const DEPTH_REST: Access = Access::new(
     vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
 );
 
+/// Mapped memory read by the host.
+const HOST_READ: Access = Access::new(
+    vk::PipelineStageFlags2::HOST,
+    vk::AccessFlags2::HOST_READ,
+    vk::ImageLayout::GENERAL,
+);
+
+/// What became of the particles of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// On the screen.
+    pub visible: u32,
+    /// Of those, the ones that can show.
+    pub front: u32,
+    /// Dropped for NaN, infinite or huge positions.
+    pub dropped: u32,
+    /// Set aside as spray.
+    pub spray: u32,
+}
+
 /// What stands behind the water.
 pub enum Background<'a> {
     /// One colour, nothing in front of the far plane.
@@ -66,10 +87,13 @@ pub struct Headless {
     pool: vk::CommandPool,
     cmd: vk::CommandBuffer,
     fence: vk::Fence,
+    /// Command buffers for the parts of a frame that the host reads back in between.
+    parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
     densities: Option<Buffer>,
     count: u32,
     layers: Vec<Layer>,
+    counts: Option<ParticleCounts>,
     device: Device,
 }
 
@@ -108,10 +132,12 @@ impl Headless {
             pool,
             cmd,
             fence,
+            parts: Vec::new(),
             positions: None,
             densities: None,
             count: 0,
             layers: Vec::new(),
+            counts: None,
             device,
         };
         headless.run(|this, cmd| {
@@ -153,39 +179,30 @@ impl Headless {
         &self.renderer
     }
 
-    /// Fills a fresh command buffer, submits it and waits.
-    fn run(
+    /// Fills a fresh command buffer, submits it and waits. `record` says which command buffer it
+    /// ended with.
+    fn run_parts(
         &mut self,
-        record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<(), Error>,
+        record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<vk::CommandBuffer, Error>,
     ) -> Result<(), Error> {
-        let begin = vk::CommandBufferBeginInfo::default()
-            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the pool's only command buffer is not in use: every run waits for its end.
+        // SAFETY: no command buffer of the pool is in use: every run waits for its end.
         unsafe {
             self.gpu
                 .device
                 .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
                 .context(|| "vkResetCommandPool".into())?;
-            self.gpu
-                .device
-                .begin_command_buffer(self.cmd, &begin)
-                .context(|| "vkBeginCommandBuffer".into())?;
         }
-        let cmd = self.cmd;
-        record(self, cmd)?;
-        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-        let submit = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
-        let fences = [self.fence];
-        // SAFETY: the command buffer was recorded above; the queue is used by one thread.
-        unsafe {
-            let device = &self.gpu.device;
-            device.end_command_buffer(cmd).context(|| "vkEndCommandBuffer".into())?;
-            device
-                .queue_submit2(self.device.queue, &submit, self.fence)
-                .context(|| "vkQueueSubmit2".into())?;
-            device.wait_for_fences(&fences, true, u64::MAX).context(|| "vkWaitForFences".into())?;
-            device.reset_fences(&fences).context(|| "vkResetFences".into())
-        }
+        begin(&self.gpu, self.cmd)?;
+        let last = record(self, self.cmd)?;
+        submit(&self.gpu, self.device.queue, last, self.fence)
+    }
+
+    /// The same for one command buffer.
+    fn run(
+        &mut self,
+        record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        self.run_parts(|this, cmd| record(this, cmd).map(|()| cmd))
     }
 
     /// The built-in sky as environment.
@@ -321,6 +338,31 @@ impl Headless {
         settings: &Settings,
         background: &Background<'_>,
     ) -> Result<(), Error> {
+        self.render_frame(camera, settings, background, false)
+    }
+
+    /// The same, with the smoothing ended by the host: it submits block by block and reads each
+    /// query back, as the source does. For comparison only; needs
+    /// [`Smoothing::Query`](crate::water::Smoothing::Query).
+    ///
+    /// # Errors
+    /// As [`Renderer::record`].
+    pub fn render_with_read_back(
+        &mut self,
+        camera: &Camera,
+        settings: &Settings,
+        background: &Background<'_>,
+    ) -> Result<(), Error> {
+        self.render_frame(camera, settings, background, true)
+    }
+
+    fn render_frame(
+        &mut self,
+        camera: &Camera,
+        settings: &Settings,
+        background: &Background<'_>,
+        read_back: bool,
+    ) -> Result<(), Error> {
         let Some(positions) = &self.positions else {
             return Err(Error::bad("particles", "none uploaded"));
         };
@@ -365,7 +407,7 @@ impl Headless {
             }
             Background::Color(_) => None,
         };
-        let result = self.run(|this, cmd| {
+        let result = self.run_parts(|this, cmd| {
             match (background, &staging) {
                 (_, Some((color, depth))) => {
                     this.upload(cmd, color, &this.color, COLOR_REST, COLOR_REST);
@@ -383,10 +425,24 @@ impl Headless {
                 camera: *camera,
                 settings,
             };
+            let mut parts = Parts {
+                gpu: this.gpu.clone(),
+                queue: this.device.queue,
+                fence: this.fence,
+                pool: this.pool,
+                spare: std::mem::take(&mut this.parts),
+                used: 0,
+            };
+            let mut stop = |cmd, pool, query| parts.read_back(cmd, pool, query);
+            let stop: Option<crate::water::ReadBack<'_>> =
+                if read_back { Some(&mut stop) } else { None };
             // SAFETY: cmd is recording outside a render pass; the slot's work is done.
-            let recorded = unsafe { this.renderer.record(cmd, &frame) }?;
+            let result = unsafe { this.renderer.record_frame(cmd, &frame, stop) };
+            this.parts = parts.spare;
+            let (recorded, last) = result?;
             this.layers = recorded.layers;
-            Ok(())
+            this.counts = recorded.counts;
+            Ok(last)
         });
         if let Some((color, depth)) = staging {
             color.destroy(&self.gpu);
@@ -447,6 +503,57 @@ impl Headless {
             ],
             &[],
         );
+    }
+
+    /// What became of the particles of the last frame.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn counts(&mut self) -> Result<Counts, Error> {
+        let mut sum = Counts::default();
+        let Some(counts) = self.counts else { return Ok(sum) };
+        for (buffer, front) in [(counts.all, false), (counts.front, true)] {
+            let words = self.read_buffer(buffer, 256 * u64::from(counts.chunks))?;
+            for chunk in words.chunks_exact(64) {
+                let drawn = chunk[0] + chunk[5];
+                if front {
+                    sum.front += drawn;
+                } else {
+                    sum.visible += drawn;
+                    sum.dropped += chunk[18];
+                    sum.spray += chunk[19];
+                }
+            }
+        }
+        Ok(sum)
+    }
+
+    fn read_buffer(&mut self, from: vk::Buffer, size: u64) -> Result<Vec<u32>, Error> {
+        let usage = vk::BufferUsageFlags::TRANSFER_DST;
+        let name = "headless/readback";
+        let buffer = Buffer::new(&self.gpu, name, size, usage, MemoryLocation::GpuToCpu)?;
+        let result = self.run(|this, cmd| {
+            let used = access::COMPUTE_WRITE.and(access::INDIRECT);
+            this.gpu.barriers(cmd, &[], &[access::buffer(from, used, COPY_READ)]);
+            let region = vk::BufferCopy { src_offset: 0, dst_offset: 0, size };
+            // SAFETY: both buffers are large enough.
+            unsafe { this.gpu.device.cmd_copy_buffer(cmd, from, buffer.handle, &[region]) };
+            this.gpu.barriers(
+                cmd,
+                &[],
+                &[
+                    access::buffer(buffer.handle, COPY_WRITE, HOST_READ),
+                    access::buffer(from, COPY_READ, access::COMPUTE_WRITE),
+                ],
+            );
+            Ok(())
+        });
+        let words = buffer.mapped()[..size as usize]
+            .chunks_exact(4)
+            .map(bytemuck::pod_read_unaligned)
+            .collect();
+        buffer.destroy(&self.gpu);
+        result.map(|()| words)
     }
 
     /// Times of the last frame, pass by pass.
@@ -527,15 +634,10 @@ impl Headless {
                     &[region],
                 );
             }
-            let host = Access::new(
-                vk::PipelineStageFlags2::HOST,
-                vk::AccessFlags2::HOST_READ,
-                vk::ImageLayout::GENERAL,
-            );
             this.gpu.barriers(
                 cmd,
                 &[access::raw_image(image, aspect, COPY_READ, state)],
-                &[access::buffer(buffer.handle, COPY_WRITE, host)],
+                &[access::buffer(buffer.handle, COPY_WRITE, HOST_READ)],
             );
             Ok(())
         });
@@ -567,5 +669,77 @@ impl Headless {
         gpu.destroy();
         drop(gpu);
         idle.map(|()| self.device)
+    }
+}
+
+fn begin(gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
+    let info =
+        vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+    // SAFETY: the command buffer is in its initial state.
+    unsafe { gpu.device.begin_command_buffer(cmd, &info) }.context(|| "vkBeginCommandBuffer".into())
+}
+
+/// Ends a command buffer, submits it and waits for it.
+fn submit(
+    gpu: &Gpu,
+    queue: vk::Queue,
+    cmd: vk::CommandBuffer,
+    fence: vk::Fence,
+) -> Result<(), Error> {
+    let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
+    let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+    let fences = [fence];
+    let device = &gpu.device;
+    // SAFETY: the command buffer is recording; the queue and the fence are used by one thread.
+    unsafe {
+        device.end_command_buffer(cmd).context(|| "vkEndCommandBuffer".into())?;
+        device.queue_submit2(queue, &submits, fence).context(|| "vkQueueSubmit2".into())?;
+        device.wait_for_fences(&fences, true, u64::MAX).context(|| "vkWaitForFences".into())?;
+        device.reset_fences(&fences).context(|| "vkResetFences".into())
+    }
+}
+
+/// The parts of a frame between which the host reads queries back.
+struct Parts {
+    gpu: Arc<Gpu>,
+    queue: vk::Queue,
+    fence: vk::Fence,
+    pool: vk::CommandPool,
+    spare: Vec<vk::CommandBuffer>,
+    used: usize,
+}
+
+impl Parts {
+    fn read_back(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        pool: vk::QueryPool,
+        query: u32,
+    ) -> Result<(vk::CommandBuffer, bool), Error> {
+        submit(&self.gpu, self.queue, cmd, self.fence)?;
+        let mut samples = [0u32];
+        // SAFETY: the query was ended in the work that was just waited for.
+        unsafe {
+            self.gpu.device.get_query_pool_results(
+                pool,
+                query,
+                &mut samples,
+                vk::QueryResultFlags::WAIT,
+            )
+        }
+        .context(|| "vkGetQueryPoolResults".into())?;
+        if self.used == self.spare.len() {
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(self.pool)
+                .command_buffer_count(1);
+            // SAFETY: valid create info on a live device.
+            let more = unsafe { self.gpu.device.allocate_command_buffers(&info) }
+                .context(|| "vkAllocateCommandBuffers".into())?;
+            self.spare.extend(more);
+        }
+        let next = self.spare[self.used];
+        self.used += 1;
+        begin(&self.gpu, next)?;
+        Ok((next, samples[0] > 0))
     }
 }

@@ -141,7 +141,9 @@ impl SphereList {
                 gpu,
                 &format!("{name}/counts"),
                 COUNTS_STRIDE * u64::from(chunks),
-                storage | vk::BufferUsageFlags::INDIRECT_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC,
+                storage
+                    | vk::BufferUsageFlags::INDIRECT_BUFFER
+                    | vk::BufferUsageFlags::TRANSFER_SRC,
                 MemoryLocation::GpuOnly,
             )?,
             spheres: Buffer::new(

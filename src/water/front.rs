@@ -2,8 +2,8 @@
 //!
 //! Not in the source, which draws every particle. For each cell of 4×4 pixels the nearest depth at
 //! which one sphere covers all of it is found first; a sphere that lies behind that in every cell
-//! it touches is left out. Exact: the depth image is the same to the bit. In a pool nine layers
-//! deep four of five spheres go, and what is left costs what the surface costs.
+//! it touches is left out. Exact: the depth image is the same to the bit. In a splashing pool nine
+//! layers deep six of ten spheres go; in deeper water the depth pass costs what its surface costs.
 //! Reads: the list of `cull`. Writes: cells, the front list.
 
 use ash::vk;
@@ -15,9 +15,7 @@ use super::cull::{Cull, LIST_USE, SMALL_GROUPS, SphereList};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::gpu::access::{
-    CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, buffer,
-};
+use crate::gpu::access::{CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, buffer};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
@@ -110,21 +108,14 @@ impl Front {
             ],
         );
         self.dispatch(r, cull, &self.cover)?;
-        gpu.barriers(
-            cmd,
-            &[],
-            &[buffer(self.cells.handle, COMPUTE_READ_WRITE, COMPUTE_READ)],
-        );
+        gpu.barriers(cmd, &[], &[buffer(self.cells.handle, COMPUTE_READ_WRITE, COMPUTE_READ)]);
         self.dispatch(r, cull, &self.keep)?;
         gpu.barriers(cmd, &[], &[buffer(counts, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE)]);
         cull.end_list(r, &self.list)?;
         gpu.barriers(
             cmd,
             &[],
-            &[
-                buffer(counts, COMPUTE_WRITE, LIST_USE),
-                buffer(spheres, COMPUTE_WRITE, LIST_USE),
-            ],
+            &[buffer(counts, COMPUTE_WRITE, LIST_USE), buffer(spheres, COMPUTE_WRITE, LIST_USE)],
         );
         r.end(scope);
         Ok(())

@@ -13,7 +13,7 @@ mod tiles;
 
 use ash::vk;
 
-use crate::contract::{Config, Layer, MemoryUse, Particles};
+use crate::contract::{Config, Layer, MemoryUse, ParticleCounts, Particles};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::Access;
@@ -34,7 +34,17 @@ pub(crate) struct Recording<'a> {
     pub uniforms: Resource,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
+    /// Ends the smoothing by the host's own look at the queries (headless only).
+    pub read_back: Option<ReadBack<'a>>,
 }
+
+/// Submits a command buffer, waits for it, looks at one query of the pool; hands back a fresh
+/// command buffer to go on with, and whether any sample was counted.
+pub(crate) type ReadBack<'a> = &'a mut dyn FnMut(
+    vk::CommandBuffer,
+    vk::QueryPool,
+    u32,
+) -> Result<(vk::CommandBuffer, bool), Error>;
 
 impl Recording<'_> {
     pub fn begin(&mut self, stem: &'static std::ffi::CStr) -> Scope {
@@ -118,6 +128,15 @@ impl Water {
             depth: &self.depth.image,
             thickness: &self.thickness.image,
             tiles: &self.tiles,
+        }
+    }
+
+    /// Counts of all spheres and of those that can show, 256 bytes a chunk.
+    pub fn counts(&self) -> ParticleCounts {
+        ParticleCounts {
+            all: self.cull.list.counts.handle,
+            front: self.front.list.counts.handle,
+            chunks: self.cull.list.chunks,
         }
     }
 

@@ -188,6 +188,7 @@ impl Query {
         tiles: &Tiles,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
+        let by_host = r.read_back.is_some();
         // Bindings of all three pipelines are the same; so are their push constants.
         // Only that gate reads predicates in the shader; the others must not seem to.
         let shader_predicates = match self.gate {
@@ -239,23 +240,43 @@ impl Query {
         }
         gpu.barriers(cmd, &[], &[buffer(self.predicates.handle, CLEAR, self.gate_use())]);
 
+        // The host needs no gate: it stops recording. The first predicate is always set.
+        let gate_of = |block| if by_host { 0 } else { block };
         for block in 0..self.blocks {
             for k in 0..BLOCK {
                 let (from, to) = ((k % 2) as usize, (1 - k % 2) as usize);
-                let push = Push { iteration: BLOCK * block + k + 1, columns: tiles.columns, block };
+                let push = Push {
+                    iteration: BLOCK * block + k + 1,
+                    columns: tiles.columns,
+                    block: gate_of(block),
+                };
                 self.begin(r, images[to], to);
                 self.draw(r, &self.iterate, iterate[from], &push, tiles);
                 if k == BLOCK - 1 {
-                    self.draw_counted(r, count, &push, tiles);
+                    self.draw_counted(r, count, block, &push, tiles);
                 }
                 self.end(r, images[to]);
             }
-            let push = Push { iteration: 0, columns: tiles.columns, block };
+            let push = Push { iteration: 0, columns: tiles.columns, block: gate_of(block) };
             self.begin(r, images[0], 0);
             self.draw(r, &self.copy, copy, &push, tiles);
             self.end(r, images[0]);
-            if block + 1 < self.blocks {
+            if block + 1 == self.blocks {
+                break;
+            }
+            let Some(read_back) = &mut r.read_back else {
                 self.record_gate(r, gate, block);
+                continue;
+            };
+            // Labels stay within a command buffer: lavapipe does not survive one that spans two.
+            gpu.end_label(r.cmd);
+            gpu.end_label(r.cmd);
+            let (next, any) = read_back(r.cmd, self.pool, block)?;
+            r.cmd = next;
+            gpu.begin_label(r.cmd, c"whitewater");
+            gpu.begin_label(r.cmd, c"smooth");
+            if !any {
+                break;
             }
         }
         if self.gate == Gate::DrawCount && gpu.is_cpu() {
@@ -336,17 +357,24 @@ impl Query {
     }
 
     /// The draw that is counted: pixels still active in this iteration.
-    fn draw_counted(&self, r: &Recording<'_>, set: vk::DescriptorSet, push: &Push, tiles: &Tiles) {
+    fn draw_counted(
+        &self,
+        r: &Recording<'_>,
+        set: vk::DescriptorSet,
+        query: u32,
+        push: &Push,
+        tiles: &Tiles,
+    ) {
         let flags = if r.gpu.enabled.precise_occlusion_queries {
             vk::QueryControlFlags::PRECISE
         } else {
             vk::QueryControlFlags::empty()
         };
         // SAFETY: inside a render pass; the query was reset at the start, no other is active.
-        unsafe { r.gpu.device.cmd_begin_query(r.cmd, self.pool, push.block, flags) };
+        unsafe { r.gpu.device.cmd_begin_query(r.cmd, self.pool, query, flags) };
         self.draw(r, &self.count, set, push, tiles);
         // SAFETY: begun above.
-        unsafe { r.gpu.device.cmd_end_query(r.cmd, self.pool, push.block) };
+        unsafe { r.gpu.device.cmd_end_query(r.cmd, self.pool, query) };
     }
 
     /// The block's count to the next block's predicate.
