@@ -59,7 +59,8 @@ pub struct Config {
     pub max_stride: u32,
     /// Resolution of the smoothing: 0 full, 1 half (default), 2 quarter.
     pub smoothing_level: u32,
-    /// Resolution of the thickness: 0 full, 1 half (default). Upsampled depth-aware.
+    /// Resolution of the thickness: 0 full, 1 half, 2 quarter (default), 3 eighth. Upsampled with
+    /// the weights of texels on the same surface.
     pub thickness_level: u32,
     /// How depth is splatted; `None`: the measured fastest for the device.
     pub depth_splat: Option<Splat>,
@@ -89,7 +90,7 @@ impl Config {
             max_particles,
             max_stride: 16,
             smoothing_level: 1,
-            thickness_level: 1,
+            thickness_level: 2,
             depth_splat: None,
             thickness_splat: None,
             smoothing: None,

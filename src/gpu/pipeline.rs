@@ -169,6 +169,43 @@ impl Pipeline {
         Ok(pipeline)
     }
 
+    /// A graphics pipeline whose state is the caller's own; stages and layout are filled in.
+    pub fn from_state(
+        gpu: &Gpu,
+        stages: &[(Shader, vk::ShaderStageFlags)],
+        constants: &[(u32, u32)],
+        info: vk::GraphicsPipelineCreateInfo<'_>,
+    ) -> Result<Self, Error> {
+        let mut pipeline = Self::layouts(gpu, stages, vk::PipelineBindPoint::GRAPHICS)?;
+        let specialization = Specialization::new(constants);
+        let special = specialization.info();
+        let mut modules = Vec::with_capacity(stages.len());
+        for (shader, _) in stages {
+            modules.push(gpu.module(shader)?);
+        }
+        let infos: Vec<_> = stages
+            .iter()
+            .zip(&modules)
+            .map(|((_, stage), &module)| {
+                vk::PipelineShaderStageCreateInfo::default()
+                    .stage(*stage)
+                    .module(module)
+                    .name(c"main")
+                    .specialization_info(&special)
+            })
+            .collect();
+        let info = info.stages(&infos).layout(pipeline.layout);
+        // SAFETY: modules and layout were made to fit each other; the rest is the caller's.
+        let made =
+            unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
+        for module in modules {
+            // SAFETY: the module is not needed any more.
+            unsafe { gpu.device.destroy_shader_module(module, None) };
+        }
+        pipeline.handle = pipeline.finish(gpu, made, "vkCreateGraphicsPipelines")?;
+        Ok(pipeline)
+    }
+
     fn layouts(
         gpu: &Gpu,
         shaders: &[(Shader, vk::ShaderStageFlags)],

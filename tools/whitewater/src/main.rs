@@ -1,2 +1,44 @@
-//! The command line.
-fn main() {}
+//! The command line of `whitewater`: particle caches in, pictures out.
+
+mod args;
+mod backdrop;
+mod bench;
+mod bounds;
+mod camera;
+mod compare;
+mod demo;
+mod environment;
+mod failure;
+mod info;
+mod layers;
+mod output;
+mod progress;
+mod render;
+mod session;
+mod settings;
+mod timings;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::args::{Cli, Command};
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    output::clean_up_on_interrupt();
+    let outcome = match &cli.command {
+        Command::Render(args) => render::run(args),
+        Command::Demo(args) => demo::run(args),
+        Command::Info(args) => info::run(args),
+        Command::Compare(args) => compare::run(args),
+        Command::Bench(args) => bench::run(args),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("whitewater: {}", failure.message);
+            ExitCode::from(failure.kind as u8)
+        }
+    }
+}

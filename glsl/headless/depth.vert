@@ -1,0 +1,12 @@
+#version 460
+// Pass `scene`: depth alone, of the eye or of the sun.
+// Reads: vertices.
+
+layout(location = 0) in vec3 position;
+layout(push_constant, std430) uniform Push { mat4 clip; } push;
+
+invariant gl_Position;
+
+void main() {
+    gl_Position = push.clip * vec4(position, 1.0);
+}

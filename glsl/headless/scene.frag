@@ -1,0 +1,356 @@
+#version 460
+// Pass `scene`: opaque meshes under sun and sky. Lambert and GGX (Walter et al. 2007, visibility
+// of Hammon 2017); the sun through a shadow map; the sky's irradiance by spherical harmonics times
+// the baked visibility; light off other surfaces as baked per vertex.
+// Patterns are procedural, from the place in the mesh's own frame, and filtered by the footprint
+// of the pixel: lines by their exact share of it, noise by leaving out what it cannot show.
+// Reads: shadow map, environment, irradiance, texture. Writes: scene colour.
+
+#include "../headless/scene.glsl"
+
+const uint PLAIN = 0;
+const uint TILES = 1;
+const uint PLANKS = 2;
+const uint CONCRETE = 3;
+const uint STONE = 4;
+const uint SAND = 5;
+const uint PAVING = 6;
+
+layout(constant_id = 0) const uint PATTERN = PLAIN;
+layout(constant_id = 1) const uint GROUND = 0;   // fades into the sky
+layout(constant_id = 2) const uint TEXTURED = 0;
+
+layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = 2) uniform samplerCube environment;
+layout(set = 0, binding = 3, std430) readonly buffer Irradiance { vec4 irradiance[9]; };
+layout(set = 0, binding = 4) uniform sampler2D base_texture;
+layout(push_constant, std430) uniform Push {
+    vec4 turn;      // rotation of the mesh's frame (quaternion)
+    vec4 origin;    // origin of the mesh's frame (world)
+    vec4 color;     // base colour, roughness
+    vec4 pattern;   // size, height of the tiles' band (world)
+} push;
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in vec4 light;  // share of the sky that is seen; sunlight off other surfaces
+layout(location = 4) in vec3 around; // albedo of the other surfaces that are seen
+
+layout(location = 0) out vec4 color;
+
+struct Surface {
+    vec3 albedo;
+    float roughness;
+    vec3 tilt; // added to the normal, in the mesh's frame
+};
+
+// The inverse of the rotation by a quaternion.
+vec3 unturn(vec3 v) {
+    vec3 q = -push.turn.xyz;
+    return v + 2.0 * cross(q, cross(q, v) + push.turn.w * v);
+}
+
+vec3 turn(vec3 v) {
+    vec3 q = push.turn.xyz;
+    return v + 2.0 * cross(q, cross(q, v) + push.turn.w * v);
+}
+
+float hash(ivec3 p) {
+    uint h = uint(p.x) * 0x8da6b343u ^ uint(p.y) * 0xd8163841u ^ uint(p.z) * 0xcb1ab31fu;
+    h ^= h >> 15;
+    h *= 0x2c1b3c6du;
+    h ^= h >> 12;
+    h *= 0x297a2d39u;
+    h ^= h >> 15;
+    return float(h >> 8) / 16777216.0;
+}
+
+// Value noise in [-1, 1].
+float noise(vec3 p) {
+    ivec3 i = ivec3(floor(p));
+    vec3 f = fract(p);
+    f = f * f * (3.0 - 2.0 * f);
+    vec4 low = vec4(hash(i), hash(i + ivec3(1, 0, 0)), hash(i + ivec3(0, 1, 0)), hash(i + ivec3(1, 1, 0)));
+    ivec3 j = i + ivec3(0, 0, 1);
+    vec4 high = vec4(hash(j), hash(j + ivec3(1, 0, 0)), hash(j + ivec3(0, 1, 0)), hash(j + ivec3(1, 1, 0)));
+    vec4 z = mix(low, high, f.z);
+    vec2 y = mix(z.xy, z.zw, f.y);
+    return 2.0 * mix(y.x, y.y, f.x) - 1.0;
+}
+
+// What of a wave of this frequency survives a footprint of this width.
+float kept(float width, float frequency) {
+    return 1.0 - smoothstep(0.25, 0.9, width * frequency);
+}
+
+// Octaves of noise that fade as the footprint grows over them.
+float octaves(vec3 p, float frequency, int count, float width) {
+    float sum = 0.0;
+    float amplitude = 0.5;
+    for (int i = 0; i < count; ++i) {
+        float share = kept(width, frequency);
+        if (share <= 0.0) {
+            break;
+        }
+        sum += amplitude * share * noise(p * frequency + float(i) * 19.7);
+        amplitude *= 0.55;
+        frequency *= 2.13;
+    }
+    return sum;
+}
+
+// Share of the footprint that is covered by lines of this width at the integers.
+float lines(float x, float width, float footprint) {
+    footprint = max(footprint, 1.0e-4);
+    vec2 ends = x + 0.5 * width + vec2(-0.5, 0.5) * footprint;
+    vec2 covered = floor(ends) * width + min(fract(ends), width);
+    return clamp((covered.y - covered.x) / footprint, 0.0, 1.0);
+}
+
+// Glazed tiles with grout, each of its own shade; one row of them a dark band.
+Surface tiles(vec2 q, vec2 footprint, float height) {
+    float size = push.pattern.x;
+    q /= size;
+    footprint /= size;
+    const float joint = 0.055;
+    float grout = 1.0 - (1.0 - lines(q.x, joint, footprint.x)) * (1.0 - lines(q.y, joint, footprint.y));
+    ivec2 id = ivec2(floor(q));
+    float wide = max(footprint.x, footprint.y);
+    float one = kept(wide, 0.8);
+    float shade = hash(ivec3(id, 7)) - 0.5;
+    float hue = hash(ivec3(id, 31)) - 0.5;
+    vec3 tile = push.color.rgb * (1.0 + one * (0.34 * shade + vec3(-0.14, 0.0, 0.09) * hue));
+    // The glaze runs off the edges and pools in the middle.
+    vec2 in_tile = abs(fract(q) - 0.5) * 2.0;
+    tile *= 1.0 - one * 0.10 * pow(max(in_tile.x, in_tile.y), 4.0);
+    if (floor(height / size) == floor(push.pattern.y / size)) {
+        tile *= vec3(0.16, 0.33, 0.56);
+    }
+    Surface s;
+    s.albedo = mix(tile, vec3(0.50, 0.48, 0.43), grout);
+    s.roughness = mix(push.color.a, 0.85, grout);
+    vec2 tip = vec2(hash(ivec3(id, 3)), hash(ivec3(id, 5))) - 0.5;
+    s.tilt = vec3(0.03 * one * (1.0 - grout) * tip, 0.0);
+    return s;
+}
+
+// Sawn boards along x: fibres, knots' swirl, a dark gap between boards.
+Surface planks(vec3 p, vec3 n, vec2 footprint, float width) {
+    float size = push.pattern.x;
+    bool end = n.x > max(n.y, n.z);
+    float across = n.y > n.z ? p.z : p.y;
+    float step_across = footprint.y;
+    float gap = end ? 0.0 : lines(across / size, 0.035, step_across / size);
+    float board = floor(across / size);
+    float seed = hash(ivec3(int(board), 11, n.y > n.z ? 1 : 2));
+    vec3 q = vec3(p.x * 0.06, p.y, p.z) + 3.7 * seed;
+    float bend = octaves(p * vec3(0.35, 1.0, 1.0) + 9.0 * seed, 2.2, 2, width);
+    float fibre = octaves(q + vec3(0.0, 0.05, 0.05) * bend, 38.0, 3, step_across);
+    float wear = octaves(p, 2.5, 2, width);
+    vec3 tone = push.color.rgb * (1.0 + 0.32 * (seed - 0.5) + 0.55 * fibre + 0.22 * wear);
+    // Weathered wood goes grey.
+    tone = mix(tone, vec3(dot(tone, vec3(0.3, 0.5, 0.2))), clamp(0.30 + 0.5 * wear + 0.3 * (seed - 0.5), 0.0, 0.8));
+    Surface s;
+    s.albedo = mix(tone, tone * 0.22, gap);
+    s.roughness = push.color.a;
+    s.tilt = vec3(0.0);
+    return s;
+}
+
+// Cast concrete: clouds, pores, streaks below the edges, formwork joints on upright faces.
+Surface concrete(vec3 p, vec3 n, float width) {
+    float cloud = octaves(p, 1.7, 4, width);
+    float grain = octaves(p + 31.0, 55.0, 2, width);
+    float streak = n.y < 0.5 ? octaves(vec3(p.x, 0.12 * p.y, p.z) + 7.0, 9.0, 2, width) : 0.0;
+    // Bubbles at the formwork: one in some cells of 4 cm.
+    ivec3 cell = ivec3(floor(p * 25.0));
+    vec3 place = vec3(hash(cell), hash(cell + 101), hash(cell + 211));
+    float size = 0.02 + 0.14 * place.x * place.x;
+    float pore = 1.0 - smoothstep(size, size + 0.04 + 25.0 * width, distance(fract(p * 25.0), 0.2 + 0.6 * place));
+    pore *= step(place.y, 0.6) * min(1.0, size / (25.0 * width + 1.0e-4));
+    float damp = exp(-max(position.y - scene.shadow_texel.w, 0.0) / 0.10) * (n.y < 0.5 ? 1.0 : 0.0);
+    Surface s;
+    s.albedo = push.color.rgb * (1.0 + 0.30 * cloud + 0.16 * grain + 0.20 * streak) * (1.0 - 0.45 * pore);
+    s.albedo *= 1.0 - damp * vec3(0.30, 0.27, 0.32) * (0.8 + cloud);
+    s.roughness = push.color.a;
+    s.tilt = 0.05 * vec3(grain, 0.0, -grain);
+    return s;
+}
+
+// Dressed stone in courses, warm and cool veins.
+Surface stone(vec3 p, vec3 n, vec2 footprint, float width) {
+    float size = push.pattern.x;
+    float course = floor(p.y / size);
+    float joint = n.y < 0.6 ? lines(p.y / size, 0.012 / size, footprint.y / size) : 0.0;
+    float seed = hash(ivec3(int(course), 3, 9)) - 0.5;
+    float cloud = octaves(p + 5.0 * seed, 2.3, 4, width);
+    float strata = octaves(vec3(p.x, 5.0 * p.y, p.z) + 11.0 * seed, 5.0, 3, width);
+    float grain = octaves(p, 70.0, 2, width);
+    vec3 tone = push.color.rgb * (1.0 + 0.18 * seed + 0.30 * cloud + 0.22 * strata + 0.22 * grain);
+    tone *= 1.0 + vec3(0.07, 0.0, -0.09) * (cloud + seed);
+    Surface s;
+    s.albedo = mix(tone, tone * 0.35, joint);
+    s.roughness = push.color.a;
+    s.tilt = 0.08 * vec3(grain, 0.0, cloud);
+    return s;
+}
+
+Surface sand(vec3 p, float width) {
+    float large = octaves(p, 0.35, 3, width);
+    float small = octaves(p + 17.0, 9.0, 2, width);
+    float grain = kept(width, 130.0) * noise(p * 130.0);
+    Surface s;
+    s.albedo = push.color.rgb * (1.0 + 0.22 * large + 0.14 * small + 0.16 * grain);
+    s.albedo *= 1.0 + vec3(0.03, 0.0, -0.05) * large;
+    s.roughness = push.color.a;
+    s.tilt = vec3(0.04 * small, 0.0, 0.04 * large);
+    return s;
+}
+
+// Slabs in a running bond, worn, with sandy joints.
+Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
+    float size = push.pattern.x;
+    q /= size;
+    footprint /= size;
+    const float joint = 0.022;
+    float row = floor(q.y);
+    q.x = q.x / 1.5 + 0.5 * row + 0.23 * hash(ivec3(int(row), 1, 2));
+    footprint.x /= 1.5;
+    float gap = 1.0 - (1.0 - lines(q.x, joint / 1.5, footprint.x)) * (1.0 - lines(q.y, joint, footprint.y));
+    float one = kept(max(footprint.x, footprint.y), 0.7);
+    float seed = hash(ivec3(int(floor(q.x)), int(row), 13)) - 0.5;
+    float warm = hash(ivec3(int(floor(q.x)), int(row), 17)) - 0.5;
+    float large = octaves(p, 0.5, 3, width);
+    float cloud = octaves(p + 9.0 * seed, 6.0, 3, width);
+    float grain = octaves(p, 90.0, 2, width);
+    vec3 tone = push.color.rgb * (1.0 + one * 0.20 * seed + 0.16 * large + 0.14 * cloud + 0.14 * grain);
+    tone *= 1.0 + one * vec3(0.06, 0.0, -0.07) * warm;
+    Surface s;
+    s.albedo = mix(tone, push.color.rgb * vec3(0.62, 0.58, 0.52), 0.75 * gap);
+    s.roughness = mix(push.color.a, 0.95, gap);
+    s.tilt = vec3(0.02 * one * seed + 0.03 * grain, 0.0, 0.02 * one * warm + 0.03 * cloud);
+    return s;
+}
+
+// Share of the sun that arrives: a 5×5 tent by nine bilinear comparisons (Castaño 2013, as in The
+// Witness), about as wide as the sun's own penumbra a metre behind an edge. Smooth, so no noise.
+float sunlight(vec3 at, vec3 facing) {
+    float slope = 1.0 - max(dot(facing, scene.sun_direction.xyz), 0.0);
+    vec3 lifted = at + facing * scene.shadow_texel.z * (1.0 + 2.5 * slope);
+    vec4 s = scene.shadow * vec4(lifted, 1.0);
+    // Behind everything that casts a shadow depth ends, and the border is lit.
+    float depth = min(s.z, 1.0);
+    vec2 uv = s.xy / scene.shadow_texel.xy;
+    vec2 base = floor(uv + 0.5);
+    vec2 st = uv + 0.5 - base;
+    base = (base - 0.5) * scene.shadow_texel.xy;
+    vec2 w0 = 4.0 - 3.0 * st;
+    const float w1 = 7.0;
+    vec2 w2 = 1.0 + 3.0 * st;
+    vec2 o0 = ((3.0 - 2.0 * st) / w0 - 2.0) * scene.shadow_texel.xy;
+    vec2 o1 = (3.0 + st) / w1 * scene.shadow_texel.xy;
+    vec2 o2 = (st / w2 + 2.0) * scene.shadow_texel.xy;
+    float sum = w0.x * w0.y * texture(shadow_map, vec3(base + o0, depth))
+              + w1 * w0.y * texture(shadow_map, vec3(base + vec2(o1.x, o0.y), depth))
+              + w2.x * w0.y * texture(shadow_map, vec3(base + vec2(o2.x, o0.y), depth))
+              + w0.x * w1 * texture(shadow_map, vec3(base + vec2(o0.x, o1.y), depth))
+              + w1 * w1 * texture(shadow_map, vec3(base + o1, depth))
+              + w2.x * w1 * texture(shadow_map, vec3(base + vec2(o2.x, o1.y), depth))
+              + w0.x * w2.y * texture(shadow_map, vec3(base + vec2(o0.x, o2.y), depth))
+              + w1 * w2.y * texture(shadow_map, vec3(base + vec2(o1.x, o2.y), depth))
+              + w2.x * w2.y * texture(shadow_map, vec3(base + o2, depth));
+    return sum / 144.0;
+}
+
+vec3 sky_irradiance(vec3 n) {
+    vec3 e = 0.282095 * irradiance[0].rgb
+           + 0.488603 * (irradiance[1].rgb * n.y + irradiance[2].rgb * n.z + irradiance[3].rgb * n.x)
+           + 1.092548 * (irradiance[4].rgb * n.x * n.y + irradiance[5].rgb * n.y * n.z + irradiance[7].rgb * n.x * n.z)
+           + 0.315392 * irradiance[6].rgb * (3.0 * n.z * n.z - 1.0)
+           + 0.546274 * irradiance[8].rgb * (n.x * n.x - n.y * n.y);
+    return max(e, 0.0);
+}
+
+void main() {
+    vec3 to_eye = scene.eye.xyz - position;
+    vec3 v = normalize(to_eye);
+    // Derivatives before any branch. Winding is not trusted: the face looks to the eye.
+    vec3 px = dFdx(position);
+    vec3 py = dFdy(position);
+    vec3 face = cross(px, py);
+    face = dot(face, face) > 0.0 ? normalize(face) : v;
+    face = dot(face, v) < 0.0 ? -face : face;
+    vec3 n = normalize(normal);
+    n = dot(n, face) < 0.0 ? -n : n;
+
+    vec3 p = unturn(position - push.origin.xyz);
+    vec3 step_x = unturn(px);
+    vec3 step_y = unturn(py);
+    vec3 footprint3 = abs(step_x) + abs(step_y);
+    // Between the short and the long axis of the footprint: neither noise nor fog.
+    float width = 1.2 * sqrt(length(step_x) * length(step_y));
+    vec3 axis = abs(unturn(face));
+
+    bool top = axis.y >= max(axis.x, axis.z);
+    bool side = !top && axis.x >= axis.z;
+    vec2 q = top ? p.xz : side ? p.zy : p.xy;
+    vec2 footprint = top ? footprint3.xz : side ? footprint3.zy : footprint3.xy;
+
+    Surface s = Surface(push.color.rgb, push.color.a, vec3(0.0));
+    if (PATTERN == TILES) {
+        s = tiles(q, footprint, top ? -1.0e9 : position.y);
+        s.tilt = top ? s.tilt.xzy : side ? s.tilt.zyx : s.tilt;
+    } else if (PATTERN == PLANKS) {
+        s = planks(p, axis, vec2(footprint3.x, axis.y > axis.z ? footprint3.z : footprint3.y), width);
+    } else if (PATTERN == CONCRETE) {
+        s = concrete(p, abs(n), width);
+    } else if (PATTERN == STONE) {
+        s = stone(p, abs(n), vec2(footprint.x, footprint3.y), width);
+    } else if (PATTERN == SAND) {
+        s = sand(p, width);
+    } else if (PATTERN == PAVING) {
+        s = paving(q, footprint, p, width);
+    }
+    if (TEXTURED == 1u) {
+        s.albedo *= texture(base_texture, uv).rgb;
+    }
+    s.albedo = clamp(s.albedo, 0.0, 0.95);
+    n = normalize(n + turn(s.tilt));
+
+    vec3 l = scene.sun_direction.xyz;
+    float n_l = max(dot(n, l), 0.0);
+    float n_v = max(dot(n, v), 1.0e-3);
+    vec3 sun = vec3(0.0);
+    if (n_l > 0.0 && dot(face, l) > 0.0) {
+        sun = scene.sun_color.rgb * n_l * sunlight(position, face);
+    }
+    vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
+    // At a pixel's centre outside of its triangle the baked light may be extrapolated below zero.
+    float sky_seen = clamp(light.x, 0.0, 1.0);
+    vec3 sky = sky_seen * sky_irradiance(n);
+    // What is around sees about half of the sky itself.
+    vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around, 0.0) * up;
+    vec3 c = s.albedo / PI * (sun + sky + bounced);
+
+    // Dielectric highlights of sun and sky.
+    float alpha = max(s.roughness * s.roughness, 0.02);
+    vec3 h = normalize(v + l);
+    float n_h = max(dot(n, h), 0.0);
+    float v_h = max(dot(v, h), 0.0);
+    float a2 = alpha * alpha;
+    float d = a2 / (PI * pow(n_h * n_h * (a2 - 1.0) + 1.0, 2.0));
+    float vis = 0.5 / mix(2.0 * n_l * n_v, n_l + n_v, alpha);
+    c += sun * d * vis * (0.04 + 0.96 * pow(1.0 - v_h, 5.0));
+    float lod = s.roughness * (log2(float(textureSize(environment, 0).x)) - 2.0);
+    float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
+    vec3 mirrored = reflect(-v, n);
+    vec3 seen = mix(c, textureLod(environment, mirrored, lod).rgb, sky_seen * sky_seen);
+    c += f * (1.0 - 0.5 * s.roughness) * seen;
+
+    if (GROUND == 1u) {
+        float away = distance(position.xz, scene.ground.xy);
+        c = mix(c, textureLod(environment, -v, 2.0).rgb, smoothstep(scene.ground.z, scene.ground.w, away));
+    }
+    color = vec4(clamp(c, 0.0, 60000.0), 1.0);
+}

@@ -1,0 +1,26 @@
+#version 460
+// Pass `scene`: the sky where no mesh is: the environment along the pixel's ray, and the sun.
+// The environment does not hold the disc: it would be a few texels of huge radiance there.
+// Reads: environment. Writes: scene colour.
+
+#include "../headless/scene.glsl"
+
+layout(set = 0, binding = 2) uniform samplerCube environment;
+
+layout(location = 0) in vec3 ray;
+layout(location = 0) out vec4 color;
+
+void main() {
+    vec3 d = normalize(ray);
+    vec3 c = textureLod(environment, d, 0.0).rgb;
+    // acos of a cosine near one is noise in 32 bits; the chord is not.
+    float angle = 2.0 * asin(min(0.5 * length(d - scene.sun_direction.xyz), 1.0));
+    const float radius = 0.00465; // 0.533 degrees across
+    float edge = max(fwidth(angle), 1.0e-5);
+    float disc = smoothstep(radius + edge, radius - edge, angle);
+    // The glow of a lens and of haze: a tight and a wide lobe.
+    float glow = 0.6 * exp(-angle / 0.012) + 0.03 * exp(-angle / 0.06);
+    float above = smoothstep(-0.01, 0.01, d.y);
+    c += above * scene.sun_color.rgb * (disc * scene.sun_color.w + glow);
+    color = vec4(min(c, 60000.0), 1.0);
+}

@@ -1,0 +1,230 @@
+//! The stand-in scene of the headless renderer: opaque meshes and a ground under a sky with a sun,
+//! so that water has something to run over, to refract and to be hidden by. An engine that embeds
+//! the library draws its own.
+
+mod bake;
+mod load;
+mod renderer;
+mod shapes;
+
+use std::sync::Arc;
+
+use glam::{Mat4, Vec3};
+
+pub use load::SceneError;
+pub use renderer::{SceneFrame, SceneRenderer};
+
+use crate::environment::Sky;
+
+/// What stands around the water. World space: right-handed, y up.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Opaque meshes; they cast and receive shadows.
+    pub meshes: Vec<Mesh>,
+    /// The sun.
+    pub sun: SunLight,
+    /// A level ground that goes to the horizon and fades into the sky there.
+    pub ground: Option<Ground>,
+    /// The camera that the scene's file suggests.
+    pub camera: Option<Viewpoint>,
+}
+
+/// A camera as scene files give it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// Position.
+    pub eye: [f32; 3],
+    /// What it looks at.
+    pub target: [f32; 3],
+    /// The direction that is up in the picture.
+    pub up: [f32; 3],
+    /// Vertical field of view in degrees.
+    pub fov_y_degrees: f32,
+}
+
+/// The sun as a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunLight {
+    /// World direction to the sun; any length but zero.
+    pub direction: [f32; 3],
+    /// Irradiance on a surface that faces it, linear RGB, [0, ∞), in the unit of the output.
+    pub color: [f32; 3],
+}
+
+impl SunLight {
+    /// The sun of the built-in sky, dimmed and reddened by the same air.
+    pub fn of(sky: &Sky) -> Self {
+        // Optical depth to the zenith: the coefficients and scale heights of
+        // glsl/include/atmosphere.glsl; air mass after Kasten and Young 1989.
+        const RAYLEIGH: Vec3 = Vec3::new(5.8e-3 * 8.0, 13.5e-3 * 8.0, 33.1e-3 * 8.0);
+        const MIE: f32 = 4.44e-3 * 1.2;
+        let direction = Vec3::from(sky.sun).normalize_or(Vec3::Y);
+        let height = direction.y.clamp(0.0, 1.0);
+        let degrees = height.asin().to_degrees();
+        let mass = 1.0 / (height + 0.50572 * (degrees + 6.07995).powf(-1.6364));
+        let risen = (direction.y / 0.01).clamp(0.0, 1.0);
+        let color = (-(RAYLEIGH + MIE) * mass).exp() * sky.intensity * risen;
+        Self { direction: direction.to_array(), color: color.to_array() }
+    }
+}
+
+impl Default for SunLight {
+    fn default() -> Self {
+        Self::of(&Sky::default())
+    }
+}
+
+/// The ground.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ground {
+    /// Its height.
+    pub y: f32,
+    /// What it is made of.
+    pub material: Material,
+}
+
+/// Triangles of one material.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Its name in messages.
+    pub name: String,
+    /// Vertices.
+    pub positions: Vec<[f32; 3]>,
+    /// A unit normal for each vertex.
+    pub normals: Vec<[f32; 3]>,
+    /// A texture coordinate for each vertex (v = 0 on top), or none at all.
+    pub uvs: Vec<[f32; 2]>,
+    /// Three for each triangle.
+    pub indices: Vec<u32>,
+    /// What it is made of.
+    pub material: Material,
+    /// To world space. Patterns lie in the mesh's frame where it is turned, else in the world's,
+    /// so that they go on from one mesh to the next.
+    pub transform: Mat4,
+}
+
+/// How a surface looks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Albedo, linear RGB, 0 to 1.
+    pub base_color: [f32; 3],
+    /// 0 mirror-like, 1 matt.
+    pub roughness: f32,
+    /// What is drawn on it.
+    pub pattern: Pattern,
+    /// Multiplies the base colour.
+    pub texture: Option<Arc<Texture>>,
+}
+
+/// A picture on a surface; repeats.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Texture {
+    /// Width in texels.
+    pub width: u32,
+    /// Height in texels.
+    pub height: u32,
+    /// width × height texels, sRGB, row 0 on top.
+    pub data: Vec<[u8; 4]>,
+}
+
+/// A procedural surface; lengths in world units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Pattern {
+    /// The base colour alone.
+    #[default]
+    Plain,
+    /// Glazed square tiles with grout.
+    Tiles {
+        /// Edge of a tile.
+        size: f32,
+        /// World height of a row of darker tiles, as pools have at the water's level.
+        band: Option<f32>,
+    },
+    /// Weathered boards along the mesh's x axis.
+    Planks {
+        /// Width of a board.
+        width: f32,
+    },
+    /// Weathered cast concrete.
+    Concrete,
+    /// Dressed stone in level courses.
+    Stone {
+        /// Height of a course.
+        course: f32,
+    },
+    /// Sand.
+    Sand,
+    /// Stone slabs.
+    Paving {
+        /// Width of a slab; it is half as long again.
+        size: f32,
+    },
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self { base_color: [0.6; 3], roughness: 0.7, pattern: Pattern::Plain, texture: None }
+    }
+}
+
+impl Material {
+    fn new(base_color: [f32; 3], roughness: f32, pattern: Pattern) -> Self {
+        Self { base_color, roughness, pattern, texture: None }
+    }
+
+    /// The materials that scene files know by name; `None` for any other.
+    pub fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "plain" => Self::default(),
+            "concrete" => Self::new([0.44, 0.42, 0.385], 0.8, Pattern::Concrete),
+            "tiles" => {
+                Self::new([0.36, 0.60, 0.63], 0.22, Pattern::Tiles { size: 0.1, band: None })
+            }
+            "timber" => Self::new([0.36, 0.235, 0.135], 0.75, Pattern::Planks { width: 0.12 }),
+            "stone" => Self::new([0.47, 0.40, 0.32], 0.8, Pattern::Stone { course: 0.3 }),
+            "steel" => Self::new([0.13, 0.14, 0.15], 0.45, Pattern::Plain),
+            "sand" => Self::new([0.55, 0.46, 0.34], 0.95, Pattern::Sand),
+            "ground" | "paving" => {
+                Self::new([0.46, 0.42, 0.36], 0.85, Pattern::Paving { size: 0.5 })
+            }
+            _ => return None,
+        })
+    }
+
+    /// The names that [`Material::named`] knows.
+    pub const NAMES: &'static [&'static str] =
+        &["plain", "concrete", "tiles", "timber", "stone", "steel", "sand", "ground", "paving"];
+
+    /// Mean colour of all of it, for light that bounces off.
+    fn albedo(&self) -> Vec3 {
+        let base = Vec3::from(self.base_color);
+        let Some(texture) = &self.texture else { return base };
+        let linear = |v: u8| (f32::from(v) / 255.0).powf(2.2);
+        let step = (texture.data.len() / 4096).max(1);
+        let texels = texture.data.iter().step_by(step);
+        let count = texels.len().max(1) as f32;
+        let sum = texels.fold(Vec3::ZERO, |sum, c| {
+            sum + Vec3::new(linear(c[0]), linear(c[1]), linear(c[2]))
+        });
+        base * sum / count
+    }
+}
+
+impl Scene {
+    /// Corners of the meshes (not the ground) in world space; a unit box where there is none.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for mesh in &self.meshes {
+            for &position in &mesh.positions {
+                let at = mesh.transform.transform_point3(position.into());
+                low = low.min(at);
+                high = high.max(at);
+            }
+        }
+        if low.is_finite() && high.is_finite() && low.cmple(high).all() {
+            (low, high)
+        } else {
+            (Vec3::splat(-0.5), Vec3::splat(0.5))
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! The command line. What a flag means stands in its help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use whitewater::water::settings::{Rule, Splat};
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  all is well
+  1  pictures differ by more than the tolerance; or some frames of a sequence failed (the others
+     are there, the failed ones are listed at the end)
+  2  the command line cannot be understood
+  3  an input is missing, damaged or of no known format
+  4  the device: no Vulkan, no such device, lost, out of memory, validation messages
+  5  the output cannot be written: no such folder, no permission, disk full
+  130  broken off by Ctrl-C; no half-written file is left";
+
+/// Draws particle water without a window: particle caches in, OpenEXR and PNG out.
+#[derive(Parser, Debug)]
+#[command(name = "whitewater", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub enum Command {
+    /// Draw one frame or a sequence
+    #[command(after_help = EXIT_CODES)]
+    Render(Box<RenderArgs>),
+    /// Draw the built-in scene: water from a chute into a basin
+    #[command(after_help = EXIT_CODES)]
+    Demo(Box<DemoArgs>),
+    /// Say what particle files hold
+    #[command(after_help = EXIT_CODES)]
+    Info(InfoArgs),
+    /// Compare two pictures
+    #[command(after_help = EXIT_CODES)]
+    Compare(CompareArgs),
+    /// Time every pass over particle counts, sizes and ways to draw
+    Bench(crate::bench::BenchArgs),
+}
+
+#[derive(Args, Debug)]
+pub struct RenderArgs {
+    /// Particle files: names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
+    #[arg(required = true, value_name = "INPUT")]
+    pub inputs: Vec<String>,
+    /// Frames of the sequence to draw, as A-B or A. Camera, radius and ground are found from the
+    /// whole sequence, so that its parts fit together
+    #[arg(long, value_name = "A-B")]
+    pub frames: Option<String>,
+    /// Particle radius of the solver, half the spacing at rest [default: estimated]
+    #[arg(long, value_name = "R", value_parser = positive)]
+    pub radius: Option<f32>,
+    /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
+    #[arg(long, value_enum, default_value = "y")]
+    pub up_axis: Up,
+    /// What stands behind the water: .glb, .obj, or .json (boxes and cylinders)
+    /// [default: a ground under the water]
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    #[command(flatten)]
+    pub draw: DrawArgs,
+}
+
+#[derive(Args, Debug)]
+pub struct DemoArgs {
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    #[command(flatten)]
+    pub draw: DrawArgs,
+}
+
+/// What every drawing command takes.
+#[derive(Args, Debug)]
+pub struct DrawArgs {
+    /// Picture to write, .exr (linear light, all layers) or .png; may be given twice. A sequence
+    /// puts the frame number where %04d stands, or before the extension
+    #[arg(short, long = "output", required = true, value_name = "OUT")]
+    pub outputs: Vec<PathBuf>,
+    /// Size in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: (u32, u32),
+    /// Settings as TOML, tables [water] and [light]
+    #[arg(long, value_name = "FILE")]
+    pub settings: Option<PathBuf>,
+    /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
+    #[arg(long, value_name = "FILE|sky", default_value = "sky")]
+    pub environment: String,
+    /// Direction to the sun [default: of the sky 0.4,0.8,0.4; of a file its brightest spot]
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub sun: Option<[f32; 3]>,
+    /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene
+    #[arg(long, value_name = "NAMES", default_value = "all")]
+    pub layers: String,
+    /// Brightness of the PNG in stops, on top of what fits the environment
+    #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
+    pub exposure: f32,
+    /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
+    pub smoothing_level: u32,
+    /// Resolution of the thickness: 0 full, or as the smoothing [default: as the smoothing]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=2))]
+    pub thickness_level: Option<u32>,
+    /// How particles become pixels [default: the faster on the device]
+    #[arg(long, value_enum)]
+    pub splat: Option<SplatArg>,
+    /// Iterations of the smoothing: source, constant-width, or fixed:N
+    #[arg(long, default_value = "constant-width", value_parser = rule)]
+    pub rule: Rule,
+    /// Write the time of each pass to a .csv or .json
+    #[arg(long, value_name = "FILE")]
+    pub timings: Option<PathBuf>,
+    /// Write a trace for Perfetto or chrome://tracing (.json)
+    #[arg(long, value_name = "FILE")]
+    pub trace: Option<PathBuf>,
+    /// Part of the name of the device to draw on [default: a GPU if there is one]
+    #[arg(long, value_name = "NAME")]
+    pub device: Option<String>,
+    /// Draw under core and synchronization validation; its messages are errors
+    #[arg(long)]
+    pub validate: bool,
+    /// Draw frames of a sequence again that are there already [default: they are skipped]
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct CameraArgs {
+    /// Camera as JSON: {"eye":[x,y,z],"target":[..],"up":[..],"fov_y_degrees":40,"near":0.1,
+    /// "far":1000}, or {"view":[16],"projection":[16]} column-major, for Vulkan's clip space
+    #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
+    pub file: Option<PathBuf>,
+    /// Position of the camera [default: found from the particles]
+    #[arg(long, value_name = "X,Y,Z", requires = "target", value_parser = vector, allow_hyphen_values = true)]
+    pub eye: Option<[f32; 3]>,
+    /// Point the camera looks at
+    #[arg(long, value_name = "X,Y,Z", requires = "eye", value_parser = vector, allow_hyphen_values = true)]
+    pub target: Option<[f32; 3]>,
+    /// Direction that is up in the picture [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", requires = "eye", value_parser = vector, allow_hyphen_values = true)]
+    pub up: Option<[f32; 3]>,
+    /// Vertical field of view in degrees [default: 40]
+    #[arg(long, value_name = "DEG", value_parser = degrees)]
+    pub fov: Option<f32>,
+}
+
+#[derive(Args, Debug)]
+pub struct InfoArgs {
+    /// Particle files, as for render
+    #[arg(required = true, value_name = "INPUT")]
+    pub inputs: Vec<String>,
+    /// As JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct CompareArgs {
+    /// Reference: .exr, .png or .hdr
+    pub a: PathBuf,
+    /// Test
+    pub b: PathBuf,
+    /// Also the mean FLIP error of the colour as a screen shows it (0 to 1); the tolerance is then
+    /// for it
+    #[arg(long)]
+    pub flip: bool,
+    /// Largest RMSE of any channel (or mean FLIP) that still counts as equal
+    #[arg(long, default_value_t = 0.0, value_parser = finite)]
+    pub tolerance: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Up {
+    Y,
+    Z,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SplatArg {
+    Raster,
+    Compute,
+}
+
+impl From<SplatArg> for Splat {
+    fn from(splat: SplatArg) -> Self {
+        match splat {
+            SplatArg::Raster => Self::Raster,
+            SplatArg::Compute => Self::Compute,
+        }
+    }
+}
+
+fn finite(text: &str) -> Result<f32, String> {
+    match text.trim().parse::<f32>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("expected a number".into()),
+    }
+}
+
+fn positive(text: &str) -> Result<f32, String> {
+    finite(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "expected a number above 0".into())
+}
+
+fn degrees(text: &str) -> Result<f32, String> {
+    finite(text)
+        .ok()
+        .filter(|v| (0.1..=170.0).contains(v))
+        .ok_or_else(|| "expected degrees from 0.1 to 170".into())
+}
+
+fn vector(text: &str) -> Result<[f32; 3], String> {
+    let parts: Vec<f32> = text.split(',').map(finite).collect::<Result<_, _>>()?;
+    parts.try_into().map_err(|_| "expected three numbers X,Y,Z".into())
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let bad = || "expected WIDTHxHEIGHT in pixels, such as 1280x720".to_string();
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(bad)?;
+    let number = |t: &str| t.trim().parse::<u32>().ok().filter(|n| *n > 0).ok_or_else(bad);
+    Ok((number(width)?, number(height)?))
+}
+
+fn rule(text: &str) -> Result<Rule, String> {
+    match text {
+        "source" => Ok(Rule::Source),
+        "constant-width" => Ok(Rule::ConstantWidth),
+        _ => text
+            .strip_prefix("fixed:")
+            .and_then(|n| n.parse().ok())
+            .map(Rule::Fixed)
+            .ok_or_else(|| "expected source, constant-width, or fixed:N with a number".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_sound() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn values_are_parsed() {
+        assert_eq!(size("3x2"), Ok((3, 2)));
+        assert!(size("0x2").is_err() && size("12").is_err());
+        assert_eq!(vector("1,-2, 3e1"), Ok([1.0, -2.0, 30.0]));
+        assert!(vector("1,2").is_err() && vector("1,2,nan").is_err());
+        assert_eq!(rule("fixed:40"), Ok(Rule::Fixed(40)));
+        assert!(rule("fixed:").is_err());
+    }
+}

@@ -1,0 +1,37 @@
+//! Bytes that each pass has to move at least, from what was drawn: every input read once and every
+//! output written once, at the sizes they have. Caches may save reads, no pass can save these.
+
+use super::Drawn;
+
+/// Bytes of a pass by its stem; none for passes that are not known here.
+pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
+    let pixels = |level: u32| {
+        let size = |n: u32| u64::from(n.div_ceil(1 << level));
+        size(drawn.extent.width) * size(drawn.extent.height)
+    };
+    let full = pixels(0);
+    let reduced = pixels(drawn.config.smoothing_level);
+    let thick = pixels(drawn.config.thickness_level);
+    let visible = u64::from(drawn.counts.visible);
+    let front = u64::from(drawn.counts.front);
+    Some(match pass {
+        // Positions in, spheres out.
+        "cull" => 12 * u64::from(drawn.particles) + 16 * visible,
+        // Spheres in twice, cells cleared and read, front spheres out.
+        "front" => 32 * visible + 2 * full / 16 * 4 + 16 * front,
+        // Cleared, spheres in, covered pixels written.
+        "depth" => 4 * full + 16 * front + 4 * drawn.covered,
+        // Depth in, scene depth of covered pixels in, two surfaces and the plan out.
+        "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
+        "tiles" => 8 * reduced / 256,
+        // Each active pixel of each iteration: surface and plan in, surface out.
+        "smooth" => 12 * drawn.iterations,
+        // Spheres in, sums cleared, added to, read, thickness out.
+        "thickness" => 16 * visible + 16 * thick,
+        // A copy of half-float colour.
+        "scene" => 16 * full,
+        // Depth, thickness and surface shares, scene colour and depth in, colour out.
+        "composite" => drawn.covered * (4 + 4 + 8 + 4 + 8) + 4 * reduced,
+        _ => return None,
+    })
+}

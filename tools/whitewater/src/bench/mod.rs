@@ -1,0 +1,297 @@
+//! `whitewater bench`: per-pass times on the GPU's own clock, over particle counts, resolutions and
+//! paths, beside the bytes each pass has to move.
+
+mod bytes;
+mod calibrate;
+mod pool;
+mod report;
+
+use clap::{Args, ValueEnum};
+use glam::{Mat4, Vec3, vec3};
+use whitewater::ash::vk;
+use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
+use whitewater::water::{Gate, Rule, Smoothing, Splat};
+use whitewater::{Camera, Config, Settings};
+
+use crate::failure::Outcome;
+use report::{Format, Row};
+
+/// Arguments of `bench`.
+#[derive(Args, Debug)]
+pub struct BenchArgs {
+    /// Particle counts: 16k, 64k, 256k, 1m or any number; the pool is the same, resolved finer
+    #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
+    particles: Vec<u32>,
+    /// Picture sizes
+    #[arg(long, value_delimiter = ',', default_values = ["1280x720"], value_parser = parse_size)]
+    size: Vec<(u32, u32)>,
+    /// Ways to draw: `default` is what the library chooses on the device
+    #[arg(long, value_delimiter = ',', value_enum, default_values = ["default"])]
+    path: Vec<Path>,
+    /// Frames counted
+    #[arg(long, default_value_t = 15, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    frames: u32,
+    /// Frames drawn before, not counted
+    #[arg(long, default_value_t = 3)]
+    warmup: u32,
+    /// How to print the result
+    #[arg(long, value_enum, default_value_t = Format::Table)]
+    format: Format,
+    /// Part of the wanted device's name
+    #[arg(long)]
+    device: Option<String>,
+}
+
+/// A way to draw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Path {
+    /// What the library chooses
+    Default,
+    /// Both splats as sprites with blending
+    Raster,
+    /// Both splats as compute shaders with atomics
+    Compute,
+    /// Thickness at full resolution
+    FullThickness,
+    /// Thickness at half resolution
+    HalfThickness,
+    /// Smoothing at full resolution
+    FullSmoothing,
+    /// Smoothing at quarter resolution
+    QuarterSmoothing,
+    /// Smoothing: a dispatch an iteration over tiles
+    Tiles,
+    /// Smoothing: eight iterations a dispatch in shared memory
+    Fused,
+    /// Smoothing: occlusion query, indirect draw count
+    QueryCount,
+    /// Smoothing: occlusion query, conditional rendering
+    QueryPredicate,
+    /// Smoothing: occlusion query, culling vertex shader
+    QueryVertex,
+    /// Smoothing: occlusion query read back by the host
+    ReadBack,
+    /// The source's iteration rule
+    Source,
+    /// The baseline: 40 iterations for every pixel
+    Baseline,
+    /// All of the above, one after the other
+    All,
+}
+
+impl Path {
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+    }
+
+    fn configure(self, config: &mut Config) {
+        let query = |gate| Some(Smoothing::Query(gate));
+        match self {
+            Self::Default | Self::All => {}
+            Self::Raster | Self::Compute => {
+                let splat = if self == Self::Raster { Splat::Raster } else { Splat::Compute };
+                config.depth_splat = Some(splat);
+                config.thickness_splat = Some(splat);
+            }
+            Self::FullThickness => config.thickness_level = 0,
+            Self::HalfThickness => config.thickness_level = 1,
+            Self::FullSmoothing => config.smoothing_level = 0,
+            Self::QuarterSmoothing => config.smoothing_level = 2,
+            Self::Tiles => config.smoothing = Some(Smoothing::Tiles),
+            Self::Fused => config.smoothing = Some(Smoothing::Fused),
+            Self::QueryCount => config.smoothing = query(Gate::DrawCount),
+            Self::QueryPredicate => config.smoothing = query(Gate::Predicate),
+            Self::QueryVertex | Self::ReadBack => config.smoothing = query(Gate::VertexCull),
+            Self::Source => config.rule = Rule::Source,
+            Self::Baseline => config.rule = Rule::Fixed(40),
+        }
+    }
+}
+
+/// What was drawn, for the bytes.
+pub struct Drawn {
+    pub extent: vk::Extent2D,
+    pub config: Config,
+    pub particles: u32,
+    pub counts: Counts,
+    /// Full-resolution pixels with water.
+    pub covered: u64,
+    /// Active pixels summed over the iterations of the smoothing.
+    pub iterations: u64,
+    /// Most iterations of a pixel.
+    pub most_iterations: u32,
+}
+
+/// Runs everything asked for and prints it.
+pub fn run(args: &BenchArgs) -> Outcome<()> {
+    let paths: Vec<Path> = if args.path.contains(&Path::All) {
+        Path::value_variants().iter().copied().filter(|p| *p != Path::All).collect()
+    } else {
+        args.path.clone()
+    };
+    let options = DeviceOptions { name: args.device.clone(), ..Default::default() };
+    let device = Device::new(&options)?;
+    let (adapter, driver) = (device.adapter.clone(), device.driver.clone());
+    drop(device);
+    let mut rows = Vec::new();
+    for &count in &args.particles {
+        let pool = pool::Pool::new(count);
+        for &(width, height) in &args.size {
+            for &path in &paths {
+                eprintln!(
+                    "bench: {} particles, {width}x{height}, {}",
+                    pool.positions.len(),
+                    path.name()
+                );
+                let extent = vk::Extent2D { width, height };
+                let device = Device::new(&options)?;
+                let outcome = measure(device, args, &pool, extent, path);
+                match outcome {
+                    Ok(more) => rows.extend(more),
+                    // A device may lack one path; the others still count.
+                    Err(whitewater::Error::Missing { what, why }) => {
+                        eprintln!("bench: {} skipped: {what} is missing: {why}", path.name());
+                    }
+                    Err(error) => return Err(error.into()),
+                }
+            }
+        }
+    }
+    report::print(args.format, &adapter, &driver, &rows);
+    Ok(())
+}
+
+/// One combination.
+fn measure(
+    device: Device,
+    args: &BenchArgs,
+    pool: &pool::Pool,
+    extent: vk::Extent2D,
+    path: Path,
+) -> Result<Vec<Row>, whitewater::Error> {
+    let mut config = Config::new(extent, COLOR_FORMAT, pool.positions.len() as u32);
+    path.configure(&mut config);
+    let mut headless = Headless::new(device, &config)?;
+    let rows = sample(&mut headless, args, pool, config, path);
+    headless.finish()?;
+    rows
+}
+
+fn sample(
+    headless: &mut Headless,
+    args: &BenchArgs,
+    pool: &pool::Pool,
+    config: Config,
+    path: Path,
+) -> Result<Vec<Row>, whitewater::Error> {
+    let extent = config.extent;
+    let camera = camera(extent);
+    let mut settings = Settings::default();
+    settings.water.spacing = pool.spacing;
+    headless.particles(&pool.positions, None)?;
+    let mut samples: Vec<(&'static str, Vec<f64>)> = Vec::new();
+    let mut totals = Vec::new();
+    let mut calibration = Vec::new();
+    for frame in 0..args.warmup + args.frames {
+        let background = Background::Color([0.4, 0.4, 0.4]);
+        calibration.push(calibrate::milliseconds());
+        if path == Path::ReadBack {
+            headless.render_with_read_back(&camera, &settings, &background)?;
+        } else {
+            headless.render(&camera, &settings, &background)?;
+        }
+        if frame < args.warmup {
+            continue;
+        }
+        let mut total = 0.0;
+        for timing in headless.timings() {
+            let ms = timing.nanoseconds * 1e-6;
+            total += ms;
+            match samples.iter_mut().find(|(name, _)| *name == timing.name) {
+                Some((_, list)) => list.push(ms),
+                None => samples.push((timing.name, vec![ms])),
+            }
+        }
+        totals.push(total);
+    }
+    let drawn = drawn(headless, config, pool)?;
+    let calibration = report::median(&mut calibration);
+    let row = |pass: &str, list: &mut Vec<f64>, moved: Option<u64>| Row {
+        particles: drawn.particles,
+        width: extent.width,
+        height: extent.height,
+        path: path.name(),
+        pass: pass.to_owned(),
+        median: report::median(list),
+        low: report::quantile(list, 0.1),
+        high: report::quantile(list, 0.9),
+        bytes: moved,
+        calibration,
+        most_iterations: drawn.most_iterations,
+    };
+    let mut rows: Vec<Row> = samples
+        .iter_mut()
+        .map(|(name, list)| row(name, list, bytes::moved(name, &drawn)))
+        .collect();
+    let all = rows.iter().filter_map(|row| row.bytes).sum();
+    rows.push(row("frame", &mut totals, Some(all)));
+    Ok(rows)
+}
+
+fn drawn(
+    headless: &mut Headless,
+    config: Config,
+    pool: &pool::Pool,
+) -> Result<Drawn, whitewater::Error> {
+    let counts = headless.counts()?;
+    let depth = headless.layer("water.depth")?;
+    let iterations = headless.layer("water.iterations")?;
+    let covered = depth.map_or(0, |d| d.data.iter().filter(|z| **z < 1.0e9).count() as u64);
+    let (sum, most) = iterations.map_or((0.0, 0.0), |picture| {
+        picture
+            .data
+            .iter()
+            .fold((0.0f64, 0.0f32), |(sum, most), n| (sum + f64::from(*n), most.max(*n)))
+    });
+    Ok(Drawn {
+        extent: config.extent,
+        config,
+        particles: pool.positions.len() as u32,
+        counts,
+        covered,
+        iterations: sum as u64,
+        most_iterations: most as u32,
+    })
+}
+
+fn camera(extent: vk::Extent2D) -> Camera {
+    let aspect = extent.width as f32 / extent.height as f32;
+    let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
+    Camera {
+        view: Mat4::look_at_rh(vec3(1.7, 1.15, 2.15), vec3(0.0, 0.12, 0.0), Vec3::Y),
+        projection: flip * Mat4::perspective_infinite_reverse_rh(45f32.to_radians(), aspect, 0.05),
+    }
+}
+
+fn parse_count(text: &str) -> Result<u32, String> {
+    let lower = text.to_lowercase();
+    let (digits, scale) = match lower.strip_suffix('k') {
+        Some(digits) => (digits, 1 << 10),
+        None => match lower.strip_suffix('m') {
+            Some(digits) => (digits, 1 << 20),
+            None => (lower.as_str(), 1),
+        },
+    };
+    match digits.parse::<u32>().ok().and_then(|n| n.checked_mul(scale)) {
+        Some(count) if (64..=1 << 28).contains(&count) => Ok(count),
+        _ => Err(format!("expected a count such as 64k or 1m, found '{text}'")),
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let parts = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    match parts {
+        Some((width, height)) if width > 0 && height > 0 => Ok((width, height)),
+        _ => Err(format!("expected a size such as 1280x720, found '{text}'")),
+    }
+}

@@ -1,0 +1,299 @@
+//! The view: from a file, from flags, or found from the particles.
+
+use std::path::Path;
+
+use glam::{Mat4, Vec3, Vec4};
+use serde::{Deserialize, Serialize};
+use whitewater::Camera;
+
+use crate::args::CameraArgs;
+use crate::bounds::Bounds;
+use crate::failure::{Failure, Outcome};
+
+const DEFAULT_FOV: f32 = 40.0;
+
+/// A camera as its file has it: the first six, or the last two.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub struct CameraFile {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fov_y_degrees: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub near: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub far: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub view: Option<[f32; 16]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub projection: Option<[f32; 16]>,
+}
+
+impl CameraFile {
+    /// What flags or a file say; `None` where they say nothing.
+    pub fn from_args(args: &CameraArgs) -> Outcome<Option<Self>> {
+        if let Some(path) = &args.file {
+            let text = std::fs::read_to_string(path).map_err(|e| Failure::reading(path, &e))?;
+            return Self::parse(&text, path).map(Some);
+        }
+        Ok(args.eye.map(|eye| Self {
+            eye: Some(eye),
+            target: args.target,
+            up: args.up,
+            fov_y_degrees: args.fov,
+            ..Self::default()
+        }))
+    }
+
+    fn parse(text: &str, path: &Path) -> Outcome<Self> {
+        serde_json::from_str(text).map_err(|e| {
+            Failure::input(format!(
+                "{}: expected a camera such as {{\"eye\":[1,1,3],\"target\":[0,0,0],\"fov_y_degrees\":40}}, \
+                 found {e}; mend the file",
+                path.display()
+            ))
+        })
+    }
+
+    /// Its matrices for a picture's size.
+    pub fn camera(&self, size: (u32, u32)) -> Outcome<Camera> {
+        let bad = |what: &str| Err(Failure::input(format!("camera: {what}")));
+        if let (Some(view), Some(projection)) = (self.view, self.projection) {
+            if self.eye.is_some() || self.target.is_some() || self.fov_y_degrees.is_some() {
+                return bad(
+                    "expected either eye and target or view and projection, found both; leave one out",
+                );
+            }
+            let camera = Camera {
+                view: Mat4::from_cols_array(&view),
+                projection: Mat4::from_cols_array(&projection),
+            };
+            return Ok(camera);
+        }
+        let (Some(eye), Some(target)) = (self.eye, self.target) else {
+            return bad("expected eye and target, or view and projection; add what is missing");
+        };
+        let (eye, target) = (Vec3::from(eye), Vec3::from(target));
+        let up = self.up.map_or(Vec3::Y, Vec3::from);
+        let forward = target - eye;
+        if !forward.is_finite() || forward.length() <= 0.0 {
+            return bad("expected eye and target at different places; move one");
+        }
+        if forward.normalize().cross(up.normalize_or_zero()).length() < 1.0e-4 {
+            return bad("expected up to differ from the direction of view; choose another up");
+        }
+        let fov = self.fov_y_degrees.unwrap_or(DEFAULT_FOV);
+        if !(0.1..=170.0).contains(&fov) {
+            return bad(&format!("expected fov_y_degrees from 0.1 to 170, found {fov}"));
+        }
+        let near = self.near.unwrap_or(0.01 * forward.length());
+        if !(near.is_finite() && near > 0.0 && self.far.is_none_or(|far| far > near)) {
+            return bad("expected 0 < near < far; mend them");
+        }
+        let aspect = size.0 as f32 / size.1 as f32;
+        // Reversed depth: a 32-bit float then has the same precision near and far.
+        let mut projection = match self.far {
+            Some(far) => Mat4::perspective_rh(fov.to_radians(), aspect, far, near),
+            None => Mat4::perspective_infinite_reverse_rh(fov.to_radians(), aspect, near),
+        };
+        projection.y_axis *= -1.0; // Vulkan: row 0 on top
+        Ok(Camera { view: Mat4::look_at_rh(eye, target, up), projection })
+    }
+
+    /// A three-quarter view from a little above, with all of the bulk in the frame.
+    pub fn of_particles(
+        positions: &[[f32; 3]],
+        bounds: &Bounds,
+        fov: Option<f32>,
+        size: (u32, u32),
+    ) -> Self {
+        let fov = fov.unwrap_or(DEFAULT_FOV);
+        let step = positions.len().div_ceil(20_000).max(1);
+        let mut points: Vec<Vec3> = positions
+            .iter()
+            .step_by(step)
+            .map(|p| Vec3::from(*p))
+            .filter(|p| bounds.contains(*p))
+            .collect();
+        points.extend([bounds.min, bounds.max]);
+        let size3 = bounds.size();
+        // The longer side faces the camera.
+        let turn = if size3.x >= size3.z { 28.0_f32 } else { 62.0 }.to_radians();
+        // A flat pool is looked at from higher up than a tall splash, behind which the horizon belongs.
+        let tall = (size3.y / size3.x.max(size3.z).max(1.0e-9)).clamp(0.0, 1.0);
+        let rise = (26.0 - 14.0 * tall).to_radians();
+        let back =
+            Vec3::new(turn.sin() * rise.cos(), rise.sin(), turn.cos() * rise.cos()).normalize();
+        let right = Vec3::Y.cross(back).normalize();
+        let up = back.cross(right);
+        let margin = 1.12;
+        let tan_y = (0.5 * fov.to_radians()).tan() / margin;
+        let tan_x = tan_y * size.0 as f32 / size.1 as f32;
+        let mut target = bounds.center();
+        let mut distance = 0.0_f32;
+        // Each round centres what is seen and steps back as far as it needs.
+        for _ in 0..6 {
+            distance = 0.0;
+            for p in &points {
+                let d = *p - target;
+                let need = (d.dot(right).abs() / tan_x).max(d.dot(up).abs() / tan_y);
+                distance = distance.max(need + d.dot(back));
+            }
+            let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+            for p in &points {
+                let d = *p - target;
+                let depth = (distance - d.dot(back)).max(1.0e-6);
+                let seen = Vec3::new(d.dot(right), d.dot(up), 0.0) / depth;
+                (low, high) = (low.min(seen), high.max(seen));
+            }
+            let off = 0.5 * (low + high) * distance;
+            target += right * off.x + up * off.y;
+        }
+        if !(distance.is_finite() && distance > 0.0) {
+            distance = 1.0;
+        }
+        let eye = target + back * distance;
+        Self {
+            eye: Some(eye.to_array()),
+            target: Some(target.to_array()),
+            up: Some([0.0, 1.0, 0.0]),
+            fov_y_degrees: Some(fov),
+            ..Self::default()
+        }
+    }
+
+    /// As its file has it.
+    pub fn json(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+/// A perspective camera taken apart, for what the CPU works out.
+#[derive(Clone, Copy, Debug)]
+pub struct Lens {
+    /// World to eye space, which looks down -z.
+    pub view: Mat4,
+    /// P00, P11, P20, P21.
+    p: Vec4,
+    /// Device depth to eye depth: `.0 / (device + .1)`.
+    linear: (f32, f32),
+    /// Device depth of the far end.
+    pub far: f32,
+}
+
+impl Lens {
+    /// Of a camera that the renderer accepts.
+    pub fn new(camera: &Camera) -> Outcome<Self> {
+        let m = camera.projection.to_cols_array_2d();
+        if !camera.projection.is_finite() || !camera.view.is_finite() || m[2][3].abs() < 0.5 {
+            return Err(Failure::input(
+                "camera: expected a finite perspective projection, found another; orthographic \
+                 cameras cannot be drawn",
+            ));
+        }
+        let mirror = if m[2][3] < 0.0 { 1.0 } else { -1.0 };
+        let scale = 1.0 / m[2][3].abs();
+        let p = Vec4::new(m[0][0], m[1][1], mirror * m[2][0], mirror * m[2][1]) * scale;
+        let linear = (m[3][2] * scale, mirror * m[2][2] * scale);
+        // The end at which the eye depth is the larger; an infinite one shows as zero or negative.
+        let depth = |z: f32| {
+            let depth = linear.0 / (z + linear.1);
+            if depth.is_finite() && depth > 0.0 { depth } else { f32::INFINITY }
+        };
+        let far = if depth(0.0) > depth(1.0) { 0.0 } else { 1.0 };
+        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view;
+        Ok(Self { view, p, linear, far })
+    }
+
+    /// Eye depth of a device depth; `EMPTY` at the far end.
+    pub fn eye_depth(&self, device: f32) -> f32 {
+        let depth = self.linear.0 / (device + self.linear.1);
+        if device != self.far && depth.is_finite() && depth > 0.0 {
+            depth
+        } else {
+            whitewater::io::picture::EMPTY
+        }
+    }
+
+    /// Device depth of an eye depth.
+    pub fn device_depth(&self, eye: f32) -> f32 {
+        (self.linear.0 / eye - self.linear.1).clamp(0.0, 1.0)
+    }
+
+    /// Scale and offset from coordinates in pixels (centres at +0.5) to x / depth and y / depth.
+    pub fn slope(&self, size: (u32, u32), texel: f32) -> [f32; 4] {
+        let x = 2.0 * texel / (size.0 as f32 * self.p.x);
+        let y = 2.0 * texel / (size.1 as f32 * self.p.y);
+        [x, y, (self.p.z - 1.0) / self.p.x, (self.p.w - 1.0) / self.p.y]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_found_camera_sees_every_particle() {
+        let positions: Vec<[f32; 3]> = (0..4096)
+            .map(|i| {
+                [(i % 16) as f32 * 0.3 + 5.0, (i / 16 % 16) as f32 * 0.1, (i / 256) as f32 * 0.2]
+            })
+            .collect();
+        let bounds = Bounds::of_bulk(&positions).unwrap();
+        for size in [(1280, 720), (300, 900), (1, 1)] {
+            let file = CameraFile::of_particles(&positions, &bounds, None, size);
+            let camera = file.camera(size).unwrap();
+            let mut most = 0.0_f32;
+            for p in &positions {
+                let clip = camera.projection * camera.view * Vec3::from(*p).extend(1.0);
+                let ndc = clip.truncate() / clip.w;
+                assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0 && clip.w > 0.0, "{ndc}");
+                most = most.max(ndc.x.abs()).max(ndc.y.abs());
+            }
+            assert!(most > 0.8, "{most}");
+        }
+    }
+
+    #[test]
+    fn lens_undoes_the_projection() {
+        for far in [None, Some(100.0)] {
+            let file = CameraFile {
+                eye: Some([1.0, 2.0, 3.0]),
+                target: Some([0.0; 3]),
+                far,
+                ..CameraFile::default()
+            };
+            let camera = file.camera((300, 200)).unwrap();
+            let lens = Lens::new(&camera).unwrap();
+            assert_eq!(lens.far, 0.0);
+            let clip = camera.projection * camera.view * Vec4::new(0.1, 0.2, 0.3, 1.0);
+            let eye = -(camera.view * Vec4::new(0.1, 0.2, 0.3, 1.0)).z;
+            assert!((lens.eye_depth(clip.z / clip.w) - eye).abs() < 1e-4 * eye);
+            assert!((lens.device_depth(eye) - clip.z / clip.w).abs() < 1e-6);
+            assert_eq!(lens.eye_depth(0.0), whitewater::io::picture::EMPTY);
+        }
+    }
+
+    #[test]
+    fn bad_cameras_are_refused() {
+        let parse =
+            |text| CameraFile::parse(text, Path::new("c.json")).and_then(|c| c.camera((4, 4)));
+        for text in [
+            "{}",
+            "{\"eye\":[0,0,0]}",
+            "{\"eye\":[0,0,0],\"target\":[0,0,0]}",
+            "{\"eye\":[0,0,0],\"target\":[0,1,0]}",
+            "{\"eye\":[0,0,0],\"target\":[0,0,1],\"fov\":3}",
+            "{\"eye\":[0,0,0],\"target\":[0,0,1],\"near\":3,\"far\":1}",
+            "[",
+        ] {
+            let failure = parse(text).unwrap_err();
+            assert!(!failure.message.contains('\n'), "{}", failure.message);
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! What shines on the scene: a picture, or the built-in sky worked out on the CPU for the backdrop.
+
+use std::f32::consts::{PI, TAU};
+use std::path::Path;
+
+use glam::{Vec2, Vec3};
+use whitewater::io::picture::{self, Encoding};
+use whitewater::{Light, Sky};
+
+use crate::failure::{Failure, Outcome};
+
+/// An equirectangular picture: row 0 up, its middle column along -z.
+#[derive(Clone, Debug)]
+pub struct Panorama {
+    pub width: usize,
+    pub height: usize,
+    pub pixels: Vec<Vec3>,
+}
+
+/// The light of a scene.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    /// Where it is not a picture.
+    pub sky: Option<Sky>,
+    pub panorama: Panorama,
+    /// Towards the sun, or the brightest spot.
+    pub sun: Vec3,
+    /// Of the sun alone, on a plane that faces it.
+    pub sun_irradiance: Vec3,
+    /// On a level plane from all but the sun.
+    pub sky_irradiance: Vec3,
+}
+
+impl Environment {
+    /// The built-in sky.
+    pub fn sky(sun: Option<[f32; 3]>) -> Outcome<Self> {
+        let mut sky = Sky::default();
+        if let Some(sun) = sun {
+            sky.sun = unit(sun)?.to_array();
+        }
+        let sun = Vec3::from(sky.sun);
+        let panorama = Panorama::build(256, 128, |d| sky.intensity * sky_radiance(d, sun));
+        let above = if sun.y > 0.0 { sky.intensity } else { 0.0 };
+        let sun_irradiance = above * transmittance(optical_depth(EARTH + 0.05, sun.y));
+        // Shadows outdoors get about a sixth of the sun's light; of it the sky without its higher orders of
+        // scattering has half.
+        let sky_irradiance = panorama.irradiance() + 0.08 * sun.y.max(0.0) * sun_irradiance;
+        Ok(Self { sky: Some(sky), panorama, sun, sun_irradiance, sky_irradiance })
+    }
+
+    /// A picture.
+    pub fn read(path: &Path, sun: Option<[f32; 3]>) -> Outcome<Self> {
+        let layers = picture::read(path)?;
+        let bad = |what: String| Failure::input(format!("{}: {what}", path.display()));
+        let (width, height) = (layers.width, layers.height);
+        let rgb = layers.rgb().ok_or_else(|| {
+            bad("expected channels R, G and B, found others; use a picture with colour".into())
+        })?;
+        if width != 2 * height {
+            return Err(bad(format!(
+                "expected an equirectangular picture twice as wide as high, found {width}x{height}; \
+                 convert it"
+            )));
+        }
+        let linear = |v: f32| match layers.encoding {
+            Encoding::Linear => v,
+            Encoding::Srgb => picture::srgb_decode(v),
+        };
+        // Half floats on the device: no infinities, no negative light.
+        let clean = |v: f32| if v.is_nan() { 0.0 } else { linear(v).clamp(0.0, 65000.0) };
+        let pixels = rgb.iter().map(|c| Vec3::from(c.map(clean))).collect();
+        let panorama = Panorama { width, height, pixels };
+        let (brightest, sun_irradiance) = panorama.sun();
+        let sun = match sun {
+            Some(sun) => unit(sun)?,
+            None => brightest,
+        };
+        let level = sun_irradiance * sun.y.max(0.0);
+        let sky_irradiance = (panorama.irradiance() - level).max(Vec3::ZERO);
+        Ok(Self { sky: None, panorama, sun, sun_irradiance, sky_irradiance })
+    }
+
+    /// The renderer's light for this environment.
+    pub fn light(&self) -> Light {
+        let default = Light::default();
+        let reference = Sky::default().intensity;
+        Light {
+            direction: self.sun.to_array(),
+            // The highlight of a sun that is in the picture comes with its reflection.
+            color: match self.sky {
+                Some(_) => (Vec3::from(default.color) * self.sun_irradiance.max_element()
+                    / reference)
+                    .to_array(),
+                None => [0.0; 3],
+            },
+            // The mean over all directions, half of the sun's taken off by the water above.
+            ambient: ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array(),
+        }
+    }
+
+    /// Stops that make a sunlit mid-grey surface fit a screen.
+    pub fn exposure(&self) -> f32 {
+        let level = self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0);
+        let white = level.dot(LUMINANCE) / PI;
+        if white > 0.0 { (2.2 / white).log2().clamp(-20.0, 20.0) } else { 0.0 }
+    }
+}
+
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+fn unit(v: [f32; 3]) -> Outcome<Vec3> {
+    Vec3::from(v)
+        .try_normalize()
+        .ok_or_else(|| Failure::usage("--sun: expected a direction, found 0,0,0; give another"))
+}
+
+impl Panorama {
+    fn build(width: usize, height: usize, radiance: impl Fn(Vec3) -> Vec3) -> Self {
+        let mut panorama = Self { width, height, pixels: Vec::with_capacity(width * height) };
+        for i in 0..width * height {
+            panorama.pixels.push(radiance(panorama.direction(i % width, i / width)));
+        }
+        panorama
+    }
+
+    fn direction(&self, x: usize, y: usize) -> Vec3 {
+        let longitude = ((x as f32 + 0.5) / self.width as f32 - 0.5) * TAU;
+        let angle = (y as f32 + 0.5) / self.height as f32 * PI;
+        Vec3::new(angle.sin() * longitude.sin(), angle.cos(), -angle.sin() * longitude.cos())
+    }
+
+    /// Solid angle of a texel of a row.
+    fn solid_angle(&self, y: usize) -> f32 {
+        let (w, h) = (self.width as f32, self.height as f32);
+        ((y as f32 + 0.5) / h * PI).sin() * (TAU / w) * (PI / h)
+    }
+
+    /// Radiance in a direction, between texels.
+    pub fn sample(&self, d: Vec3) -> Vec3 {
+        let u = d.x.atan2(-d.z) / TAU + 0.5;
+        let v = d.y.clamp(-1.0, 1.0).acos() / PI;
+        let at = Vec2::new(u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
+        let (base, part) = (at.floor(), at - at.floor());
+        let texel = |dx: i64, dy: i64| {
+            let x = (base.x as i64 + dx).rem_euclid(self.width as i64) as usize;
+            let y = (base.y as i64 + dy).clamp(0, self.height as i64 - 1) as usize;
+            self.pixels[y * self.width + x]
+        };
+        let row = |dy| texel(0, dy).lerp(texel(1, dy), part.x);
+        row(0).lerp(row(1), part.y)
+    }
+
+    /// On a level plane.
+    fn irradiance(&self) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for y in 0..self.height {
+            let weight = self.solid_angle(y) * self.direction(0, y).y.max(0.0);
+            let row = &self.pixels[y * self.width..][..self.width];
+            sum += weight * row.iter().sum::<Vec3>();
+        }
+        sum
+    }
+
+    /// The brightest spot: its middle, and the irradiance that comes from it.
+    fn sun(&self) -> (Vec3, Vec3) {
+        let brightness = |c: &Vec3| c.dot(LUMINANCE);
+        let peak = self.pixels.iter().map(brightness).fold(0.0, f32::max);
+        let Some(at) = self.pixels.iter().position(|c| brightness(c) >= peak) else {
+            return (Vec3::Y, Vec3::ZERO);
+        };
+        let center = self.direction(at % self.width.max(1), at / self.width.max(1));
+        let (mut middle, mut irradiance) = (Vec3::ZERO, Vec3::ZERO);
+        for (i, c) in self.pixels.iter().enumerate() {
+            let (x, y) = (i % self.width, i / self.width);
+            let d = self.direction(x, y);
+            // Within 10 degrees, and bright.
+            if d.dot(center) > 0.985 && brightness(c) > 0.1 * peak {
+                irradiance += *c * self.solid_angle(y);
+                middle += d * brightness(c) * self.solid_angle(y);
+            }
+        }
+        (middle.try_normalize().unwrap_or(Vec3::Y), irradiance)
+    }
+}
+
+// The sky of glsl/include/atmosphere.glsl, whose comments say what stands here.
+const EARTH: f32 = 6360.0;
+const TOP: f32 = 6420.0;
+const RAYLEIGH: Vec3 = Vec3::new(5.8e-3, 13.5e-3, 33.1e-3);
+const MIE: f32 = 4.0e-3;
+const MIE_ABSORPTION: f32 = 4.4e-4;
+const SCALE_HEIGHTS: Vec2 = Vec2::new(8.0, 1.2);
+
+fn leave_sphere(height: f32, cosine: f32, radius: f32) -> f32 {
+    let b = height * cosine;
+    -b + (b * b - height * height + radius * radius).max(0.0).sqrt()
+}
+
+fn density(altitude: f32) -> Vec2 {
+    (Vec2::splat(-altitude.max(0.0)) / SCALE_HEIGHTS).exp()
+}
+
+fn optical_depth(height: f32, cosine: f32) -> Vec2 {
+    let span = leave_sphere(height, cosine, TOP) / 8.0;
+    let mut sum = Vec2::ZERO;
+    for i in 0..8 {
+        let t = (i as f32 + 0.5) * span;
+        let r = (height * height + t * t + 2.0 * height * t * cosine).sqrt();
+        sum += density(r - EARTH) * span;
+    }
+    sum
+}
+
+fn transmittance(depth: Vec2) -> Vec3 {
+    (-(RAYLEIGH * depth.x + (MIE + MIE_ABSORPTION) * depth.y)).exp()
+}
+
+fn sky_radiance(direction: Vec3, sun: Vec3) -> Vec3 {
+    let eye = EARTH + 0.05;
+    let d = Vec3::new(direction.x, direction.y.max(0.003), direction.z).normalize();
+    let span = leave_sphere(eye, d.y, TOP);
+    let (mut along, mut rayleigh, mut mie) = (Vec2::ZERO, Vec3::ZERO, Vec3::ZERO);
+    let mut before = 0.0;
+    for i in 0..24 {
+        let after = span * ((i + 1) as f32 / 24.0).powi(2);
+        let (t, size) = (0.5 * (before + after), after - before);
+        before = after;
+        let r = (eye * eye + t * t + 2.0 * eye * t * d.y).sqrt();
+        let here = density(r - EARTH) * size;
+        let cosine = (eye * sun.y + t * d.dot(sun)) / r;
+        let reach = transmittance(along + 0.5 * here + optical_depth(r, cosine.max(-0.05)));
+        along += here;
+        rayleigh += here.x * reach;
+        mie += here.y * reach;
+    }
+    let mu = d.dot(sun);
+    let g = 0.76_f32;
+    let phase_r = 3.0 / (16.0 * PI) * (1.0 + mu * mu);
+    let phase_m = 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + mu * mu)
+        / ((2.0 + g * g) * (1.0 + g * g - 2.0 * g * mu).powf(1.5));
+    let often = 0.04 * RAYLEIGH / RAYLEIGH.z * sun.y.max(0.0);
+    let sky = rayleigh * RAYLEIGH * phase_r
+        + mie * MIE * phase_m
+        + often * (Vec3::ONE - (-RAYLEIGH * along.x).exp());
+    let below = (direction.y / -0.12).clamp(0.0, 1.0);
+    let below = below * below * (3.0 - 2.0 * below);
+    let lit = sun.y.max(0.0) * transmittance(optical_depth(eye, sun.y)) / PI;
+    let ground = 0.22 * (lit + 0.08 * Vec3::new(0.5, 0.6, 0.8));
+    sky.lerp(ground, below)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panorama_gives_its_own_directions_back() {
+        let panorama = Panorama::build(64, 32, |d| d);
+        for i in 0..64 * 32 {
+            let d = panorama.direction(i % 64, i / 64);
+            assert!((panorama.sample(d) - d).length() < 0.02, "{d}");
+        }
+        let white = Panorama::build(64, 32, |_| Vec3::ONE);
+        assert!((white.irradiance() - PI).abs().max_element() < 0.02);
+        assert!(panorama.sample(-Vec3::Z).z < -0.99 && panorama.sample(Vec3::X).x > 0.98);
+    }
+
+    #[test]
+    fn the_sky_is_blue_above_and_lit() {
+        let sky = Environment::sky(None).unwrap();
+        let up = sky.panorama.sample(Vec3::Y);
+        assert!(up.z > 1.5 * up.x && up.x > 0.0, "{up}");
+        assert!(sky.exposure().abs() < 6.0);
+        assert!(Environment::sky(Some([0.0; 3])).is_err());
+    }
+}

@@ -1,0 +1,105 @@
+//! What went wrong, in one line, and the exit code that tells what kind it is.
+
+use std::path::Path;
+
+use whitewater::Error;
+use whitewater::io::particles::ReadError;
+use whitewater::io::particles::sequence::SequenceError;
+use whitewater::io::picture::PictureError;
+
+/// Kind of a failure; its number is the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Pictures differ, or some frames of a sequence failed.
+    Partly = 1,
+    /// The command line asks for something that cannot be.
+    Usage = 2,
+    /// An input file is missing or bad.
+    Input = 3,
+    /// No Vulkan, no such device, device lost, out of memory, validation messages.
+    Device = 4,
+    /// The output cannot be written.
+    Output = 5,
+}
+
+/// One line for the user, and its kind.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    pub kind: Kind,
+    pub message: String,
+}
+
+/// Of everything here.
+pub type Outcome<T> = Result<T, Failure>;
+
+impl Failure {
+    pub fn new(kind: Kind, message: impl Into<String>) -> Self {
+        Self { kind, message: message.into() }
+    }
+
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self::new(Kind::Usage, message)
+    }
+
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::new(Kind::Input, message)
+    }
+
+    /// A file that could not be read.
+    pub fn reading(path: &Path, error: &std::io::Error) -> Self {
+        let path = path.display();
+        Self::input(format!("cannot read {path}: {error}; check the name and the permissions"))
+    }
+
+    /// A file that could not be written.
+    pub fn writing(path: &Path, error: &std::io::Error) -> Self {
+        let advice = match error.kind() {
+            std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
+                "free some space, or write to another disk"
+            }
+            std::io::ErrorKind::NotFound => "make the folder first",
+            _ => "check that the folder may be written to and is not full",
+        };
+        Self::new(Kind::Output, format!("cannot write {}: {error}; {advice}", path.display()))
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::BadInput { .. } => Self::input(error.to_string()),
+            Error::Allocation { .. } => Self::new(
+                Kind::Device,
+                format!("{error}; try a smaller --size, or a device with more memory (--device)"),
+            ),
+            _ if error.is_device_lost() => Self::new(
+                Kind::Device,
+                format!("{error}; finished frames are kept: run again, perhaps with --device"),
+            ),
+            _ => Self::new(Kind::Device, error.to_string()),
+        }
+    }
+}
+
+impl From<ReadError> for Failure {
+    fn from(error: ReadError) -> Self {
+        Self::input(error.to_string())
+    }
+}
+
+impl From<PictureError> for Failure {
+    fn from(error: PictureError) -> Self {
+        Self::input(error.to_string())
+    }
+}
+
+impl From<SequenceError> for Failure {
+    fn from(error: SequenceError) -> Self {
+        match error {
+            SequenceError::Pattern { .. } | SequenceError::NoInput => {
+                Self::usage(error.to_string())
+            }
+            _ => Self::input(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! `whitewater info`: what particle files hold.
+
+use serde_json::{Value, json};
+use whitewater::io::particles::{self, Particles, sequence};
+
+use crate::args::InfoArgs;
+use crate::failure::{Failure, Kind, Outcome};
+
+pub fn run(args: &InfoArgs) -> Outcome<()> {
+    let frames = sequence::expand(&args.inputs, None)?;
+    let mut all = Vec::new();
+    let mut failed = Vec::new();
+    for frame in &frames {
+        let path = frame.path.display().to_string();
+        match particles::read(&frame.path) {
+            Ok(particles) => {
+                let value = describe(&path, frame.number, &particles);
+                if args.json {
+                    all.push(value);
+                } else {
+                    print(&value);
+                }
+            }
+            Err(error) => {
+                if frames.len() == 1 {
+                    return Err(error.into());
+                }
+                eprintln!("whitewater: {error}");
+                all.push(json!({"file": path, "frame": frame.number, "error": error.to_string()}));
+                failed.push(path);
+            }
+        }
+    }
+    if args.json {
+        let text = serde_json::to_string_pretty(&Value::Array(all)).unwrap_or_default();
+        println!("{text}");
+    }
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let kind = if failed.len() == frames.len() { Kind::Input } else { Kind::Partly };
+    let (some, total) = (failed.len(), frames.len());
+    Err(Failure::new(
+        kind,
+        format!("{some} of {total} files cannot be read: {}", failed.join(", ")),
+    ))
+}
+
+fn describe(path: &str, number: u64, particles: &Particles) -> Value {
+    let finite = particles.positions.iter().filter(|p| p.iter().all(|c| c.is_finite()));
+    let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for p in finite {
+        for axis in 0..3 {
+            min[axis] = min[axis].min(p[axis]);
+            max[axis] = max[axis].max(p[axis]);
+        }
+    }
+    let some = min[0] <= max[0];
+    let attributes: Vec<Value> = particles
+        .attributes
+        .iter()
+        .map(|a| json!({"name": a.name, "type": a.ty.to_string(), "components": a.components}))
+        .collect();
+    let spacing = particles::estimate_spacing(&particles.positions);
+    json!({
+        "file": path,
+        "frame": number,
+        "format": particles.format.to_string(),
+        "particles": particles.positions.len(),
+        "non_finite": particles::count_non_finite(&particles.positions),
+        "bounds": some.then(|| json!({"min": min, "max": max})),
+        "spacing": spacing,
+        "radius": spacing.map(|s| 0.5 * s),
+        "density": particles.densities.as_deref().and_then(statistics),
+        "attributes": attributes,
+        "warnings": particles.warnings,
+    })
+}
+
+fn statistics(values: &[f32]) -> Option<Value> {
+    let mut sorted: Vec<f32> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    sorted.sort_unstable_by(f32::total_cmp);
+    let (least, most) = (*sorted.first()?, *sorted.last()?);
+    let mean = sorted.iter().map(|v| f64::from(*v)).sum::<f64>() / sorted.len() as f64;
+    let median = *sorted.get(sorted.len() / 2)?;
+    Some(json!({"min": least, "median": median, "mean": mean as f32, "max": most}))
+}
+
+/// The same for people.
+fn print(value: &Value) {
+    let text = |key: &str| value[key].as_str().unwrap_or_default();
+    let number = |v: &Value| v.as_f64().map_or("-".into(), |v| format!("{:.6}", v as f32));
+    let vector = |v: &Value| {
+        let parts = v.as_array().map(Vec::as_slice).unwrap_or_default();
+        parts.iter().map(number).collect::<Vec<_>>().join(" ")
+    };
+    println!("{}", text("file"));
+    println!("  format      {}", text("format"));
+    println!("  frame       {}", value["frame"]);
+    println!("  particles   {}", value["particles"]);
+    if value["non_finite"] != json!(0) {
+        println!("  no numbers  {}", value["non_finite"]);
+    }
+    if let Some(bounds) = value["bounds"].as_object() {
+        println!("  from        {}", vector(&bounds["min"]));
+        println!("  to          {}", vector(&bounds["max"]));
+    }
+    println!(
+        "  spacing     {} (estimated; radius {})",
+        number(&value["spacing"]),
+        number(&value["radius"])
+    );
+    if let Some(density) = value["density"].as_object() {
+        let all: Vec<String> =
+            density.iter().map(|(name, v)| format!("{name} {}", number(v))).collect();
+        println!("  density     {}", all.join(", "));
+    }
+    let attributes = value["attributes"].as_array().map(Vec::as_slice).unwrap_or_default();
+    for a in attributes {
+        let name = a["name"].as_str().unwrap_or_default();
+        println!(
+            "  attribute   {name} ({} x {})",
+            a["type"].as_str().unwrap_or_default(),
+            a["components"]
+        );
+    }
+    for warning in value["warnings"].as_array().map(Vec::as_slice).unwrap_or_default() {
+        println!("  warning     {}", warning.as_str().unwrap_or_default());
+    }
+}

@@ -1,0 +1,233 @@
+//! `whitewater render`: particle files to pictures, one or a sequence.
+
+use glam::Vec3;
+use whitewater::Settings;
+use whitewater::io::particles::sequence::{self, Frame};
+use whitewater::io::particles::{self, Particles};
+
+use crate::args::{RenderArgs, Up};
+use crate::backdrop::Backdrop;
+use crate::bounds::Bounds;
+use crate::camera::CameraFile;
+use crate::environment::Environment;
+use crate::failure::{Failure, Kind, Outcome};
+use crate::layers;
+use crate::output;
+use crate::progress::Progress;
+use crate::session::{self, Look, Session};
+use crate::settings::SettingsFile;
+
+pub fn run(args: &RenderArgs) -> Outcome<()> {
+    let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
+    let all = sequence::expand(&args.inputs, None)?;
+    let frames = match range {
+        Some(range) => sequence::expand(&args.inputs, Some(range))?,
+        None => all.clone(),
+    };
+    let checked = session::check(&args.draw, all.len() > 1)?;
+    let numbered = checked.0.iter().all(output::Target::is_numbered);
+    let settings = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
+    let environment = session::environment(&args.draw)?;
+    let camera = CameraFile::from_args(&args.camera)?;
+    if let Some(camera) = &camera {
+        camera.camera(args.draw.size)?;
+    }
+    for target in &checked.0 {
+        output::probe(&target.path(frames.first().map_or(0, |f| f.number)))?;
+    }
+    let finished = |frame: &Frame| {
+        let there = |path: std::path::PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
+        numbered && !args.draw.overwrite && checked.0.iter().all(|t| there(t.path(frame.number)))
+    };
+    let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
+    let mut progress = Progress::new(left.len());
+    if !done.is_empty() {
+        let count = done.len();
+        progress
+            .say(&format!("{count} finished frames are skipped (--overwrite draws them again)"));
+    }
+    if left.is_empty() {
+        return Ok(());
+    }
+    let probes = Probes::read(args, &all, &left)?;
+    let look = look(args, &probes, camera, settings.unwrap_or_default(), environment, &progress)?;
+    let mut session = Session::new(&args.draw, checked, look)?;
+    let mut failed: Vec<(u64, Failure)> = Vec::new();
+    for frame in &left {
+        match draw(args, &mut session, frame, &progress) {
+            Ok(line) => progress.advance(&line),
+            Err(failure) if failure.kind == Kind::Input => {
+                progress.advance(&format!("frame {}: {}", frame.number, failure.message));
+                failed.push((frame.number, failure));
+            }
+            Err(failure) => {
+                progress.finish();
+                // What was measured until here is kept, if it can be.
+                let _ = session.finish();
+                return Err(failure);
+            }
+        }
+    }
+    progress.finish();
+    session.finish()?;
+    report(left.len(), failed)
+}
+
+/// One frame from file to file.
+fn draw(
+    args: &RenderArgs,
+    session: &mut Session<'_>,
+    frame: &Frame,
+    progress: &Progress,
+) -> Outcome<String> {
+    let began = std::time::Instant::now();
+    let number = frame.number;
+    let particles = session.times.step("read", number, || read(args, frame))?;
+    for warning in &particles.warnings {
+        progress.say(&format!("{}: {warning}", frame.path.display()));
+    }
+    session.frame(number, &frame.path.display().to_string(), &particles)?;
+    let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
+    Ok(format!(
+        "frame {number}: {} particles, {:.2} s, {}",
+        particles.positions.len(),
+        began.elapsed().as_secs_f32(),
+        paths.join(" and ")
+    ))
+}
+
+fn read(args: &RenderArgs, frame: &Frame) -> Outcome<Particles> {
+    let mut particles = particles::read(&frame.path)?;
+    if args.up_axis == Up::Z {
+        layers::turn_up(&mut particles.positions);
+    }
+    Ok(particles)
+}
+
+/// The end of a run in which all frames had their turn.
+fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
+    match failed.as_slice() {
+        [] => Ok(()),
+        [(_, only)] if total == 1 => Err(only.clone()),
+        [(_, first), ..] if failed.len() == total => Err(Failure::new(
+            first.kind,
+            format!("none of {total} frames could be drawn; the first: {}", first.message),
+        )),
+        some => {
+            let list: Vec<_> = some.iter().map(|(n, f)| format!("{n} ({})", f.message)).collect();
+            Err(Failure::new(
+                Kind::Partly,
+                format!("{} of {total} frames failed: {}", some.len(), list.join("; ")),
+            ))
+        }
+    }
+}
+
+/// A few frames of the whole sequence, from which its look is found: the same however it is cut into jobs.
+struct Probes {
+    frames: Vec<Particles>,
+}
+
+impl Probes {
+    fn read(args: &RenderArgs, all: &[Frame], left: &[Frame]) -> Outcome<Self> {
+        let mut picks = vec![0, all.len() / 2, all.len() - 1];
+        picks.dedup();
+        let mut frames = Vec::new();
+        let mut first_failure = None;
+        for pick in picks {
+            match read(args, &all[pick]) {
+                Ok(particles) => frames.push(particles),
+                Err(failure) => _ = first_failure.get_or_insert(failure),
+            }
+        }
+        // All three are bad: whichever can be read, or the reason why none can.
+        if frames.is_empty() {
+            let readable = left.iter().find_map(|frame| read(args, frame).ok());
+            match (readable, first_failure) {
+                (Some(particles), _) => frames.push(particles),
+                (None, Some(failure)) => return Err(failure),
+                (None, None) => {}
+            }
+        }
+        Ok(Self { frames })
+    }
+
+    fn spacing(&self) -> Option<f32> {
+        self.frames.iter().find_map(|f| particles::estimate_spacing(&f.positions))
+    }
+
+    fn bounds(&self) -> Option<Bounds> {
+        self.frames.iter().filter_map(|f| Bounds::of_bulk(&f.positions)).reduce(|a, b| a.union(&b))
+    }
+
+    /// In the unit of the file: 1000 where that fits, else what most of the particles have.
+    fn rest_density(&self) -> Option<f32> {
+        let densities = self.frames.iter().find_map(|f| f.densities.as_ref())?;
+        let mut sorted: Vec<f32> =
+            densities.iter().copied().filter(|d| d.is_finite() && *d > 0.0).collect();
+        sorted.sort_unstable_by(f32::total_cmp);
+        let median = *sorted.get(sorted.len() / 2)?;
+        let high = *sorted.get(sorted.len() * 9 / 10)?;
+        Some(if (600.0..1500.0).contains(&median) { 1000.0 } else { high })
+    }
+}
+
+fn look(
+    args: &RenderArgs,
+    probes: &Probes,
+    camera: Option<CameraFile>,
+    file: SettingsFile,
+    environment: Environment,
+    progress: &Progress,
+) -> Outcome<Look> {
+    let mut settings = Settings { light: environment.light(), ..Settings::default() };
+    let spacing = match (args.radius, file.water.spacing) {
+        (Some(radius), _) => 2.0 * radius,
+        (None, Some(spacing)) => spacing,
+        (None, None) => match probes.spacing() {
+            Some(spacing) => {
+                progress
+                    .say(&format!("radius {} (estimated; --radius sets it)", round(0.5 * spacing)));
+                spacing
+            }
+            None => {
+                let spacing = settings.water.spacing;
+                progress.say(&format!(
+                    "radius {} (too few particles to estimate it; --radius sets it)",
+                    0.5 * spacing
+                ));
+                spacing
+            }
+        },
+    };
+    settings.water.spacing = spacing;
+    if let Some(density) = probes.rest_density() {
+        if density != settings.water.rest_density && file.water.rest_density.is_none() {
+            progress
+                .say(&format!("rest density {density} (estimated; water.rest_density sets it)"));
+        }
+        settings.water.rest_density = density;
+    }
+    file.apply(&mut settings).map_err(Failure::input)?;
+    settings.water.spacing = spacing;
+
+    let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
+    let bounds = probes.bounds().unwrap_or(unit).padded(0.5 * spacing);
+    let camera = camera.unwrap_or_else(|| {
+        let positions: Vec<[f32; 3]> =
+            probes.frames.iter().flat_map(|f| f.positions.iter().copied()).collect();
+        let camera = CameraFile::of_particles(&positions, &bounds, args.camera.fov, args.draw.size);
+        progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
+        camera
+    });
+    let backdrop = match &args.scene {
+        Some(path) => Backdrop::read(path)?,
+        None => Backdrop::under(&bounds, 0.0),
+    };
+    Ok(Look { camera, settings, environment, backdrop })
+}
+
+/// Four digits are enough to read.
+fn round(value: f32) -> f32 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}

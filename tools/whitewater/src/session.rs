@@ -1,0 +1,243 @@
+//! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
+
+use std::path::PathBuf;
+
+use whitewater::ash::vk;
+use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
+use whitewater::io::particles::Particles;
+use whitewater::io::picture::{self, Layers};
+use whitewater::{Camera, Config, Settings};
+
+use crate::args::DrawArgs;
+use crate::backdrop::{Backdrop, Images};
+use crate::camera::{CameraFile, Lens};
+use crate::environment::Environment;
+use crate::failure::{Failure, Kind, Outcome};
+use crate::layers;
+use crate::output::{self, PictureFormat, Target};
+use crate::settings;
+use crate::timings::Times;
+
+/// What is the same in every frame.
+pub struct Look {
+    pub camera: CameraFile,
+    pub settings: Settings,
+    pub environment: Environment,
+    pub backdrop: Backdrop,
+}
+
+/// Draws frames.
+pub struct Session<'a> {
+    args: &'a DrawArgs,
+    targets: Vec<Target>,
+    wanted: Vec<&'static str>,
+    look: Look,
+    camera: Camera,
+    lens: Lens,
+    images: Option<Images>,
+    /// A device without a renderer yet, or a renderer, or neither after an error.
+    device: Option<Device>,
+    headless: Option<Headless>,
+    pub times: Times,
+}
+
+/// What can be said about the arguments before anything is read.
+pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target>, Vec<&'static str>)> {
+    let targets: Vec<Target> =
+        args.outputs.iter().map(|o| Target::new(o, sequence)).collect::<Outcome<_>>()?;
+    let wanted = layers::wanted(&args.layers)?;
+    if let Some(path) = &args.timings {
+        Times::check(path, false)?;
+    }
+    if let Some(path) = &args.trace {
+        Times::check(path, true)?;
+    }
+    if args.thickness_level.is_some_and(|l| l != 0 && l != args.smoothing_level) {
+        return Err(Failure::usage(format!(
+            "--thickness-level: expected 0 or the smoothing's level {}, found another; change one",
+            args.smoothing_level
+        )));
+    }
+    Ok((targets, wanted))
+}
+
+/// The environment that is asked for.
+pub fn environment(args: &DrawArgs) -> Outcome<Environment> {
+    match args.environment.as_str() {
+        "sky" => Environment::sky(args.sun),
+        file => Environment::read(file.as_ref(), args.sun),
+    }
+}
+
+impl<'a> Session<'a> {
+    /// Checks the outputs and opens the device.
+    pub fn new(
+        args: &'a DrawArgs,
+        (targets, wanted): (Vec<Target>, Vec<&'static str>),
+        look: Look,
+    ) -> Outcome<Self> {
+        let camera = look.camera.camera(args.size)?;
+        let lens = Lens::new(&camera)?;
+        for path in [&args.timings, &args.trace].into_iter().flatten() {
+            output::probe(path)?;
+        }
+        let options = DeviceOptions {
+            name: args.device.clone(),
+            validation: args.validate,
+            ..DeviceOptions::default()
+        };
+        let device = Some(Device::new(&options)?);
+        Ok(Self {
+            args,
+            targets,
+            wanted,
+            look,
+            camera,
+            lens,
+            images: None,
+            device,
+            headless: None,
+            times: Times::new(),
+        })
+    }
+
+    /// Where a frame goes.
+    pub fn paths(&self, frame: u64) -> Vec<PathBuf> {
+        self.targets.iter().map(|t| t.path(frame)).collect()
+    }
+
+    /// Makes a renderer with room for that many particles, if the one there is has not.
+    fn make_room(&mut self, count: usize) -> Outcome<()> {
+        let count = u32::try_from(count)
+            .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
+        if self.headless.as_ref().is_some_and(|h| h.renderer().config().max_particles >= count) {
+            return Ok(());
+        }
+        let device = match self.headless.take() {
+            Some(headless) => headless.finish()?,
+            None => self.device.take().ok_or_else(|| {
+                Failure::new(Kind::Device, "the device was lost earlier; run again")
+            })?,
+        };
+        let args = self.args;
+        let extent = vk::Extent2D { width: args.size.0, height: args.size.1 };
+        // Sequences grow: a quarter more than is needed now.
+        let room = count.saturating_add(count / 4).max(1024);
+        let mut config = Config::new(extent, COLOR_FORMAT, room);
+        config.max_stride = 12;
+        config.smoothing_level = args.smoothing_level;
+        config.thickness_level = args.thickness_level.unwrap_or(args.smoothing_level);
+        config.depth_splat = args.splat.map(Into::into);
+        config.thickness_splat = args.splat.map(Into::into);
+        config.rule = args.rule;
+        let mut headless = Headless::new(device, &config)?;
+        match &self.look.environment.sky {
+            Some(sky) => headless.sky(sky)?,
+            None => {
+                let map = &self.look.environment.panorama;
+                let extent = vk::Extent2D { width: map.width as u32, height: map.height as u32 };
+                let pixels: Vec<[f32; 4]> =
+                    map.pixels.iter().map(|c| c.extend(1.0).to_array()).collect();
+                headless.equirectangular(extent, &pixels, 1.0, 0.0)?;
+            }
+        }
+        self.headless = Some(headless);
+        Ok(())
+    }
+
+    /// Draws one frame and writes its pictures.
+    pub fn frame(&mut self, number: u64, source: &str, particles: &Particles) -> Outcome<()> {
+        let mut times = std::mem::replace(&mut self.times, Times::new());
+        let result = self.frame_timed(number, source, particles, &mut times);
+        self.times = times;
+        result
+    }
+
+    fn frame_timed(
+        &mut self,
+        number: u64,
+        source: &str,
+        particles: &Particles,
+        times: &mut Times,
+    ) -> Outcome<()> {
+        if self.images.is_none() {
+            let (backdrop, size) = (&self.look.backdrop, self.args.size);
+            let images = times.step("backdrop", number, || {
+                backdrop.draw(&self.camera, size, &self.look.environment)
+            })?;
+            self.images = Some(images);
+        }
+        times.step("prepare", number, || self.make_room(particles.positions.len()))?;
+        let (Some(headless), Some((color, depth))) = (self.headless.as_mut(), &self.images) else {
+            return Err(Failure::new(Kind::Device, "no renderer; run again"));
+        };
+        times.step("upload", number, || {
+            headless.particles(&particles.positions, particles.densities.as_deref())
+        })?;
+        let background = Background::Images { color, depth };
+        times.step("draw", number, || {
+            headless.render(&self.camera, &self.look.settings, &background)
+        })?;
+        times.passes(number, headless.timings());
+        let layers = times
+            .step("read back", number, || layers::collect(headless, &self.wanted, &self.lens))?;
+        let messages = headless.device().take_messages();
+        if let Some(first) = messages.first() {
+            let first = first.split_whitespace().collect::<Vec<_>>().join(" ");
+            return Err(Failure::new(
+                Kind::Device,
+                format!("expected no validation messages, found {}: {first}", messages.len()),
+            ));
+        }
+        let layers = self.with_attributes(layers, source);
+        for target in &self.targets {
+            let path = target.path(number);
+            times.step("write", number, || self.write(target.format, &path, &layers))?;
+        }
+        Ok(())
+    }
+
+    fn write(&self, format: PictureFormat, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
+        let exposure = self.look.environment.exposure() + self.args.exposure;
+        output::write(path, |to| match format {
+            PictureFormat::Exr => picture::write_exr(layers, to),
+            PictureFormat::Png => picture::write_png(layers, exposure, to),
+        })
+    }
+
+    fn with_attributes(&self, mut layers: Layers, source: &str) -> Layers {
+        let mut note = |name: &str, value: String| {
+            layers.attributes.push((format!("whitewater.{name}"), value));
+        };
+        note("version", env!("CARGO_PKG_VERSION").into());
+        note("input", source.into());
+        note("camera", self.look.camera.json());
+        note("settings", settings::to_toml(&self.look.settings));
+        note("environment", self.args.environment.clone());
+        if let Some(headless) = &self.headless {
+            note("adapter", headless.device().adapter.clone());
+            note("driver", headless.device().driver.clone());
+            note("config", format!("{:?}", headless.renderer().config()));
+        }
+        layers
+    }
+
+    /// Writes the times and gives the device back.
+    pub fn finish(mut self) -> Outcome<()> {
+        let device = match (self.headless.take(), self.device.take()) {
+            (Some(headless), _) => Some(headless.finish()?),
+            (None, device) => device,
+        };
+        let (adapter, driver) = match &device {
+            Some(device) => (device.adapter.as_str(), device.driver.as_str()),
+            None => ("", ""),
+        };
+        if let Some(path) = &self.args.timings {
+            self.times.write(path, adapter, driver)?;
+        }
+        if let Some(path) = &self.args.trace {
+            self.times.write_trace(path, adapter)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,240 @@
+//! Settings from TOML: a mirror of `whitewater::Settings` in which every value may be left out.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use whitewater::Settings;
+use whitewater::water::settings::{Fresnel, Medium, WaterSettings};
+
+use crate::failure::{Failure, Outcome};
+
+/// The file.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SettingsFile {
+    pub water: WaterTable,
+    pub light: LightTable,
+}
+
+/// Table `[water]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WaterTable {
+    pub spacing: Option<f32>,
+    pub rest_density: Option<f32>,
+    density_threshold: Option<f32>,
+    density_full: Option<f32>,
+    smoothing_width: Option<f32>,
+    depth_falloff: Option<f32>,
+    medium: Option<toml::Value>,
+    fresnel: Option<toml::Value>,
+    refraction: Option<f32>,
+    specular: Option<f32>,
+    shininess: Option<f32>,
+}
+
+/// Table `[light]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LightTable {
+    pub direction: Option<[f32; 3]>,
+    pub color: Option<[f32; 3]>,
+    pub ambient: Option<[f32; 3]>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Physical {
+    absorption: [f32; 3],
+    scattering: [f32; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Source {
+    base: [f32; 3],
+    falloff: [f32; 4],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Schlick {
+    f0: f32,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Biased {
+    bias: f32,
+    scale: f32,
+    power: f32,
+}
+
+impl SettingsFile {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Outcome<Self> {
+        let text = std::fs::read_to_string(path).map_err(|e| Failure::reading(path, &e))?;
+        Self::parse(&text).map_err(|why| Failure::input(format!("{}: {why}", path.display())))
+    }
+
+    fn parse(text: &str) -> Result<Self, String> {
+        let file: Self = toml::from_str(text).map_err(|error| {
+            let line = error.span().map_or(0, |span| {
+                text.get(..span.start).unwrap_or_default().matches('\n').count() + 1
+            });
+            format!("line {line}: {}", one_line(error.message()))
+        })?;
+        // Found out now, not when the first frame is drawn.
+        file.apply(&mut Settings::default())?;
+        Ok(file)
+    }
+
+    /// Puts what the file says over settings.
+    pub fn apply(&self, settings: &mut Settings) -> Result<(), String> {
+        let set = |to: &mut f32, from: Option<f32>| *to = from.unwrap_or(*to);
+        let (water, table) = (&mut settings.water, &self.water);
+        set(&mut water.spacing, table.spacing);
+        set(&mut water.rest_density, table.rest_density);
+        set(&mut water.density_threshold, table.density_threshold);
+        set(&mut water.density_full, table.density_full);
+        set(&mut water.smoothing_width, table.smoothing_width);
+        set(&mut water.depth_falloff, table.depth_falloff);
+        set(&mut water.refraction, table.refraction);
+        set(&mut water.specular, table.specular);
+        set(&mut water.shininess, table.shininess);
+        if let Some(value) = &table.medium {
+            water.medium = medium(value, water)?;
+        }
+        if let Some(value) = &table.fresnel {
+            water.fresnel = fresnel(value)?;
+        }
+        let light = &mut settings.light;
+        light.direction = self.light.direction.unwrap_or(light.direction);
+        light.color = self.light.color.unwrap_or(light.color);
+        light.ambient = self.light.ambient.unwrap_or(light.ambient);
+        Ok(())
+    }
+}
+
+fn medium(value: &toml::Value, water: &WaterSettings) -> Result<Medium, String> {
+    let expected = "water.medium: expected clear, pool, ocean, milk, source, \
+                    {absorption=[r,g,b], scattering=[r,g,b]} or {base=[r,g,b], falloff=[r,g,b,a]}";
+    if let Some(name) = value.as_str() {
+        return Ok(match name {
+            "clear" => Medium::CLEAR,
+            "pool" => Medium::POOL,
+            "ocean" => Medium::OCEAN,
+            "milk" => Medium::MILK,
+            "source" => Medium::source(water.spacing),
+            _ => return Err(format!("{expected}, found '{name}'")),
+        });
+    }
+    if value.get("base").is_some() {
+        let Source { base, falloff } = table(value, expected)?;
+        Ok(Medium::Source { base, falloff })
+    } else {
+        let Physical { absorption, scattering } = table(value, expected)?;
+        Ok(Medium::Physical { absorption, scattering })
+    }
+}
+
+fn fresnel(value: &toml::Value) -> Result<Fresnel, String> {
+    let expected = "water.fresnel: expected {f0=0.02} or {bias=0.1, scale=0.4, power=2}";
+    if value.get("f0").is_some() {
+        let Schlick { f0 } = table(value, expected)?;
+        Ok(Fresnel::Schlick { f0 })
+    } else {
+        let Biased { bias, scale, power } = table(value, expected)?;
+        Ok(Fresnel::Source { bias, scale, power })
+    }
+}
+
+fn table<T: serde::de::DeserializeOwned>(value: &toml::Value, expected: &str) -> Result<T, String> {
+    value.clone().try_into().map_err(|e: toml::de::Error| {
+        format!("{expected}, found something else: {}", one_line(e.message()))
+    })
+}
+
+/// Settings as a file of them has it.
+pub fn to_toml(settings: &Settings) -> String {
+    let (water, light) = (&settings.water, &settings.light);
+    let medium = match &water.medium {
+        Medium::Physical { absorption, scattering } => {
+            format!("{{ absorption = {absorption:?}, scattering = {scattering:?} }}")
+        }
+        Medium::Source { base, falloff } => {
+            format!("{{ base = {base:?}, falloff = {falloff:?} }}")
+        }
+    };
+    let fresnel = match &water.fresnel {
+        Fresnel::Schlick { f0 } => format!("{{ f0 = {f0:?} }}"),
+        Fresnel::Source { bias, scale, power } => {
+            format!("{{ bias = {bias:?}, scale = {scale:?}, power = {power:?} }}")
+        }
+    };
+    let numbers = [
+        ("spacing", water.spacing),
+        ("rest_density", water.rest_density),
+        ("density_threshold", water.density_threshold),
+        ("density_full", water.density_full),
+        ("smoothing_width", water.smoothing_width),
+        ("depth_falloff", water.depth_falloff),
+        ("refraction", water.refraction),
+        ("specular", water.specular),
+        ("shininess", water.shininess),
+    ];
+    let numbers: String = numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect();
+    format!(
+        "[water]\n{numbers}medium = {medium}\nfresnel = {fresnel}\n\n\
+         [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\n",
+        light.direction, light.color, light.ambient
+    )
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_arrive() {
+        let text = "[water]\nspacing = 0.1\nmedium = 'source'\nfresnel = {f0 = 0.05}\n\
+                    [light]\nambient = [1, 2.0, 3.0]";
+        let file = SettingsFile::parse(&text.replace("[1,", "[1.0,")).unwrap();
+        let mut settings = Settings::default();
+        file.apply(&mut settings).unwrap();
+        assert_eq!(settings.water.spacing, 0.1);
+        assert_eq!(settings.water.medium, Medium::source(0.1));
+        assert_eq!(settings.water.fresnel, Fresnel::Schlick { f0: 0.05 });
+        assert_eq!(settings.light.ambient, [1.0, 2.0, 3.0]);
+        assert_eq!(settings.light.color, Settings::default().light.color);
+    }
+
+    #[test]
+    fn settings_go_out_and_come_back() {
+        let mut settings = Settings::default();
+        settings.water.medium = Medium::source(0.02);
+        settings.water.shininess = 1.0e-7;
+        let mut back = Settings::default();
+        SettingsFile::parse(&to_toml(&settings)).unwrap().apply(&mut back).unwrap();
+        assert_eq!(back, settings);
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        for (text, part) in [
+            ("[water]\nspacin = 1.0", "`spacing`"),
+            ("[watr]", "`water`"),
+            ("[water]\n\nspacing = 'a'", "line 3"),
+            ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk, source"),
+            ("[water]\nmedium = {absorption=[1.0,1.0,1.0], scatter=[0.0,0.0,0.0]}", "scatter"),
+            ("[water", "line 1"),
+        ] {
+            let message = SettingsFile::parse(text).unwrap_err();
+            assert!(message.contains(part) && !message.contains('\n'), "{message}");
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Times out: CSV, JSON, and a trace that Perfetto and chrome://tracing open.
+
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+use serde_json::json;
+use whitewater::Timing;
+
+use crate::failure::{Failure, Outcome};
+use crate::output;
+
+/// A step of the tool's own, in microseconds since the start.
+struct Step {
+    name: &'static str,
+    frame: u64,
+    start: f64,
+    length: f64,
+}
+
+/// What was measured.
+pub struct Times {
+    began: Instant,
+    steps: Vec<Step>,
+    /// Frame, when its submission began (microseconds since the start), its passes.
+    frames: Vec<(u64, f64, Vec<Timing>)>,
+}
+
+impl Times {
+    pub fn new() -> Self {
+        Self { began: Instant::now(), steps: Vec::new(), frames: Vec::new() }
+    }
+
+    /// Does a step and notes how long it took.
+    pub fn step<T>(&mut self, name: &'static str, frame: u64, work: impl FnOnce() -> T) -> T {
+        let start = self.now();
+        let result = work();
+        let length = self.now() - start;
+        self.steps.push(Step { name, frame, start, length });
+        result
+    }
+
+    /// Microseconds since the start.
+    fn now(&self) -> f64 {
+        self.began.elapsed().as_secs_f64() * 1.0e6
+    }
+
+    /// The passes of a frame, whose drawing was the step noted last.
+    pub fn passes(&mut self, frame: u64, passes: Vec<Timing>) {
+        let start = self.steps.last().map_or(0.0, |s| s.start);
+        self.frames.push((frame, start, passes));
+    }
+
+    /// Fails early where a name of a file of times is of no known kind.
+    pub fn check(path: &Path, trace: bool) -> Outcome<()> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("json") => Ok(()),
+            Some("csv") if !trace => Ok(()),
+            _ => Err(Failure::usage(format!(
+                "expected a file that ends in {}, found {}; rename it",
+                if trace { ".json" } else { ".csv or .json" },
+                path.display()
+            ))),
+        }
+    }
+
+    /// Frame, pass, start and length in nanoseconds.
+    pub fn write(&self, path: &Path, adapter: &str, driver: &str) -> Outcome<()> {
+        let csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+        output::write(path, |to| {
+            if csv {
+                writeln!(to, "frame,pass,start,nanoseconds")?;
+                for (frame, _, passes) in &self.frames {
+                    for p in passes {
+                        writeln!(to, "{frame},{},{:.0},{:.0}", p.name, p.start, p.nanoseconds)?;
+                    }
+                }
+                return Ok(());
+            }
+            let frames: Vec<_> = self
+                .frames
+                .iter()
+                .map(|(frame, _, passes)| {
+                    let passes: Vec<_> = passes
+                        .iter()
+                        .map(|p| json!({"pass": p.name, "start": p.start, "nanoseconds": p.nanoseconds}))
+                        .collect();
+                    json!({"frame": frame, "passes": passes})
+                })
+                .collect();
+            let all = json!({"adapter": adapter, "driver": driver, "frames": frames});
+            serde_json::to_writer_pretty(&mut *to, &all)?;
+            writeln!(to)
+        })
+    }
+
+    /// All of it as Chrome's trace events: the tool's steps, and the passes on the device. The clocks of both are
+    /// not one: a frame's first pass is put where its drawing began.
+    pub fn write_trace(&self, path: &Path, adapter: &str) -> Outcome<()> {
+        let thread = |tid: u32, name: &str| json!({"ph": "M", "name": "thread_name", "pid": 1, "tid": tid, "args": {"name": name}});
+        let mut events = vec![thread(1, "whitewater"), thread(2, adapter)];
+        for s in &self.steps {
+            events.push(json!({"ph": "X", "pid": 1, "tid": 1, "name": s.name, "ts": s.start,
+                "dur": s.length, "args": {"frame": s.frame}}));
+        }
+        for (frame, start, passes) in &self.frames {
+            for p in passes {
+                events.push(json!({"ph": "X", "pid": 1, "tid": 2, "name": p.name,
+                    "ts": start + p.start * 1.0e-3, "dur": p.nanoseconds * 1.0e-3,
+                    "args": {"frame": frame}}));
+            }
+        }
+        output::write(path, |to| {
+            serde_json::to_writer(&mut *to, &json!({"traceEvents": events}))?;
+            writeln!(to)
+        })
+    }
+}

@@ -1,0 +1,13 @@
+//! The built program, run as a user runs it, on small particle files. Needs a Vulkan 1.3 device; lavapipe will do.
+
+#[path = "tool/support.rs"]
+mod support;
+
+#[path = "tool/failures.rs"]
+mod failures;
+#[path = "tool/info_compare.rs"]
+mod info_compare;
+#[path = "tool/pictures.rs"]
+mod pictures;
+#[path = "tool/sequences.rs"]
+mod sequences;

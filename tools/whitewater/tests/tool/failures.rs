@@ -1,0 +1,188 @@
+//! Each kind of failure has its exit code, one line that says what to do, and leaves no half file.
+
+use std::os::unix::fs::{PermissionsExt, symlink};
+
+use super::support::{Folder, SMALL, block, names};
+
+#[test]
+fn bad_inputs_are_code_3() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    folder.text("empty.bgeo", "");
+    folder.text("words.dat", "these are no particles");
+    let bytes = std::fs::read(folder.path("a.ply")).unwrap();
+    std::fs::write(folder.path("cut.ply"), &bytes[..bytes.len() - 7]).unwrap();
+    for (input, part) in [
+        ("missing.ply", "no such file"),
+        ("missing_%04d.ply", "no file fits"),
+        ("missing_*.ply", "no file fits"),
+        ("empty.bgeo", "empty"),
+        ("cut.ply", "ends too early"),
+        ("words.dat", "expected"),
+        (".", "directory"),
+    ] {
+        folder.run(&format!("render {input} -o out.png {SMALL}")).fails(3, &[part]);
+        folder.run(&format!("info {input}")).fails(3, &[part]);
+        assert!(!folder.exists("out.png"));
+    }
+}
+
+#[test]
+fn bad_cameras_settings_and_scenes_are_code_3() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    for (text, part) in [
+        ("{", "expected a camera"),
+        (r#"{"eye":[0,0,1]}"#, "target"),
+        (r#"{"eye":[0,0,1],"target":[0,0,0],"fovy":4}"#, "fovy"),
+        (r#"{"eye":[0,0,1],"target":[0,0,1]}"#, "different places"),
+        (
+            r#"{"view":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],"projection":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}"#,
+            "perspective",
+        ),
+    ] {
+        folder.text("c.json", text);
+        folder.run(&format!("render a.ply -o o.png {SMALL} --camera c.json")).fails(3, &[part]);
+    }
+    for (text, part) in [
+        ("[water]\nspacin = 1.0", "expected one of `spacing`"),
+        ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk"),
+        ("[water]\nrefraction = -1.0", "refraction"),
+    ] {
+        folder.text("s.toml", text);
+        folder.run(&format!("render a.ply -o o.png {SMALL} --settings s.toml")).fails(3, &[part]);
+    }
+    for flag in ["--camera", "--settings", "--scene", "--environment"] {
+        folder
+            .run(&format!("render a.ply -o o.png {SMALL} {flag} none.json"))
+            .fails(3, &["none.json"]);
+    }
+    folder.text("scene.json", r#"{"boxes":[{"centre":[0,0]}]}"#);
+    folder
+        .run(&format!("render a.ply -o o.png {SMALL} --scene scene.json"))
+        .fails(3, &["scene.json"]);
+    assert!(!folder.exists("o.png"));
+}
+
+#[test]
+fn bad_command_lines_are_code_2() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    folder.run("render a.ply -o out.jpg").fails(2, &[".exr or .png", "out.jpg"]);
+    folder.run("render a.ply -o out.png --sun 0,0,0").fails(2, &["--sun"]);
+    folder.run("render a.ply -o out.png --thickness-level 2").fails(2, &["--thickness-level"]);
+    for arguments in [
+        "",
+        "render",
+        "render a.ply",
+        "render a.ply -o o.png --size 0x3",
+        "render a.ply -o o.png --radius -1",
+        "render a.ply -o o.png --eye 0,0,1",
+        "render a.ply -o o.png --rule fast",
+        "render a.ply -o o.png --camera c.json --fov 20",
+        "drown",
+    ] {
+        let run = folder.run(arguments);
+        assert_eq!(run.0.status.code(), Some(2), "{arguments}: {}", run.stderr());
+    }
+    assert!(folder.run("--help").ok().stdout().contains("Exit codes"));
+    assert!(folder.run("render --help").ok().stdout().contains("Exit codes"));
+}
+
+#[test]
+fn no_device_is_code_4() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    let command = format!("render a.ply -o out.png {SMALL}");
+    folder.run(&format!("{command} --device nosuch")).fails(4, &["nosuch", "there is"]);
+    let nowhere = [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
+    folder.run_with(&command, &nowhere).fails(4, &["mesa-vulkan-drivers"]);
+    folder.run(&format!("render a.ply -o out.png --size 200000x10")).fails(4, &["200000"]);
+    assert_eq!(folder.files(), ["a.ply"]);
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_code_5() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    folder
+        .run(&format!("render a.ply -o none/out.png {SMALL}"))
+        .fails(5, &["none/out.png", "make the folder"]);
+    std::fs::create_dir(folder.path("dir.png")).unwrap();
+    folder.run(&format!("render a.ply -o dir.png {SMALL}")).fails(5, &["directory"]);
+    std::fs::create_dir(folder.path("locked")).unwrap();
+    let locked = folder.path("locked");
+    std::fs::set_permissions(&locked, PermissionsExt::from_mode(0o555)).unwrap();
+    // Root may write everywhere.
+    if std::fs::write(locked.join("probe"), "").is_err() {
+        folder
+            .run(&format!("render a.ply -o locked/out.png {SMALL}"))
+            .fails(5, &["locked/out.png"]);
+    }
+    folder
+        .run(&format!("render a.ply -o out.png {SMALL} --timings none/t.csv"))
+        .fails(5, &["none/t.csv"]);
+    assert!(!folder.exists("out.png"));
+}
+
+#[test]
+fn a_full_disk_is_code_5() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    for name in ["full.png", "full.exr", "full.csv"] {
+        symlink("/dev/full", folder.path(name)).unwrap();
+    }
+    let command = format!("render a.ply {SMALL}");
+    folder.run(&format!("{command} -o full.png")).fails(5, &["full.png", "space"]);
+    folder.run(&format!("{command} -o full.exr")).fails(5, &["full.exr", "space"]);
+    folder.run(&format!("{command} -o a.png --timings full.csv")).fails(5, &["full.csv", "space"]);
+    assert_eq!(folder.files(), ["a.ply", "a.png", "full.csv", "full.exr", "full.png"]);
+}
+
+#[test]
+fn a_file_that_cannot_grow_leaves_nothing_half() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("in")).unwrap();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    folder.particles("in/a.ply", block(3));
+    folder.text("out/a.exr", "old");
+    // The limit on the size of files stands in for a disk that fills while a picture is written.
+    let output = std::process::Command::new("sh")
+        .args([
+            "-c",
+            "trap '' XFSZ; ulimit -f 8; exec \"$0\" render in/a.ply -o out/a.exr --size 96x64",
+        ])
+        .arg(env!("CARGO_BIN_EXE_whitewater"))
+        .current_dir(folder.path(""))
+        .output()
+        .unwrap();
+    super::support::Run(output).fails(5, &["out/a.exr"]);
+    assert_eq!(names(&folder.path("out")), ["a.exr"]);
+    assert_eq!(std::fs::read(folder.path("out/a.exr")).unwrap(), b"old");
+}
+
+#[test]
+fn an_interrupt_leaves_nothing_half() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    for frame in 0..200 {
+        folder.particles(&format!("f_{frame}.ply"), block(3));
+    }
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_whitewater"))
+        .args(["render", "f_%d.ply", "-o", "out/a.exr", "--size", "320x180"])
+        .current_dir(folder.path(""))
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let began = std::time::Instant::now();
+    while names(&folder.path("out")).len() < 3 && began.elapsed().as_secs() < 30 {
+        std::thread::sleep(std::time::Duration::from_millis(7));
+    }
+    let id = child.id().to_string();
+    assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    for name in names(&folder.path("out")) {
+        assert!(!name.starts_with('.'), "{name}");
+        folder.picture(&format!("out/{name}"));
+    }
+}

@@ -1,0 +1,78 @@
+//! `info` and `compare`.
+
+use serde_json::Value;
+use whitewater::io::particles::{self, Particles, WriteFormat};
+use whitewater::io::picture::{Layers, write_exr, write_png};
+
+use super::support::{Folder, SPACING, block};
+
+#[test]
+fn info_tells_what_a_file_holds() {
+    let folder = Folder::new();
+    let mut positions = block(6);
+    positions.push([f32::NAN; 3]);
+    let mut particles = Particles::from_positions(positions);
+    particles.densities = Some((0..217).map(|i| i as f32).collect());
+    particles::write(&folder.path("a.bgeo"), &particles, WriteFormat::Bgeo { gzip: true }).unwrap();
+    let run = folder.run("info a.bgeo --json").ok();
+    let value: Value = serde_json::from_str(&run.stdout()).unwrap();
+    let file = &value[0];
+    assert_eq!(file["particles"], 217);
+    assert_eq!(file["non_finite"], 1);
+    assert!(file["format"].as_str().unwrap().to_lowercase().contains("bgeo"));
+    let spacing = file["spacing"].as_f64().unwrap() as f32;
+    assert!((spacing - SPACING).abs() < 0.01 * SPACING, "{spacing}");
+    assert_eq!(file["bounds"]["min"][1], 0.0);
+    assert_eq!(file["density"]["max"], 216.0);
+    assert!(file["attributes"].as_array().unwrap().iter().any(|a| a["name"] == "density"));
+    let text = folder.run("info a.bgeo").ok().stdout();
+    for part in ["particles   217", "no numbers  1", "spacing", "attribute", "density"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn info_goes_on_after_a_bad_file() {
+    let folder = Folder::new();
+    folder.particles("a_1.ply", block(2));
+    folder.text("a_2.ply", "ply\n");
+    let run = folder.run("info a_*.ply --json").fails(1, &["1 of 2", "a_2.ply"]);
+    let value: Value = serde_json::from_str(&run.stdout()).unwrap();
+    assert_eq!(value.as_array().unwrap().len(), 2);
+    assert!(value[1]["error"].is_string());
+}
+
+fn grey(value: f32) -> Layers {
+    let mut layers = Layers::new(32, 24);
+    for (c, name) in ["R", "G", "B"].iter().enumerate() {
+        let data = (0..768).map(|i| value + 0.0003 * i as f32 * c as f32).collect();
+        layers.push(name, 32, 24, data).unwrap();
+    }
+    layers
+}
+
+#[test]
+fn compare_tells_pictures_apart() {
+    let folder = Folder::new();
+    let exr = |name: &str, layers: &Layers| {
+        write_exr(layers, std::fs::File::create(folder.path(name)).unwrap()).unwrap();
+    };
+    exr("a.exr", &grey(0.3));
+    exr("same.exr", &grey(0.3));
+    exr("off.exr", &grey(0.4));
+    let mut more = grey(0.3);
+    more.push("scene.Z", 32, 24, vec![1.0; 768]).unwrap();
+    exr("more.exr", &more);
+    write_png(&grey(0.3), 0.0, std::fs::File::create(folder.path("a.png")).unwrap()).unwrap();
+
+    folder.run("compare a.exr same.exr").ok();
+    folder.run("compare a.exr same.exr --flip").ok();
+    folder.run("compare a.exr off.exr --tolerance 0.11").ok();
+    folder.run("compare a.exr off.exr --tolerance 0.09").fails(1, &["RMSE 0.1"]);
+    folder.run("compare a.exr off.exr --flip --tolerance 0.001").fails(1, &["FLIP"]);
+    folder.run("compare a.exr a.png --tolerance 0.004").ok();
+    folder.run("compare a.exr more.exr --tolerance 9").fails(1, &["differ"]);
+    folder.run("compare a.exr none.exr").fails(3, &["none.exr"]);
+    folder.text("bad.exr", "no");
+    folder.run("compare a.exr bad.exr").fails(3, &["bad.exr", "expected"]);
+}

@@ -1,0 +1,195 @@
+//! What is in the pictures.
+
+use whitewater::io::picture::EMPTY;
+
+use super::support::{FRONT, Folder, SMALL, SPACING, block};
+
+#[test]
+fn a_block_of_water_has_all_its_layers() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.run(&format!("render a.ply -o a.exr -o a.png {SMALL} {FRONT} --validate")).ok();
+    let exr = folder.picture("a.exr");
+    let mut names: Vec<_> = exr.channels.iter().map(|c| c.name.as_str()).collect();
+    names.sort_unstable();
+    let expected = [
+        "A",
+        "B",
+        "G",
+        "R",
+        "scene.Z",
+        "water.depth.Z",
+        "water.iterations",
+        "water.normal.X",
+        "water.normal.Y",
+        "water.normal.Z",
+        "water.surface.Z",
+        "water.thickness.front",
+    ];
+    assert_eq!(names, expected);
+    let at = |name: &str, x: usize, y: usize| exr.channel(name).unwrap()[y * 96 + x];
+    // The front row of particles stands at z = 0.35, 2 from the eye; their drawn radius is 0.0656.
+    let depth = at("water.depth.Z", 48, 32);
+    let radius = 0.656 * SPACING;
+    assert!((2.0 - radius - 1.0e-3..2.0).contains(&depth), "{depth}");
+    let surface = at("water.surface.Z", 48, 32);
+    assert!((surface - depth).abs() < radius, "{surface} {depth}");
+    assert!(at("water.normal.Z", 48, 32) > 0.9);
+    // Eight layers of 0.1.
+    let thickness = at("water.thickness.front", 48, 32);
+    assert!((0.5..1.1).contains(&thickness), "{thickness}");
+    let ground = at("scene.Z", 48, 60);
+    assert!(ground > 1.0 && ground < 3.0, "{ground}");
+    assert_eq!(at("water.depth.Z", 2, 2), EMPTY);
+    assert_eq!(at("scene.Z", 2, 2), EMPTY);
+    assert_eq!(at("water.thickness.front", 2, 2), 0.0);
+    assert!(exr.channels.iter().all(|c| c.data.iter().all(|v| v.is_finite())));
+    for name in ["version", "adapter", "driver", "camera", "settings", "input"] {
+        let name = format!("whitewater.{name}");
+        assert!(exr.attributes.iter().any(|(n, v)| *n == name && !v.is_empty()), "{name}");
+    }
+    let png = folder.picture("a.png");
+    assert_eq!((png.width, png.height), (96, 64));
+    let (shown, linear) = (png.display(0.0).unwrap(), exr.rgb().unwrap());
+    assert_ne!(shown[32 * 96 + 48], shown[60 * 96 + 48]);
+    assert_ne!(linear[32 * 96 + 48], linear[60 * 96 + 48]);
+    assert_eq!(folder.files(), ["a.exr", "a.ply", "a.png"]);
+}
+
+#[test]
+fn layers_can_be_chosen() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    let names = |layers: &str| {
+        folder.run(&format!("render a.ply -o a.exr {SMALL} --layers {layers}")).ok();
+        folder.picture("a.exr").channels.len()
+    };
+    assert_eq!(names("none"), 4);
+    assert_eq!(names("water.depth.Z,scene"), 6);
+    folder.run("render a.ply -o a.exr --layers water").fails(2, &["water.depth", "'water'"]);
+}
+
+#[test]
+fn odd_and_tiny_sizes_and_levels_are_drawn() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    for (size, more) in [
+        ("1x1", ""),
+        ("7x3", "--smoothing-level 2"),
+        ("3x1", "--smoothing-level 0"),
+        ("33x65", "--smoothing-level 1 --thickness-level 0"),
+        ("31x17", "--splat compute --rule source"),
+        ("31x17", "--splat raster --rule fixed:20"),
+    ] {
+        folder.run(&format!("render a.ply -o a.exr -o a.png --size {size} {more} --validate")).ok();
+        let (exr, png) = (folder.picture("a.exr"), folder.picture("a.png"));
+        assert_eq!(format!("{}x{}", exr.width, exr.height), size);
+        assert_eq!(format!("{}x{}", png.width, png.height), size);
+    }
+}
+
+#[test]
+fn no_particles_are_a_picture_of_the_ground() {
+    let folder = Folder::new();
+    folder.particles("none.ply", Vec::new());
+    folder.run(&format!("render none.ply -o a.exr {SMALL}")).ok();
+    let exr = folder.picture("a.exr");
+    assert!(exr.channel("water.depth.Z").unwrap().iter().all(|z| *z == EMPTY));
+    assert!(exr.channel("scene.Z").unwrap().iter().any(|z| *z < EMPTY));
+}
+
+#[test]
+fn particles_that_are_no_numbers_change_nothing() {
+    let folder = Folder::new();
+    let mut positions = block(6);
+    folder.particles("clean.ply", positions.clone());
+    positions.extend([[f32::NAN; 3], [0.0, f32::INFINITY, 0.0], [f32::NEG_INFINITY, 0.0, 0.0]]);
+    folder.particles("dirty.ply", positions);
+    folder.run(&format!("render clean.ply -o clean.exr {SMALL} {FRONT}")).ok();
+    let run = folder.run(&format!("render dirty.ply -o dirty.exr {SMALL} {FRONT}")).ok();
+    assert!(run.stderr().contains('3'), "{}", run.stderr());
+    folder.run("compare clean.exr dirty.exr").ok();
+}
+
+#[test]
+fn z_up_particles_are_turned() {
+    let folder = Folder::new();
+    let positions = block(6);
+    let turned = positions.iter().map(|[x, y, z]| [*x, -z, *y]).collect();
+    folder.particles("y.ply", positions);
+    folder.particles("z.ply", turned);
+    folder.run(&format!("render y.ply -o y.exr {SMALL} {FRONT}")).ok();
+    folder.run(&format!("render z.ply -o z.exr {SMALL} {FRONT} --up-axis z")).ok();
+    folder.run("compare y.exr z.exr --tolerance 1e-5").ok();
+}
+
+#[test]
+fn cameras_as_files_and_flags_are_the_same() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(6));
+    folder.text(
+        "c.json",
+        r#"{"eye":[1,1,2],"target":[0,0.3,0],"up":[0,1,0],"fov_y_degrees":50,"near":0.1,"far":100}"#,
+    );
+    folder.run(&format!("render a.ply -o a.exr {SMALL} --camera c.json")).ok();
+    let flags = "--eye 1,1,2 --target 0,0.3,0 --up 0,1,0 --fov 50";
+    folder.run(&format!("render a.ply -o b.exr {SMALL} {flags}")).ok();
+    folder.run("compare a.exr b.exr --tolerance 0.01 --flip").ok();
+}
+
+#[test]
+fn settings_and_environment_change_the_picture() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(6));
+    folder.text("milk.toml", "[water]\nmedium = 'milk'\n");
+    // A panorama of one blue.
+    let mut sky = whitewater::io::picture::Layers::new(16, 8);
+    for (name, value) in [("R", 0.1), ("G", 0.2), ("B", 1.0)] {
+        sky.push(name, 16, 8, vec![value; 128]).unwrap();
+    }
+    let file = std::fs::File::create(folder.path("sky.exr")).unwrap();
+    whitewater::io::picture::write_exr(&sky, file).unwrap();
+    for (out, more) in [
+        ("a", ""),
+        ("b", "--settings milk.toml"),
+        ("c", "--environment sky.exr"),
+        ("d", "--sun 1,0.2,0"),
+    ] {
+        folder.run(&format!("render a.ply -o {out}.exr {SMALL} {FRONT} {more}")).ok();
+    }
+    for other in ["b", "c", "d"] {
+        folder.run(&format!("compare a.exr {other}.exr --tolerance 0.001")).fails(1, &["RMSE"]);
+    }
+    let sky = folder.picture("c.exr").rgb().unwrap()[0];
+    assert!((sky[2] - 1.0).abs() < 0.01 && (sky[0] - 0.1).abs() < 0.01, "{sky:?}");
+}
+
+#[test]
+fn times_and_traces_are_written() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    folder.run(&format!("render a.ply -o a.png {SMALL} --timings t.csv --trace trace.json")).ok();
+    let csv = std::fs::read_to_string(folder.path("t.csv")).unwrap();
+    assert!(csv.starts_with("frame,pass,start,nanoseconds\n"), "{csv}");
+    assert!(csv.lines().any(|l| l.contains(",composite,")), "{csv}");
+    let trace = std::fs::read_to_string(folder.path("trace.json")).unwrap();
+    let trace: serde_json::Value = serde_json::from_str(&trace).unwrap();
+    let names: Vec<_> =
+        trace["traceEvents"].as_array().unwrap().iter().map(|e| e["name"].clone()).collect();
+    assert!(names.contains(&"composite".into()) && names.contains(&"write".into()), "{names:?}");
+    folder.run(&format!("render a.ply -o a.png {SMALL} --timings t.json")).ok();
+    let json = std::fs::read_to_string(folder.path("t.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert!(json["frames"][0]["passes"].as_array().is_some_and(|p| !p.is_empty()));
+    folder.run("render a.ply -o a.png --timings t.txt").fails(2, &[".csv or .json"]);
+}
+
+#[test]
+fn the_demo_is_drawn() {
+    let folder = Folder::new();
+    folder.run(&format!("demo -o demo.exr -o demo.png {SMALL}")).ok();
+    let exr = folder.picture("demo.exr");
+    let water = exr.channel("water.depth.Z").unwrap().iter().filter(|z| **z < EMPTY).count();
+    assert!(water > 96 * 64 / 20, "{water} pixels of water");
+    assert!(folder.exists("demo.png"));
+}

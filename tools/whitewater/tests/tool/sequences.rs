@@ -1,0 +1,86 @@
+//! Many frames: names, ranges, reruns, bad frames.
+
+use super::support::{Folder, SMALL, block};
+
+fn sequence(folder: &Folder) {
+    for frame in [8, 9, 10, 11] {
+        let mut positions = block(4);
+        positions.truncate(40 + frame);
+        folder.particles(&format!("f_{frame}.ply"), positions);
+    }
+}
+
+#[test]
+fn a_rerun_draws_only_what_is_missing() {
+    let folder = Folder::new();
+    sequence(&folder);
+    let command = format!("render f_*.ply -o out_%03d.png -o out.exr {SMALL} --layers none");
+    folder.run(&command).ok();
+    let all = [
+        "f_10.ply",
+        "f_11.ply",
+        "f_8.ply",
+        "f_9.ply",
+        "out.0008.exr",
+        "out.0009.exr",
+        "out.0010.exr",
+        "out.0011.exr",
+        "out_008.png",
+        "out_009.png",
+        "out_010.png",
+        "out_011.png",
+    ];
+    assert_eq!(folder.files(), all);
+    let before = std::fs::read(folder.path("out.0009.exr")).unwrap();
+    std::fs::remove_file(folder.path("out_009.png")).unwrap();
+    folder.text("out.0010.exr", "kept");
+    let run = folder.run(&command).ok();
+    assert!(run.stderr().contains("3 finished frames"), "{}", run.stderr());
+    assert_eq!(folder.files(), all);
+    // The picture of a frame does not depend on which others are drawn with it.
+    assert_eq!(std::fs::read(folder.path("out.0009.exr")).unwrap(), before);
+    assert_eq!(std::fs::read(folder.path("out.0010.exr")).unwrap(), b"kept");
+    folder.run(&format!("{command} --overwrite --frames 10")).ok();
+    assert_ne!(std::fs::read(folder.path("out.0010.exr")).unwrap(), b"kept");
+    assert_eq!(folder.files(), all);
+}
+
+#[test]
+fn parts_of_a_sequence_fit_together() {
+    let folder = Folder::new();
+    sequence(&folder);
+    folder.run(&format!("render f_*.ply -o a_%d.exr {SMALL}")).ok();
+    for range in ["8-9", "10-11"] {
+        folder.run(&format!("render f_*.ply -o b_%d.exr {SMALL} --frames {range}")).ok();
+    }
+    for frame in 8..=11 {
+        folder.run(&format!("compare a_{frame}.exr b_{frame}.exr")).ok();
+    }
+    folder.run("render f_*.ply -o c.png --frames 3-5").fails(3, &["8 to 11"]);
+    folder.run("render f_*.ply -o c.png --frames 5-3").fails(2, &["5-3"]);
+}
+
+#[test]
+fn a_bad_frame_does_not_lose_the_others() {
+    let folder = Folder::new();
+    sequence(&folder);
+    let bytes = std::fs::read(folder.path("f_9.ply")).unwrap();
+    std::fs::write(folder.path("f_9.ply"), &bytes[..bytes.len() / 2]).unwrap();
+    let command = format!("render f_%d.ply -o out.png {SMALL}");
+    folder.run(&command).fails(1, &["1 of 4", "9 (", "ends too early"]);
+    let there = |frame: u32| folder.exists(&format!("out.{frame:04}.png"));
+    assert!(there(8) && !there(9) && there(10) && there(11));
+    // Mended, the rerun draws the one that was missing.
+    std::fs::write(folder.path("f_9.ply"), bytes).unwrap();
+    let run = folder.run(&command).ok();
+    assert!(there(9) && run.stderr().contains("3 finished frames"), "{}", run.stderr());
+}
+
+#[test]
+fn a_single_picture_is_drawn_again() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    folder.text("a.png", "old");
+    folder.run(&format!("render a.ply -o a.png {SMALL}")).ok();
+    assert_eq!(folder.picture("a.png").width, 96);
+}

@@ -1,0 +1,118 @@
+//! A folder, some water in it, and the program.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use whitewater::io::particles::{self, Particles, WriteFormat};
+use whitewater::io::picture::{self, Layers};
+
+/// Rest spacing of [`block`].
+pub const SPACING: f32 = 0.1;
+
+/// A folder of a test's own, removed at its end.
+pub struct Folder(tempfile::TempDir);
+
+impl Folder {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// The program with these arguments, in this folder.
+    pub fn run(&self, arguments: &str) -> Run {
+        self.run_with(arguments, &[])
+    }
+
+    pub fn run_with(&self, arguments: &str, variables: &[(&str, &str)]) -> Run {
+        let output = Command::new(env!("CARGO_BIN_EXE_whitewater"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.0.path())
+            .envs(variables.iter().copied())
+            .output()
+            .unwrap();
+        Run(output)
+    }
+
+    /// Writes particles as PLY.
+    pub fn particles(&self, name: &str, positions: Vec<[f32; 3]>) {
+        let particles = Particles::from_positions(positions);
+        particles::write(&self.path(name), &particles, WriteFormat::Ply).unwrap();
+    }
+
+    pub fn text(&self, name: &str, text: &str) {
+        std::fs::write(self.path(name), text).unwrap();
+    }
+
+    pub fn picture(&self, name: &str) -> Layers {
+        picture::read(&self.path(name)).unwrap()
+    }
+
+    pub fn exists(&self, name: &str) -> bool {
+        self.path(name).exists()
+    }
+
+    /// Names of all files, hidden ones too.
+    pub fn files(&self) -> Vec<String> {
+        names(self.0.path())
+    }
+}
+
+pub fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// What the program did.
+pub struct Run(pub Output);
+
+impl Run {
+    pub fn stderr(&self) -> String {
+        String::from_utf8_lossy(&self.0.stderr).into_owned()
+    }
+
+    pub fn stdout(&self) -> String {
+        String::from_utf8_lossy(&self.0.stdout).into_owned()
+    }
+
+    #[track_caller]
+    pub fn ok(self) -> Self {
+        assert_eq!(self.0.status.code(), Some(0), "{}{}", self.stdout(), self.stderr());
+        self
+    }
+
+    /// Ended with this code, and its last line has these parts.
+    #[track_caller]
+    pub fn fails(self, code: i32, parts: &[&str]) -> Self {
+        let text = self.stderr();
+        assert_eq!(self.0.status.code(), Some(code), "{}{text}", self.stdout());
+        let last = text.lines().last().unwrap_or_default();
+        assert!(last.starts_with("whitewater: "), "{text}");
+        for part in parts {
+            assert!(last.contains(part), "'{part}' is not in: {text}");
+        }
+        self
+    }
+}
+
+/// A block of water of n³ particles at rest, its lowest layer on y = 0, its middle on the y axis.
+pub fn block(n: usize) -> Vec<[f32; 3]> {
+    let half = 0.5 * (n - 1) as f32 * SPACING;
+    (0..n * n * n)
+        .map(|i| {
+            let at = |i: usize| (i % n) as f32 * SPACING;
+            [at(i) - half, at(i / n), at(i / n / n) - half]
+        })
+        .collect()
+}
+
+/// Small and quick.
+pub const SMALL: &str = "--size 96x64";
+/// From 2 in front of the middle of `block(8)`, straight on.
+pub const FRONT: &str = "--eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05";
