@@ -255,6 +255,45 @@ impl Renderer {
         self.water.resize(gpu, &config, &mut retire)
     }
 
+    /// Changes the configuration: makes what it needs anew and retires what it replaces. Legal with
+    /// frames in flight. Returns true when the environment was made anew too: then
+    /// [`record_setup`](Self::record_setup) and
+    /// [`record_environment`](Self::record_environment) are due before the next record.
+    ///
+    /// # Errors
+    /// As [`Renderer::new`]; the renderer then keeps its old configuration.
+    pub fn reconfigure(&mut self, config: &Config) -> Result<bool, Error> {
+        self.check_config(config)?;
+        let gpu = &*self.gpu;
+        let same_environment = config.environment_size == self.config.environment_size;
+        let water = Water::new(gpu, config)?;
+        let composite = Composite::new(gpu, config)?;
+        let scene_copy = Parts::scene_copy(gpu, config)?;
+        let environment =
+            if same_environment { None } else { Some(Environment::new(gpu, config)?) };
+        let descriptors = (0..gpu.slots)
+            .map(|_| Descriptors::new(gpu, SlotState::sets(config)))
+            .collect::<Result<Vec<_>, _>>()?;
+        self.config = *config;
+        let mut retire = |object| self.retired.retire(gpu, object);
+        let old = std::mem::replace(&mut self.water, water);
+        retire(Retired::Whole(Box::new(|gpu| old.destroy(gpu))));
+        let old = std::mem::replace(&mut self.composite, composite);
+        retire(Retired::Whole(Box::new(|gpu| old.destroy(gpu))));
+        if let Some(old) = std::mem::replace(&mut self.scene_copy, scene_copy) {
+            retire(Retired::Image(old));
+        }
+        if let Some(new) = environment {
+            let old = std::mem::replace(&mut self.environment, new);
+            retire(Retired::Whole(Box::new(|gpu| old.destroy(gpu))));
+        }
+        for (slot, new) in self.slots.iter_mut().zip(descriptors) {
+            let old = std::mem::replace(&mut slot.descriptors, new);
+            retire(Retired::Whole(Box::new(move |gpu| old.destroy(gpu))));
+        }
+        Ok(!same_environment)
+    }
+
     /// The configuration in force.
     pub fn config(&self) -> &Config {
         &self.config
@@ -487,10 +526,8 @@ impl Parts {
 
 impl SlotState {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        // A few sets a pass, and the splats' for every chunk of particles.
-        let chunks = config.max_particles / (1 << 16) + 1;
         Ok(Self {
-            descriptors: Descriptors::new(gpu, 64 + 16 * chunks)?,
+            descriptors: Descriptors::new(gpu, Self::sets(config))?,
             timer: Timer::new(gpu)?,
             uniforms: Buffer::new(
                 gpu,
@@ -501,6 +538,11 @@ impl SlotState {
             )?,
             framebuffer: vk::Framebuffer::null(),
         })
+    }
+
+    /// A few sets a pass, and those of the splats for every chunk of particles.
+    fn sets(config: &Config) -> u32 {
+        64 + 16 * (config.max_particles / (1 << 16) + 1)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

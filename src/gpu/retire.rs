@@ -6,7 +6,6 @@ use ash::vk;
 use super::Gpu;
 use super::buffer::Buffer;
 use super::image::Image;
-use super::pipeline::Pipeline;
 
 /// Something to free later.
 pub enum Retired {
@@ -14,16 +13,14 @@ pub enum Retired {
     Image(Image),
     /// A buffer.
     Buffer(Buffer),
-    /// A pipeline.
-    Pipeline(Pipeline),
     /// A framebuffer.
     Framebuffer(vk::Framebuffer),
     /// A render pass.
     RenderPass(vk::RenderPass),
-    /// A view of an image that lives elsewhere.
-    View(vk::ImageView),
     /// A query pool.
     QueryPool(vk::QueryPool),
+    /// A whole technique, by the function that frees it.
+    Whole(Box<dyn FnOnce(&Gpu) + Send>),
 }
 
 impl Retired {
@@ -32,15 +29,13 @@ impl Retired {
         match self {
             Self::Image(image) => image.destroy(gpu),
             Self::Buffer(buffer) => buffer.destroy(gpu),
-            Self::Pipeline(pipeline) => pipeline.destroy(gpu),
-            // SAFETY (all three): the caller guarantees that the GPU is done.
+            // SAFETY (all of these): the caller guarantees that the GPU is done.
             Self::Framebuffer(handle) => unsafe { gpu.device.destroy_framebuffer(handle, None) },
             // SAFETY: as above.
             Self::RenderPass(handle) => unsafe { gpu.device.destroy_render_pass(handle, None) },
             // SAFETY: as above.
-            Self::View(handle) => unsafe { gpu.device.destroy_image_view(handle, None) },
-            // SAFETY: as above.
             Self::QueryPool(handle) => unsafe { gpu.device.destroy_query_pool(handle, None) },
+            Self::Whole(free) => free(gpu),
         }
     }
 }
