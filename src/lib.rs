@@ -1,12 +1,100 @@
-//! placeholder, replaced below
+//! `whitewater` draws water given as particles into a frame of your own Vulkan engine.
+//!
+//! It records into a command buffer that you hand in, and owns no device, queue, window or
+//! swapchain. A frame is one function that lists its passes; every barrier is written where it is
+//! needed; the GPU decides counts, culling and when the smoothing ends, and nothing waits for the
+//! host. Each pass is checked against a CPU twin on a software device.
+//!
+//! # Embedding
+//!
+//! 1. Ask [`requirements`] and [`Offer::check`] before you make the device, and enable what you
+//!    want of the optional features. Tell the truth about them in [`Enabled`].
+//! 2. [`Renderer::new`] with a [`Host`] and a [`Config`]: all pipelines and memory are made here.
+//! 3. [`Renderer::record_setup`] once, [`Renderer::record_environment`] once per environment.
+//! 4. Each frame, after the slot's fence: [`Renderer::collect`], then [`Renderer::record`] with a
+//!    [`Frame`]. [`Renderer::timings`] says what each pass took.
+//! 5. [`Renderer::resize`] or [`Renderer::reconfigure`] whenever you like; [`Renderer::destroy`]
+//!    when the GPU is done.
+//!
+//! `tools/embed` is the smallest host.
+//!
+//! # What `record` takes
+//!
+//! | input | what | needs | state |
+//! |---|---|---|---|
+//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, `Config.output_format`, `Config.extent`; transfer source when it is also the scene | `before` → `after` |
+//! | `scene_color` | the scene behind the water; may be `output` itself (`Config.in_place`) | sampled, linear filtering | `before` → `after` |
+//! | `scene_depth` | device depth in the camera's convention; any size | sampled, a view of the depth aspect alone, single-sampled | `before` → `after` |
+//! | `particles.positions` | 3×f32, world space; NaN, infinite and huge ones are dropped and counted | storage buffer, any stride and offset that are multiples of 4 | `before` → `after` |
+//! | `particles.densities` | f32; 0 marks a particle just emitted | as above | as above |
+//! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
+//! | `particles.packets` | the host's own groups with bounding boxes, to cull by | storage buffer, aligned offset | as above |
+//! | `camera` | view and projection: perspective, standard or reversed, finite or infinite, off-axis, looking down −z or +z | | |
+//!
+//! # Promises
+//!
+//! - `record` only records: it never submits, waits, creates pipelines or allocates device memory.
+//! - One acquire and one release barrier for each host image; silent under core and
+//!   synchronization validation.
+//! - Pixels outside the fluid are not touched; no particles change nothing.
+//! - Every [`Error::BadInput`] is found before the first command. After any other error discard the
+//!   command buffer, and tell with [`Renderer::abandon`].
+//! - `resize` and `reconfigure` are legal with frames in flight; what they replace is freed by
+//!   `collect` when every slot that used it has come back. Only construction, `resize`,
+//!   `reconfigure`, `collect` and `destroy` lock the allocator.
+//! - Equal inputs give equal pictures on one device, but for the order of additive blending in
+//!   [`Splat::Raster`](water::Splat) (the compute path sums integers).
+//!
+//! # Demands
+//!
+//! - Command buffers are primary, of the family in [`Host`], outside any render pass, with no
+//!   active query and no conditional rendering; they are submitted to one queue in the order they
+//!   were recorded. A recorded one that is never submitted is reported by [`Renderer::abandon`].
+//! - One `record` per slot; two views are two renderers. The slot's earlier work is complete.
+//! - Family ownership is acquired before, images are single-sampled.
+//!
+//! Clobbered: bound pipelines, descriptor sets, push constants, viewport and scissor. Not done:
+//! tone mapping, exposure, anti-aliasing, ownership transfers, multisampled or array images,
+//! orthographic cameras.
+//!
+//! # Memory
+//!
+//! [`Renderer::memory`] says it exactly. With the defaults, for w × h pixels and n particles:
+//!
+//! | what | bytes | 1280×720 | 1920×1080 |
+//! |---|---|---|---|
+//! | depth | 4 w h | 3.5 MiB | 7.9 MiB |
+//! | smoothing, two images, and the plan, at half resolution | 3 w h | 2.6 MiB | 5.9 MiB |
+//! | thickness and its sums at quarter resolution | ½ w h | 0.4 MiB | 1.0 MiB |
+//! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
+//! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
+//! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
+//! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
+//!
+//! # Where it differs from its sources
+//!
+//! Each pass says so at its head. The main points, against the thesis (Bagar 2010):
+//!
+//! - Depth is the ray's exact hit with the sphere, not a billboard's offset; only spheres that can
+//!   show are drawn for it.
+//! - The smoothing is mean curvature flow of the perspective surface itself
+//!   ([`Rule::ConstantWidth`](water::Rule)); the thesis' formula leaves the ray's slope out and
+//!   is right on the optical axis only. Its form is there as [`Rule::Source`](water::Rule).
+//! - Iterations are planned per pixel before the first, so that all forms do the same work; the
+//!   occlusion query's decision stays on the GPU.
+//! - Thickness is in metres of water: the integral of a sprite is the particle's volume.
+//! - Refraction bends towards the normal, as light does (the thesis has the sign the other way).
+//! - At borders the derivatives of texels on the same surface are blended, and shaded once.
+
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub use ash;
 pub use gpu_allocator;
 
 mod composite;
-pub mod contract;
+mod contract;
 mod environment;
-pub mod error;
+mod error;
 mod frame;
 mod gpu;
 #[cfg(feature = "headless")]

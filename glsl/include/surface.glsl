@@ -13,17 +13,25 @@ struct Surface {
 
 layout(set = 0, binding = 1) uniform sampler2D smoothed;
 
-// Per texel: central, or one-sided where the other side is another surface, or none.
-vec4 differences(vec4 before, vec4 z, vec4 after, float threshold) {
+// Derivatives of four texels along one axis: central, or one-sided where the other side is another
+// surface, or none. `whole` keeps the texels that have both sides.
+vec4 differences(vec4 before, vec4 z, vec4 after, float threshold, inout bvec4 whole) {
     vec4 a = z - before;
     vec4 b = after - z;
     bvec4 has_a = lessThanEqual(abs(a), vec4(threshold));
     bvec4 has_b = lessThanEqual(abs(b), vec4(threshold));
+    bvec4 both = bvec4(has_a.x && has_b.x, has_a.y && has_b.y, has_a.z && has_b.z, has_a.w && has_b.w);
+    whole = bvec4(whole.x && both.x, whole.y && both.y, whole.z && both.z, whole.w && both.w);
     vec4 either = mix(mix(vec4(0.0), b, has_b), a, has_a);
-    vec4 both = 0.5 * (a + b);
-    return vec4(has_a.x && has_b.x ? both.x : either.x, has_a.y && has_b.y ? both.y : either.y,
-                has_a.z && has_b.z ? both.z : either.z, has_a.w && has_b.w ? both.w : either.w);
+    return mix(either, 0.5 * (a + b), both);
 }
+
+// Share of a texel on the rim in the slope, where there are others. The last particle of a body
+// of water curves away within a pixel or two: taken at its word it mirrors the horizon, and every
+// outline is beaded with white.
+const float RIM = 1.0 / 64.0;
+// Steepest slope of a surface that is all rim, a drop: depth per width.
+const float RIM_SLOPE = 1.5;
 
 Surface surface_at(vec2 pixel, float front, float threshold) {
     Surface s;
@@ -54,13 +62,15 @@ Surface surface_at(vec2 pixel, float front, float threshold) {
     vec4 right = vec4(row1.zw, row2.zw);
     vec4 up = vec4(row0, row1.yz);
     vec4 down = vec4(row2.yz, row3);
-    vec4 dx = differences(left, z, right, threshold);
-    vec4 dy = differences(up, z, down, threshold);
+    bvec4 whole = bvec4(true);
+    vec4 dx = differences(left, z, right, threshold, whole);
+    vec4 dy = differences(up, z, down, threshold, whole);
+    vec4 trust = mix(vec4(RIM), vec4(1.0), whole);
     // Texels beyond the image's edge repeat it.
-    if (base.x < 0) { z.xz = z.yw; dx.xz = dx.yw; dy.xz = dy.yw; }
-    if (base.x >= last.x) { z.yw = z.xz; dx.yw = dx.xz; dy.yw = dy.xz; }
-    if (base.y < 0) { z.xy = z.zw; dx.xy = dx.zw; dy.xy = dy.zw; }
-    if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; }
+    if (base.x < 0) { z.xz = z.yw; dx.xz = dx.yw; dy.xz = dy.yw; trust.xz = trust.yw; }
+    if (base.x >= last.x) { z.yw = z.xz; dx.yw = dx.xz; dy.yw = dy.xz; trust.yw = trust.xz; }
+    if (base.y < 0) { z.xy = z.zw; dx.xy = dx.zw; dy.xy = dy.zw; trust.xy = trust.zw; }
+    if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; trust.zw = trust.xy; }
 
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     vec4 off = abs(z - front);
@@ -75,7 +85,11 @@ Surface surface_at(vec2 pixel, float front, float threshold) {
     s.weights = w / sum;
     bool lost = least > threshold;
     s.z = lost ? front : dot(s.weights, z);
-    s.dz = lost ? vec2(0.0) : vec2(dot(s.weights, dx), dot(s.weights, dy));
+    vec4 slopes = s.weights * trust;
+    float trusted = slopes.x + slopes.y + slopes.z + slopes.w;
+    s.dz = lost ? vec2(0.0) : vec2(dot(slopes, dx), dot(slopes, dy)) / trusted;
+    vec2 steepest = frame.texel.zw * s.z * RIM_SLOPE;
+    s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
     return s;
 }
 

@@ -71,7 +71,7 @@ pub struct WaterSettings {
     pub refraction: f32,
     /// Strength of the sun's highlight, [0, ∞), default 1.
     pub specular: f32,
-    /// Blinn-Phong exponent of the highlight, [1, ∞), default 400.
+    /// Blinn-Phong exponent of the highlight, [1, ∞), default 1500.
     pub shininess: f32,
 }
 
@@ -88,7 +88,7 @@ impl Default for WaterSettings {
             fresnel: Fresnel::Schlick { f0: 0.02 },
             refraction: 0.25,
             specular: 1.0,
-            shininess: 400.0,
+            shininess: 1500.0,
         }
     }
 }

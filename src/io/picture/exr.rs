@@ -7,7 +7,12 @@ use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::LayerAttributes;
 use exr::prelude::{ReadChannels, ReadLayers, WritableImage, read as reader};
 
+use serde_json::Value;
+
 use super::{Channel, Layers};
+
+/// Holds all of [`Layers::attributes`] as one JSON object.
+const ATTRIBUTE: &str = "whitewater";
 
 pub fn write(layers: &Layers, to: impl Write + Seek) -> io::Result<()> {
     let channels = layers
@@ -19,17 +24,27 @@ pub fn write(layers: &Layers, to: impl Write + Seek) -> io::Result<()> {
         .collect();
     let mut attributes =
         LayerAttributes { software_name: text("whitewater"), ..Default::default() };
-    for (name, value) in &layers.attributes {
-        // EXR text is Latin-1 to the crate; what does not fit is shown, not lost.
-        let value = text(value).or_else(|| text(&value.escape_unicode().to_string()));
-        if let (Some(name), Some(value)) = (text(name), value) {
+    if !layers.attributes.is_empty() {
+        // One attribute: the crate writes several in another order on each run. JSON in ASCII, as its text is
+        // Latin-1.
+        let map: serde_json::Map<String, Value> =
+            layers.attributes.iter().map(|(k, v)| (k.clone(), Value::String(v.clone()))).collect();
+        let json: String = Value::Object(map)
+            .to_string()
+            .chars()
+            .map(|c| match c.len_utf8() {
+                1 => c.to_string(),
+                _ => c.encode_utf16(&mut [0; 2]).iter().map(|u| format!("\\u{u:04x}")).collect(),
+            })
+            .collect();
+        if let (Some(name), Some(value)) = (text(ATTRIBUTE), text(&json)) {
             attributes.other.insert(name, AttributeValue::Text(value));
         }
     }
     let layer = Layer::new(
         (layers.width, layers.height),
         attributes,
-        Encoding::SMALL_LOSSLESS,
+        Encoding { compression: exr::compression::Compression::PIZ, ..Encoding::SMALL_LOSSLESS },
         AnyChannels::sort(channels),
     );
     Image::from_layer(layer).write().to_buffered(to).map_err(|error| match error {
@@ -62,8 +77,14 @@ pub fn read(bytes: &[u8]) -> Result<Layers, String> {
         layers.channels.push(Channel { name: channel.name.to_string(), data });
     }
     for (name, value) in layer.attributes.other {
-        if let AttributeValue::Text(value) = value {
-            layers.attributes.push((name.to_string(), value.to_string()));
+        let AttributeValue::Text(value) = value else { continue };
+        match serde_json::from_str(&value.to_string()) {
+            Ok(Value::Object(map)) if text(ATTRIBUTE).as_ref() == Some(&name) => {
+                for (name, value) in map {
+                    layers.attributes.push((name, value.as_str().unwrap_or_default().into()));
+                }
+            }
+            _ => layers.attributes.push((name.to_string(), value.to_string())),
         }
     }
     layers.attributes.sort();

@@ -46,7 +46,7 @@ pub struct Layers {
     pub height: usize,
     /// In no certain order; no name twice.
     pub channels: Vec<Channel>,
-    /// Name and text of each attribute.
+    /// Name and text of each attribute. EXR files hold them as one JSON object, the attribute `whitewater`.
     pub attributes: Vec<(String, String)>,
     /// Of `R G B`.
     pub encoding: Encoding,
@@ -233,7 +233,8 @@ mod tests {
                 (0..35).map(|p| if p == 3 { EMPTY } else { (p * (i + 1)) as f32 * 0.37 }).collect();
             layers.push(name, 7, 5, data).unwrap();
         }
-        layers.attributes.push(("whitewater.adapter".into(), "llvmpipe, 8 bits µ".into()));
+        layers.attributes.push(("adapter".into(), "llvmpipe, \"8\" bits µ 🌊\n".into()));
+        layers.attributes.push(("version".into(), "1".into()));
         let mut bytes = std::io::Cursor::new(Vec::new());
         write_exr(&layers, &mut bytes).unwrap();
         let back = exr::read(bytes.get_ref()).unwrap();
@@ -241,7 +242,7 @@ mod tests {
         for channel in &layers.channels {
             assert_eq!(back.channel(&channel.name).unwrap(), channel.data, "{}", channel.name);
         }
-        assert!(back.attributes.contains(&layers.attributes[0]));
+        assert_eq!(back.attributes, layers.attributes);
         for cut in [5, 100, bytes.get_ref().len() - 9] {
             assert!(exr::read(&bytes.get_ref()[..cut]).is_err(), "{cut}");
         }
