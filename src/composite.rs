@@ -9,15 +9,15 @@ use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::Resource;
+use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
-use crate::gpu::retire::Retired;
 use crate::gpu::shader;
 use crate::water::settings::Fresnel;
 use crate::water::{Recording, WaterLayers};
 
 /// The pass.
 pub struct Composite {
-    pass: vk::RenderPass,
+    pass: Owned<vk::RenderPass>,
     /// [Fresnel::Schlick, Fresnel::Source].
     pipelines: [Pipeline; 2],
 }
@@ -37,13 +37,14 @@ impl Composite {
                     vertex: shader::COMPOSITE_VERT,
                     fragment: shader::COMPOSITE_FRAG,
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                    pass,
+                    pass: pass.handle,
                     blend: no_blend(),
                     constants: &[(0, thickness), (1, schlick)],
                 },
             )
         };
-        Ok(Self { pass, pipelines: [make(1)?, make(0)?] })
+        let pipelines = [make(1)?, make(0)?];
+        Ok(Self { pass, pipelines })
     }
 
     /// A framebuffer for the host's output; it lives as long as the slot's frame.
@@ -52,8 +53,8 @@ impl Composite {
         gpu: &Gpu,
         view: vk::ImageView,
         extent: vk::Extent2D,
-    ) -> Result<vk::Framebuffer, Error> {
-        gpu.framebuffer("composite/output", self.pass, view, extent)
+    ) -> Result<Owned<vk::Framebuffer>, Error> {
+        gpu.framebuffer("composite/output", self.pass.handle, view, extent)
     }
 
     /// The output is in COLOR_ATTACHMENT_OPTIMAL, all layers are sampled by fragments.
@@ -73,7 +74,7 @@ impl Composite {
             Fresnel::Schlick { .. } => &self.pipelines[0],
             Fresnel::Source { .. } => &self.pipelines[1],
         };
-        gpu.begin_pass(cmd, self.pass, framebuffer, extent.into(), [0.0; 4]);
+        gpu.begin_pass(cmd, self.pass.handle, framebuffer, extent.into(), [0.0; 4]);
         let nearest = gpu.samplers.nearest;
         r.descriptors.bind(
             gpu,
@@ -98,12 +99,5 @@ impl Composite {
         }
         r.end(scope);
         Ok(())
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        for pipeline in &self.pipelines {
-            pipeline.destroy(gpu);
-        }
-        Retired::RenderPass(self.pass).destroy(gpu);
     }
 }

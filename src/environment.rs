@@ -9,9 +9,10 @@ use crate::contract::{Config, HostImage};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED,
+    self, Access, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED,
 };
 use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::graveyard::{Grave, Owned};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
@@ -67,13 +68,16 @@ struct EquirectPush {
     turn: f32,
 }
 
+/// The cube between its passes: read by any shader.
+const SAMPLED: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
+
 /// The cube and its passes.
 pub struct Environment {
     sky: Pipeline,
     equirect: Pipeline,
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
-    faces: vk::ImageView,
+    faces: Owned<vk::ImageView>,
     mips: u32,
 }
 
@@ -102,7 +106,7 @@ impl Environment {
             sky: Pipeline::compute(gpu, shader::ENVIRONMENT_SKY_COMP, &[])?,
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
             cube,
-            faces,
+            faces: gpu.own(faces, Grave::View),
             mips,
         })
     }
@@ -126,7 +130,7 @@ impl Environment {
                 &[range],
             );
         }
-        gpu.barriers(cmd, &[access::image(&self.cube, access::CLEAR, FRAGMENT_SAMPLED)], &[]);
+        gpu.barriers(cmd, &[access::image(&self.cube, access::CLEAR, SAMPLED)], &[]);
     }
 
     pub fn record(
@@ -138,12 +142,8 @@ impl Environment {
     ) -> Result<(), Error> {
         let size = self.cube.extent.width;
         gpu.begin_label(cmd, c"environment");
-        gpu.barriers(
-            cmd,
-            &[access::image(&self.cube, FRAGMENT_SAMPLED.discarded(), COMPUTE_WRITE)],
-            &[],
-        );
-        let target = (0, Resource::Storage(self.faces));
+        gpu.barriers(cmd, &[access::image(&self.cube, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
+        let target = (0, Resource::Storage(self.faces.handle));
         match source {
             EnvironmentSource::Sky(sky) => {
                 descriptors.bind(gpu, cmd, &self.sky, &[target])?;
@@ -226,14 +226,6 @@ impl Environment {
             gpu.barriers(cmd, &[mip_barrier(mip, 1, COPY_WRITE, COPY_READ)], &[]);
             size /= 2;
         }
-        gpu.barriers(cmd, &[access::image(&self.cube, COPY_READ, FRAGMENT_SAMPLED)], &[]);
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        self.sky.destroy(gpu);
-        self.equirect.destroy(gpu);
-        // SAFETY: the caller guarantees that the GPU is done.
-        unsafe { gpu.device.destroy_image_view(self.faces, None) };
-        self.cube.destroy(gpu);
+        gpu.barriers(cmd, &[access::image(&self.cube, COPY_READ, SAMPLED)], &[]);
     }
 }

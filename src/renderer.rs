@@ -18,9 +18,10 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::requirements::Offer;
-use crate::gpu::retire::{RetireList, Retired};
+use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
 use crate::water::{Recording, Water};
 
@@ -30,7 +31,7 @@ struct SlotState {
     timer: Timer,
     uniforms: Buffer,
     /// The output's framebuffer of the frame recorded last.
-    framebuffer: vk::Framebuffer,
+    framebuffer: Option<Owned<vk::Framebuffer>>,
 }
 
 /// Draws particle water into a host's frame. One per view; see the crate's documentation for the
@@ -42,6 +43,8 @@ pub struct Renderer {
     config: Config,
     slots: Vec<SlotState>,
     retired: RetireList,
+    /// False while a resize has failed half-way.
+    whole: bool,
     water: Water,
     composite: Composite,
     environment: Environment,
@@ -62,9 +65,18 @@ impl Renderer {
         check_config(config)?;
         Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
         let gpu = Gpu::new(host)?;
-        let parts = Parts::new(&gpu, config)?;
-        let slots =
-            (0..gpu.slots).map(|_| SlotState::new(&gpu, config)).collect::<Result<Vec<_>, _>>()?;
+        let made = Parts::new(&gpu, config).and_then(|parts| {
+            let slots = (0..gpu.slots).map(|_| SlotState::new(&gpu, config));
+            Ok((parts, slots.collect::<Result<Vec<_>, _>>()?))
+        });
+        let (parts, slots) = match made {
+            Ok(made) => made,
+            Err(error) => {
+                // Nothing was submitted with what was made before the failure.
+                gpu.destroy();
+                return Err(error);
+            }
+        };
         Ok(Self {
             instance: host.instance.clone(),
             physical_device: host.physical_device,
@@ -72,6 +84,7 @@ impl Renderer {
             config: *config,
             slots,
             retired: RetireList::default(),
+            whole: true,
             water: parts.water,
             composite: parts.composite,
             environment: parts.environment,
@@ -143,8 +156,10 @@ impl Renderer {
         let in_place = frame.scene_color.image == frame.output.image;
         let slot = &mut self.slots[index];
         slot.begin(gpu)?;
-        slot.framebuffer =
+        let framebuffer =
             self.composite.framebuffer(gpu, frame.output.view, frame.output.extent)?;
+        let target = framebuffer.handle;
+        slot.framebuffer = Some(framebuffer);
         self.retired.recorded(frame.slot.0);
         let uniforms = FrameUniforms::new(&lens, frame, &self.config);
         slot.uniforms.mapped_mut()[..size_of::<FrameUniforms>()]
@@ -179,7 +194,7 @@ impl Renderer {
         };
         self.composite.record(
             &mut r,
-            slot.framebuffer,
+            target,
             frame.output.extent,
             &self.water.layers(),
             Resource::Sampled(scene_color, gpu.samplers.linear),
@@ -222,7 +237,8 @@ impl Renderer {
     /// Says that the slot has come back (its work is complete): frees what `resize` and
     /// `reconfigure` retired and no frame in flight uses any more.
     pub fn collect(&mut self, slot: Slot) {
-        self.retired.collect(&self.gpu, slot.0);
+        self.retired.collect(slot.0);
+        self.gpu.bury();
     }
 
     /// Says that the command buffer recorded last with this slot was thrown away.
@@ -241,18 +257,25 @@ impl Renderer {
     /// Changes the output's size. Legal with frames in flight.
     ///
     /// # Errors
-    /// A bad extent, no memory; the renderer then keeps its old size.
+    /// A bad extent changes nothing. After any other error (no memory) `record` refuses frames
+    /// until a resize has succeeded.
     pub fn resize(&mut self, extent: vk::Extent2D) -> Result<(), Error> {
         let config = Config { extent, ..self.config };
         self.check_config(&config)?;
-        let (gpu, retired) = (&*self.gpu, &mut self.retired);
-        let copy = Parts::scene_copy(gpu, &config)?;
-        let mut retire = |object| retired.retire(gpu, object);
-        if let Some(old) = std::mem::replace(&mut self.scene_copy, copy) {
-            retire(Retired::Image(old));
-        }
+        // Frames are refused until all parts have the new size.
+        self.whole = false;
+        let result = self.resize_parts(&config);
+        self.gpu.bury();
+        result?;
         self.config = config;
-        self.water.resize(gpu, &config, &mut retire)
+        self.whole = true;
+        Ok(())
+    }
+
+    fn resize_parts(&mut self, config: &Config) -> Result<(), Error> {
+        let copy = Parts::scene_copy(&self.gpu, config)?;
+        self.retired.retire(std::mem::replace(&mut self.scene_copy, copy));
+        self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
     /// Changes the configuration: makes what it needs anew and retires what it replaces. Legal with
@@ -264,34 +287,43 @@ impl Renderer {
     /// As [`Renderer::new`]; the renderer then keeps its old configuration.
     pub fn reconfigure(&mut self, config: &Config) -> Result<bool, Error> {
         self.check_config(config)?;
-        let gpu = &*self.gpu;
-        let same_environment = config.environment_size == self.config.environment_size;
-        let water = Water::new(gpu, config)?;
-        let composite = Composite::new(gpu, config)?;
-        let scene_copy = Parts::scene_copy(gpu, config)?;
-        let environment =
-            if same_environment { None } else { Some(Environment::new(gpu, config)?) };
-        let descriptors = (0..gpu.slots)
-            .map(|_| Descriptors::new(gpu, SlotState::sets(config)))
-            .collect::<Result<Vec<_>, _>>()?;
+        let new = self.make_parts(config);
+        self.gpu.bury();
+        let (water, composite, scene_copy, environment, descriptors) = new?;
+        let new_environment = environment.is_some();
         self.config = *config;
-        let mut retire = |object| self.retired.retire(gpu, object);
-        let old = std::mem::replace(&mut self.water, water);
-        retire(Retired::Whole(Box::new(|gpu| old.destroy(gpu))));
-        let old = std::mem::replace(&mut self.composite, composite);
-        retire(Retired::Whole(Box::new(|gpu| old.destroy(gpu))));
-        if let Some(old) = std::mem::replace(&mut self.scene_copy, scene_copy) {
-            retire(Retired::Image(old));
-        }
+        self.whole = true;
+        let retired = &mut self.retired;
+        retired.retire(std::mem::replace(&mut self.water, water));
+        retired.retire(std::mem::replace(&mut self.composite, composite));
+        retired.retire(std::mem::replace(&mut self.scene_copy, scene_copy));
         if let Some(new) = environment {
-            let old = std::mem::replace(&mut self.environment, new);
-            retire(Retired::Whole(Box::new(|gpu| old.destroy(gpu))));
+            retired.retire(std::mem::replace(&mut self.environment, new));
         }
         for (slot, new) in self.slots.iter_mut().zip(descriptors) {
-            let old = std::mem::replace(&mut slot.descriptors, new);
-            retire(Retired::Whole(Box::new(move |gpu| old.destroy(gpu))));
+            retired.retire(std::mem::replace(&mut slot.descriptors, new));
         }
-        Ok(!same_environment)
+        self.gpu.bury();
+        Ok(new_environment)
+    }
+
+    #[allow(clippy::type_complexity)] // used once, right above
+    fn make_parts(
+        &self,
+        config: &Config,
+    ) -> Result<(Water, Composite, Option<Image>, Option<Environment>, Vec<Descriptors>), Error>
+    {
+        let gpu = &*self.gpu;
+        let same_environment = config.environment_size == self.config.environment_size;
+        Ok((
+            Water::new(gpu, config)?,
+            Composite::new(gpu, config)?,
+            Parts::scene_copy(gpu, config)?,
+            if same_environment { None } else { Some(Environment::new(gpu, config)?) },
+            (0..gpu.slots)
+                .map(|_| Descriptors::new(gpu, SlotState::sets(config)))
+                .collect::<Result<_, _>>()?,
+        ))
     }
 
     /// The configuration in force.
@@ -312,19 +344,16 @@ impl Renderer {
     ///
     /// # Safety
     /// The GPU is done with all recorded work, or it will never be submitted.
-    pub unsafe fn destroy(mut self) {
-        let gpu = &*self.gpu;
-        self.retired.destroy(gpu);
-        for slot in self.slots {
-            slot.destroy(gpu);
-        }
-        if let Some(copy) = self.scene_copy {
-            copy.destroy(gpu);
-        }
-        self.water.destroy(gpu);
-        self.composite.destroy(gpu);
-        self.environment.destroy(gpu);
+    pub unsafe fn destroy(self) {
+        let gpu = self.gpu.clone();
+        drop(self);
         gpu.destroy();
+    }
+
+    /// The environment's cube, for the stand-in scene.
+    #[cfg(feature = "headless")]
+    pub(crate) fn environment_view(&self) -> vk::ImageView {
+        self.environment.cube.view
     }
 
     fn slot_index(&self, slot: Slot) -> Result<usize, Error> {
@@ -346,6 +375,9 @@ impl Renderer {
 
     /// Everything that can be wrong with a frame.
     fn check_frame(&self, frame: &Frame<'_>) -> Result<Lens, Error> {
+        if !self.whole {
+            return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
+        }
         check_settings(&frame.settings.water, &frame.settings.light)?;
         if frame.output.extent != self.config.extent {
             return Err(Error::bad(
@@ -536,7 +568,7 @@ impl SlotState {
                 vk::BufferUsageFlags::UNIFORM_BUFFER,
                 MemoryLocation::CpuToGpu,
             )?,
-            framebuffer: vk::Framebuffer::null(),
+            framebuffer: None,
         })
     }
 
@@ -547,15 +579,10 @@ impl SlotState {
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
     fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
-        Retired::Framebuffer(std::mem::take(&mut self.framebuffer)).destroy(gpu);
+        self.framebuffer = None;
+        // Framebuffers alone: what holds memory is dropped by `collect`, which buries it.
+        gpu.bury();
         self.descriptors.reset(gpu)
-    }
-
-    fn destroy(self, gpu: &Gpu) {
-        Retired::Framebuffer(self.framebuffer).destroy(gpu);
-        self.descriptors.destroy(gpu);
-        self.timer.destroy(gpu);
-        self.uniforms.destroy(gpu);
     }
 }
 

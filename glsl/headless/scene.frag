@@ -35,7 +35,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 light;  // share of the sky that is seen; sunlight off other surfaces
-layout(location = 4) in vec3 around; // albedo of the other surfaces that are seen
+layout(location = 4) in vec4 around; // albedo of the other surfaces that are seen; bulge
 
 layout(location = 0) out vec4 color;
 
@@ -322,15 +322,17 @@ void main() {
     float n_l = max(dot(n, l), 0.0);
     float n_v = max(dot(n, v), 1.0e-3);
     vec3 sun = vec3(0.0);
-    if (n_l > 0.0 && dot(face, l) > 0.0) {
-        sun = scene.sun_color.rgb * n_l * sunlight(position, face);
+    if (n_l > 0.0) {
+        // From the smooth surface that is meant: its facets do not shadow one another.
+        vec3 lifted = position + n * 1.5 * max(around.w, 0.0);
+        sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);
     }
     vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
     // At a pixel's centre outside of its triangle the baked light may be extrapolated below zero.
     float sky_seen = clamp(light.x, 0.0, 1.0);
     vec3 sky = sky_seen * sky_irradiance(n);
     // What is around sees about half of the sky itself.
-    vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around, 0.0) * up;
+    vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around.rgb, 0.0) * up;
     vec3 c = s.albedo / PI * (sun + sky + bounced);
 
     // Dielectric highlights of sun and sky.

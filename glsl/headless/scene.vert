@@ -8,13 +8,13 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 light;
-layout(location = 4) in vec3 around;
+layout(location = 4) in vec4 around;
 
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
 layout(location = 2) out vec2 out_uv;
 layout(location = 3) out vec4 out_light;
-layout(location = 4) out vec3 out_around;
+layout(location = 4) out vec4 out_around;
 
 // The depth of both passes must be the same where there is one sample.
 invariant gl_Position;

@@ -65,8 +65,8 @@ vec3 sky_radiance(vec3 direction, vec3 sun) {
     float phase_r = 3.0 / (16.0 * 3.14159265) * (1.0 + mu * mu);
     float phase_m = 3.0 / (8.0 * 3.14159265) * (1.0 - g * g) * (1.0 + mu * mu)
                   / ((2.0 + g * g) * pow(1.0 + g * g - 2.0 * g * mu, 1.5));
-    vec3 often = 0.04 * RAYLEIGH / RAYLEIGH.z * max(sun.y, 0.0);
-    vec3 sky = rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (1.0 - exp(-RAYLEIGH * along.x));
+    float often = 0.13 * max(sun.y, 0.0);
+    vec3 sky = rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (1.0 - exp(-RAYLEIGH * along.x - 2.0 * MIE * along.y));
     // Ground: grey under the light of sun and sky, fading in over a soft horizon.
     float below = smoothstep(0.0, -0.12, direction.y);
     vec3 ground = 0.22 * (max(sun.y, 0.0) * transmittance(optical_depth(eye, sun.y)) / 3.14159265 + 0.08 * vec3(0.5, 0.6, 0.8));

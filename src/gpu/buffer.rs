@@ -5,15 +5,17 @@ use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::Gpu;
+use super::graveyard::{Grave, Graveyard};
 use crate::error::{Error, VkContext};
 
-/// A buffer with its memory; freed by [`Buffer::destroy`], leaked (safely) by a plain drop.
+/// A buffer with its memory.
 pub struct Buffer {
     /// The buffer.
     pub handle: vk::Buffer,
     /// Bytes asked for.
     pub size: u64,
     allocation: Allocation,
+    yard: Graveyard,
 }
 
 impl Buffer {
@@ -46,7 +48,8 @@ impl Buffer {
                 return Err(Error::Allocation { name: name.into(), source });
             }
         };
-        let buffer = Self { handle, size: requirements.size, allocation };
+        let yard = gpu.graveyard.clone();
+        let buffer = Self { handle, size: requirements.size, allocation, yard };
         // SAFETY: the allocation meets the buffer's requirements and is bound once.
         let bound = unsafe {
             gpu.device.bind_buffer_memory(
@@ -55,10 +58,7 @@ impl Buffer {
                 buffer.allocation.offset(),
             )
         };
-        if let Err(error) = bound.context(|| format!("vkBindBufferMemory {name}")) {
-            buffer.destroy(gpu);
-            return Err(error);
-        }
+        bound.context(|| format!("vkBindBufferMemory {name}"))?;
         gpu.name(handle, name);
         Ok(buffer)
     }
@@ -72,11 +72,11 @@ impl Buffer {
     pub fn mapped_mut(&mut self) -> &mut [u8] {
         self.allocation.mapped_slice_mut().unwrap_or_default()
     }
+}
 
-    /// Frees it. The GPU must be done with it.
-    pub fn destroy(self, gpu: &Gpu) {
-        // SAFETY: the caller guarantees the GPU is done; the handle is owned by self alone.
-        unsafe { gpu.device.destroy_buffer(self.handle, None) };
-        let _ = gpu.lock_allocator().free(self.allocation);
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        let memory = std::mem::take(&mut self.allocation);
+        self.yard.push(Grave::Buffer(self.handle, memory));
     }
 }

@@ -5,6 +5,7 @@
 use ash::vk;
 
 use super::Gpu;
+use super::graveyard::{Grave, Owned};
 use super::image::Image;
 use super::pipeline::Pipeline;
 use crate::error::{Error, VkContext};
@@ -36,7 +37,7 @@ impl Resource {
 
 /// One slot's pool.
 pub struct Descriptors {
-    pool: vk::DescriptorPool,
+    pool: Owned<vk::DescriptorPool>,
 }
 
 impl Descriptors {
@@ -55,14 +56,15 @@ impl Descriptors {
         let pool = unsafe { gpu.device.create_descriptor_pool(&info, None) }
             .context(|| "vkCreateDescriptorPool".into())?;
         gpu.name(pool, "slot/descriptors");
-        Ok(Self { pool })
+        Ok(Self { pool: gpu.own(pool, Grave::DescriptorPool) })
     }
 
     /// Gives all sets back. The slot's earlier work must be done.
     pub fn reset(&self, gpu: &Gpu) -> Result<(), Error> {
         // SAFETY: the contract says that the slot's earlier work is done.
         unsafe {
-            gpu.device.reset_descriptor_pool(self.pool, vk::DescriptorPoolResetFlags::empty())
+            gpu.device
+                .reset_descriptor_pool(self.pool.handle, vk::DescriptorPoolResetFlags::empty())
         }
         .context(|| "vkResetDescriptorPool".into())
     }
@@ -82,7 +84,7 @@ impl Descriptors {
         );
         let layouts = [pipeline.set_layout];
         let info = vk::DescriptorSetAllocateInfo::default()
-            .descriptor_pool(self.pool)
+            .descriptor_pool(self.pool.handle)
             .set_layouts(&layouts);
         // SAFETY: the pool is used by this slot alone.
         let set = unsafe { gpu.device.allocate_descriptor_sets(&info) }
@@ -140,12 +142,6 @@ impl Descriptors {
         pipeline.bind(gpu, cmd);
         bind_set(gpu, cmd, pipeline, set);
         Ok(())
-    }
-
-    /// Frees the pool. The GPU must be done with its sets.
-    pub fn destroy(&self, gpu: &Gpu) {
-        // SAFETY: the caller guarantees the GPU is done.
-        unsafe { gpu.device.destroy_descriptor_pool(self.pool, None) };
     }
 }
 

@@ -4,6 +4,7 @@ use ash::vk;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
 use super::Gpu;
+use super::graveyard::{Grave, Graveyard};
 use crate::error::{Error, VkContext};
 
 /// What an image is made from.
@@ -37,7 +38,7 @@ impl<'a> ImageDesc<'a> {
     }
 }
 
-/// An image with its memory; freed by [`Image::destroy`], leaked (safely) by a plain drop.
+/// An image with its memory.
 pub struct Image {
     /// The image.
     pub handle: vk::Image,
@@ -52,6 +53,7 @@ pub struct Image {
     /// Bytes of device memory.
     pub size: u64,
     allocation: Allocation,
+    yard: Graveyard,
 }
 
 impl Image {
@@ -104,14 +106,10 @@ impl Image {
             format: desc.format,
             size: requirements.size,
             allocation,
+            yard: gpu.graveyard.clone(),
         };
-        match image.bind(gpu, desc) {
-            Ok(()) => Ok(image),
-            Err(error) => {
-                image.destroy(gpu);
-                Err(error)
-            }
-        }
+        image.bind(gpu, desc)?;
+        Ok(image)
     }
 
     fn bind(&mut self, gpu: &Gpu, desc: &ImageDesc<'_>) -> Result<(), Error> {
@@ -132,17 +130,12 @@ impl Image {
         }
         Ok(())
     }
+}
 
-    /// Frees it. The GPU must be done with it.
-    pub fn destroy(self, gpu: &Gpu) {
-        // SAFETY: the caller guarantees the GPU is done; each handle is owned by self alone.
-        unsafe {
-            gpu.device.destroy_image_view(self.view, None);
-            gpu.device.destroy_image_view(self.alias_view, None);
-            gpu.device.destroy_image(self.handle, None);
-        }
-        // The only failure is a broken allocator; the memory then stays with it.
-        let _ = gpu.lock_allocator().free(self.allocation);
+impl Drop for Image {
+    fn drop(&mut self) {
+        let memory = std::mem::take(&mut self.allocation);
+        self.yard.push(Grave::Image(self.handle, [self.view, self.alias_view], memory));
     }
 }
 

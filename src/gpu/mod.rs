@@ -4,6 +4,7 @@
 pub mod access;
 pub mod buffer;
 pub mod descriptors;
+pub mod graveyard;
 pub mod image;
 pub mod pipeline;
 pub mod requirements;
@@ -19,6 +20,7 @@ use gpu_allocator::vulkan::Allocator;
 
 use crate::contract::{Enabled, Host};
 use crate::error::{Error, VkContext};
+use graveyard::{Grave, Graveyard, Owned};
 
 /// The host's device and what is known of it. Shared by everything a renderer owns.
 pub struct Gpu {
@@ -41,6 +43,8 @@ pub struct Gpu {
     pipeline_cache: vk::PipelineCache,
     debug: Option<ash::ext::debug_utils::Device>,
     allocator: Arc<Mutex<Allocator>>,
+    graveyard: Graveyard,
+    own_samplers: Vec<Owned<vk::Sampler>>,
 }
 
 /// The samplers there are; all clamp to the edge.
@@ -92,10 +96,12 @@ impl Gpu {
             // SAFETY: valid create info.
             unsafe { host.device.create_sampler(&info, None) }.context(|| "vkCreateSampler".into())
         };
-        let samplers = Samplers {
-            nearest: sampler(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?,
-            linear: sampler(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
-        };
+        let graveyard = Graveyard::default();
+        let own = |handle| Owned::new(handle, Grave::Sampler, &graveyard);
+        let nearest = own(sampler(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?);
+        let linear =
+            own(sampler(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?);
+        let samplers = Samplers { nearest: nearest.handle, linear: linear.handle };
         Ok(Arc::new(Self {
             device: host.device.clone(),
             enabled: host.enabled,
@@ -114,6 +120,8 @@ impl Gpu {
                 .debug_utils
                 .then(|| ash::ext::debug_utils::Device::new(host.instance, host.device)),
             allocator: host.allocator.clone(),
+            graveyard,
+            own_samplers: vec![nearest, linear],
         }))
     }
 
@@ -153,13 +161,17 @@ impl Gpu {
     pub fn is_cpu(&self) -> bool {
         self.kind == vk::PhysicalDeviceType::CPU
     }
+}
 
-    /// Frees the shared objects. The GPU must be done with them.
-    pub fn destroy(&self) {
-        // SAFETY: the caller guarantees the GPU is done and no pass is left.
-        unsafe {
-            self.device.destroy_sampler(self.samplers.nearest, None);
-            self.device.destroy_sampler(self.samplers.linear, None);
+impl Gpu {
+    /// Frees the shared objects too: the last call. The GPU must be done with everything.
+    pub fn destroy(self: Arc<Self>) {
+        self.bury();
+        // Only the samplers are left, and nobody else holds the device's state.
+        if let Ok(mut gpu) = Arc::try_unwrap(self) {
+            let samplers = std::mem::take(&mut gpu.own_samplers);
+            drop(samplers);
+            gpu.bury();
         }
     }
 }

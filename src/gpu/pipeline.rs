@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use ash::vk;
 
 use super::Gpu;
+use super::graveyard::{Grave, Graveyard, Owned};
 use super::shader::Shader;
 use crate::error::{Error, VkContext};
 
@@ -26,6 +27,7 @@ pub struct Pipeline {
     pub name: &'static str,
     stages: vk::ShaderStageFlags,
     push_size: u32,
+    yard: Graveyard,
 }
 
 /// What differs between the graphics pipelines here: no vertex input, no depth test, dynamic
@@ -268,6 +270,7 @@ impl Pipeline {
             name,
             stages,
             push_size,
+            yard: gpu.graveyard.clone(),
         })
     }
 
@@ -285,7 +288,6 @@ impl Pipeline {
                 Ok(pipelines[0])
             }
             Err((_, result)) => {
-                self.destroy(gpu);
                 Err(Error::Vulkan { call: format!("{call} {}", self.name), result })
             }
         }
@@ -304,15 +306,11 @@ impl Pipeline {
         // SAFETY: cmd is recording; size and stages are those of the layout.
         unsafe { gpu.device.cmd_push_constants(cmd, self.layout, self.stages, 0, bytes) };
     }
+}
 
-    /// Frees it. The GPU must be done with it.
-    pub fn destroy(&self, gpu: &Gpu) {
-        // SAFETY: the caller guarantees the GPU is done.
-        unsafe {
-            gpu.device.destroy_pipeline(self.handle, None);
-            gpu.device.destroy_pipeline_layout(self.layout, None);
-            gpu.device.destroy_descriptor_set_layout(self.set_layout, None);
-        }
+impl Drop for Pipeline {
+    fn drop(&mut self) {
+        self.yard.push(Grave::Pipeline(self.handle, self.layout, self.set_layout));
     }
 }
 
@@ -332,7 +330,7 @@ impl Gpu {
         name: &str,
         format: vk::Format,
         load: vk::AttachmentLoadOp,
-    ) -> Result<vk::RenderPass, Error> {
+    ) -> Result<Owned<vk::RenderPass>, Error> {
         let layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
         let attachments = [vk::AttachmentDescription::default()
             .format(format)
@@ -353,7 +351,7 @@ impl Gpu {
         let pass = unsafe { self.device.create_render_pass(&info, None) }
             .context(|| format!("vkCreateRenderPass {name}"))?;
         self.name(pass, name);
-        Ok(pass)
+        Ok(self.own(pass, Grave::RenderPass))
     }
 
     /// A framebuffer of one view.
@@ -363,7 +361,7 @@ impl Gpu {
         pass: vk::RenderPass,
         view: vk::ImageView,
         extent: vk::Extent2D,
-    ) -> Result<vk::Framebuffer, Error> {
+    ) -> Result<Owned<vk::Framebuffer>, Error> {
         let views = [view];
         let info = vk::FramebufferCreateInfo::default()
             .render_pass(pass)
@@ -375,7 +373,7 @@ impl Gpu {
         let framebuffer = unsafe { self.device.create_framebuffer(&info, None) }
             .context(|| format!("vkCreateFramebuffer {name}"))?;
         self.name(framebuffer, name);
-        Ok(framebuffer)
+        Ok(self.own(framebuffer, Grave::Framebuffer))
     }
 
     /// Begins a colour pass over an area, with viewport and scissor set to it.

@@ -6,6 +6,7 @@ use std::ffi::CStr;
 use ash::vk;
 
 use super::Gpu;
+use super::graveyard::{Grave, Owned};
 use crate::error::{Error, VkContext};
 
 /// Scopes a frame may have.
@@ -24,7 +25,8 @@ pub struct Timing {
 
 /// One slot's timestamps.
 pub struct Timer {
-    pool: vk::QueryPool,
+    /// None where the queue has no timestamps.
+    pool: Option<Owned<vk::QueryPool>>,
     names: Vec<&'static str>,
     /// The scopes of the frame that was recorded last are not read yet.
     pending: bool,
@@ -34,15 +36,16 @@ pub struct Timer {
 impl Timer {
     /// Makes the query pool (none where the queue has no timestamps).
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
-        let mut pool = vk::QueryPool::null();
+        let mut pool = None;
         if gpu.timestamp_bits > 0 {
             let info = vk::QueryPoolCreateInfo::default()
                 .query_type(vk::QueryType::TIMESTAMP)
                 .query_count(2 * MAX_SCOPES);
             // SAFETY: valid create info.
-            pool = unsafe { gpu.device.create_query_pool(&info, None) }
+            let handle = unsafe { gpu.device.create_query_pool(&info, None) }
                 .context(|| "vkCreateQueryPool slot/timestamps".into())?;
-            gpu.name(pool, "slot/timestamps");
+            gpu.name(handle, "slot/timestamps");
+            pool = Some(gpu.own(handle, Grave::QueryPool));
         }
         Ok(Self {
             pool,
@@ -57,9 +60,9 @@ impl Timer {
         self.read(gpu);
         self.names.clear();
         self.pending = true;
-        if self.pool != vk::QueryPool::null() {
+        if let Some(pool) = &self.pool {
             // SAFETY: cmd is recording outside a render pass; the slot's earlier work is done.
-            unsafe { gpu.device.cmd_reset_query_pool(cmd, self.pool, 0, 2 * MAX_SCOPES) };
+            unsafe { gpu.device.cmd_reset_query_pool(cmd, pool.handle, 0, 2 * MAX_SCOPES) };
         }
     }
 
@@ -83,13 +86,13 @@ impl Timer {
     }
 
     fn write(&self, gpu: &Gpu, cmd: vk::CommandBuffer, query: u32) {
-        if self.pool != vk::QueryPool::null() {
+        if let Some(pool) = &self.pool {
             // SAFETY: cmd is recording; the query was reset at the start of the frame.
             unsafe {
                 gpu.device.cmd_write_timestamp2(
                     cmd,
                     vk::PipelineStageFlags2::ALL_COMMANDS,
-                    self.pool,
+                    pool.handle,
                     query,
                 );
             }
@@ -98,14 +101,12 @@ impl Timer {
 
     fn read(&mut self, gpu: &Gpu) {
         let count = self.names.len();
-        if !self.pending || self.pool == vk::QueryPool::null() || count == 0 {
-            return;
-        }
+        let Some(pool) = self.pool.as_ref().filter(|_| self.pending && count > 0) else { return };
         let mut raw = [0u64; 2 * MAX_SCOPES as usize];
         // SAFETY: the pool is alive; 64-bit results of the queries of this frame.
         let read = unsafe {
             gpu.device.get_query_pool_results(
-                self.pool,
+                pool.handle,
                 0,
                 &mut raw[..2 * count],
                 vk::QueryResultFlags::TYPE_64,
@@ -138,12 +139,6 @@ impl Timer {
     /// Forgets a frame that was recorded but never submitted.
     pub fn abandon(&mut self) {
         self.pending = false;
-    }
-
-    /// Frees the pool. The GPU must be done with it.
-    pub fn destroy(&self, gpu: &Gpu) {
-        // SAFETY: the caller guarantees the GPU is done; null is allowed.
-        unsafe { gpu.device.destroy_query_pool(self.pool, None) };
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod device;
 mod readback;
+pub mod scene;
 
 use std::sync::Arc;
 
@@ -11,6 +12,7 @@ use gpu_allocator::MemoryLocation;
 
 pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
+use scene::{Scene, SceneFrame, SceneRenderer};
 
 use crate::contract::{
     Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
@@ -21,6 +23,8 @@ use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
 use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Descriptors;
+use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::timing::Timing;
 use crate::renderer::Renderer;
@@ -69,6 +73,8 @@ pub struct Counts {
 pub enum Background<'a> {
     /// One colour, nothing in front of the far plane.
     Color([f32; 3]),
+    /// The scene handed to [`Headless::scene`].
+    Scene,
     /// Pictures from the CPU, row by row: linear RGBA and device depth.
     Images {
         /// width × height linear RGBA.
@@ -94,6 +100,7 @@ pub struct Headless {
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
+    scene: Option<Stage>,
     device: Device,
 }
 
@@ -138,6 +145,7 @@ impl Headless {
             count: 0,
             layers: Vec::new(),
             counts: None,
+            scene: None,
             device,
         };
         headless.run(|this, cmd| {
@@ -297,6 +305,47 @@ impl Headless {
         }
     }
 
+    /// The scene to stand behind the water, drawn by [`Background::Scene`]; `antialias`: four
+    /// samples a pixel in its colour. Its light is baked: a new sun needs a new scene.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn scene(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
+        if let Some(old) = self.scene.take() {
+            old.renderer.destroy(&self.gpu);
+        }
+        let renderer = SceneRenderer::new(&self.gpu, scene, COLOR_FORMAT, DEPTH_FORMAT, antialias)?;
+        let descriptors = Descriptors::new(&self.gpu, renderer.sets())?;
+        self.scene = Some(Stage { renderer, descriptors });
+        self.run(|this, cmd| {
+            if let Some(stage) = &this.scene {
+                stage.renderer.record_setup(&this.gpu, cmd);
+            }
+            Ok(())
+        })?;
+        if let Some(stage) = &mut self.scene {
+            stage.renderer.finish_setup(&self.gpu);
+        }
+        Ok(())
+    }
+
+    fn draw_scene(&mut self, cmd: vk::CommandBuffer, camera: &Camera) -> Result<(), Error> {
+        let Some(stage) = &mut self.scene else {
+            return Err(Error::bad("Background::Scene", "no scene was handed in"));
+        };
+        stage.descriptors.reset(&self.gpu)?;
+        let frame = SceneFrame {
+            slot: Slot(0),
+            descriptors: &stage.descriptors,
+            camera,
+            color: &self.color,
+            depth: &self.depth,
+            environment: self.renderer.environment_view(),
+            sampler: self.gpu.samplers.linear,
+        };
+        stage.renderer.record(&self.gpu, cmd, &frame)
+    }
+
     /// Uploads the particles of a frame.
     ///
     /// # Errors
@@ -405,7 +454,7 @@ impl Headless {
                     self.staging(bytemuck::cast_slice(depth))?,
                 ))
             }
-            Background::Color(_) => None,
+            Background::Color(_) | Background::Scene => None,
         };
         let result = self.run_parts(|this, cmd| {
             match (background, &staging) {
@@ -414,6 +463,7 @@ impl Headless {
                     this.upload(cmd, depth, &this.depth, DEPTH_REST, DEPTH_REST);
                 }
                 (Background::Color(color), None) => this.clear(cmd, *color, camera),
+                (Background::Scene, None) => this.draw_scene(cmd, camera)?,
                 _ => {}
             }
             let frame = Frame {
@@ -654,22 +704,26 @@ impl Headless {
     /// Device loss.
     pub fn finish(self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
-        let gpu = self.gpu;
+        let Self { gpu, renderer, color, depth, pool, fence, positions, densities, .. } = self;
         // SAFETY: the device is idle, or lost.
         unsafe {
-            gpu.device.destroy_fence(self.fence, None);
-            gpu.device.destroy_command_pool(self.pool, None);
-            self.renderer.destroy();
+            gpu.device.destroy_fence(fence, None);
+            gpu.device.destroy_command_pool(pool, None);
+            renderer.destroy();
         }
-        for buffer in [self.positions, self.densities].into_iter().flatten() {
-            buffer.destroy(&gpu);
+        drop((color, depth, positions, densities));
+        if let Some(scene) = self.scene {
+            scene.renderer.destroy(&gpu);
         }
-        self.color.destroy(&gpu);
-        self.depth.destroy(&gpu);
         gpu.destroy();
-        drop(gpu);
         idle.map(|()| self.device)
     }
+}
+
+/// The stand-in scene with the sets of its frame.
+struct Stage {
+    renderer: SceneRenderer,
+    descriptors: Descriptors,
 }
 
 fn begin(gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {

@@ -182,12 +182,6 @@ impl SphereList {
     pub fn memory(&self) -> u64 {
         self.counts.size + self.spheres.size
     }
-
-    /// Frees it. The GPU must be done with it.
-    pub fn destroy(self, gpu: &Gpu) {
-        self.counts.destroy(gpu);
-        self.spheres.destroy(gpu);
-    }
 }
 
 /// The pass.
@@ -401,13 +395,6 @@ impl Cull {
             );
         }
         Ok(())
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        for pipeline in [&self.begin, &self.each, &self.packets, &self.end] {
-            pipeline.destroy(gpu);
-        }
-        self.list.destroy(gpu);
     }
 }
 

@@ -17,9 +17,10 @@ use crate::gpu::access::{
     self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COPY_READ, FRAGMENT_SAMPLED,
 };
 use crate::gpu::descriptors::Resource;
+use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::Splat;
 
@@ -27,8 +28,16 @@ use crate::water::settings::Splat;
 const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ).and(COMPUTE_READ_WRITE);
 
 enum Path {
-    Raster { points: Pipeline, quads: Pipeline, pass: vk::RenderPass, framebuffer: vk::Framebuffer },
-    Compute { small: Pipeline, large: Pipeline },
+    Raster {
+        points: Pipeline,
+        quads: Pipeline,
+        pass: Owned<vk::RenderPass>,
+        framebuffer: Owned<vk::Framebuffer>,
+    },
+    Compute {
+        small: Pipeline,
+        large: Pipeline,
+    },
 }
 
 /// The pass.
@@ -76,10 +85,11 @@ impl Depth {
                     gpu,
                     shader::WATER_DEPTH_VERT,
                     shader::WATER_DEPTH_FRAG,
-                    pass,
+                    pass.handle,
                     vk::BlendOp::MIN,
                 )?;
-                let framebuffer = gpu.framebuffer("water/depth", pass, image.view, image.extent)?;
+                let framebuffer =
+                    gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
                 Path::Raster { points, quads, pass, framebuffer }
             }
             Splat::Compute => Path::Compute {
@@ -113,14 +123,14 @@ impl Depth {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
         let image = Self::image(gpu, config)?;
         if let Path::Raster { pass, framebuffer, .. } = &mut self.path {
-            let new = gpu.framebuffer("water/depth", *pass, image.view, image.extent)?;
-            retire(Retired::Framebuffer(std::mem::replace(framebuffer, new)));
+            let new = gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
+            retired.retire(std::mem::replace(framebuffer, new));
         }
-        retire(Retired::Image(std::mem::replace(&mut self.image, image)));
+        retired.retire(std::mem::replace(&mut self.image, image));
         Ok(())
     }
 
@@ -149,7 +159,7 @@ impl Depth {
                     &[],
                 );
                 let area = self.image.extent.into();
-                gpu.begin_pass(cmd, *pass, *framebuffer, area, [EMPTY, 0.0, 0.0, 0.0]);
+                gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [EMPTY, 0.0, 0.0, 0.0]);
                 draw_sprites(r, list, points, quads)?;
                 // SAFETY: the pass was begun above.
                 unsafe { gpu.device.cmd_end_render_pass(cmd) };
@@ -195,22 +205,6 @@ impl Depth {
         }
         r.end(scope);
         Ok(())
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        match self.path {
-            Path::Raster { points, quads, pass, framebuffer } => {
-                points.destroy(gpu);
-                quads.destroy(gpu);
-                Retired::Framebuffer(framebuffer).destroy(gpu);
-                Retired::RenderPass(pass).destroy(gpu);
-            }
-            Path::Compute { small, large } => {
-                small.destroy(gpu);
-                large.destroy(gpu);
-            }
-        }
-        self.image.destroy(gpu);
     }
 }
 

@@ -19,7 +19,7 @@ use crate::gpu::access::{CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE,
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
 /// Edge of a cell in pixels.
@@ -74,10 +74,10 @@ impl Front {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
         let (columns, rows, cells) = Self::cells(gpu, config)?;
-        retire(Retired::Buffer(std::mem::replace(&mut self.cells, cells)));
+        retired.retire(std::mem::replace(&mut self.cells, cells));
         (self.columns, self.rows) = (columns, rows);
         Ok(())
     }
@@ -157,12 +157,5 @@ impl Front {
 
     pub fn memory(&self) -> u64 {
         self.cells.size + self.list.memory()
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        self.cover.destroy(gpu);
-        self.keep.destroy(gpu);
-        self.cells.destroy(gpu);
-        self.list.destroy(gpu);
     }
 }

@@ -19,7 +19,7 @@ use crate::gpu::Gpu;
 use crate::gpu::access::Access;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::image::Image;
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 
 pub use settings::{Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
@@ -100,14 +100,14 @@ impl Water {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
-        self.front.resize(gpu, config, retire)?;
-        self.depth.resize(gpu, config, retire)?;
-        self.reduce.resize(gpu, config, retire)?;
-        self.tiles.resize(gpu, config, retire)?;
-        self.smooth.resize(gpu, config, retire)?;
-        self.thickness.resize(gpu, config, retire)
+        self.front.resize(gpu, config, retired)?;
+        self.depth.resize(gpu, config, retired)?;
+        self.reduce.resize(gpu, config, retired)?;
+        self.tiles.resize(gpu, config, retired)?;
+        self.smooth.resize(gpu, config, retired)?;
+        self.thickness.resize(gpu, config, retired)
     }
 
     /// The passes of a frame.
@@ -179,15 +179,5 @@ impl Water {
                 + self.smooth.memory()
                 + self.thickness.memory(),
         }
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        self.cull.destroy(gpu);
-        self.front.destroy(gpu);
-        self.depth.destroy(gpu);
-        self.reduce.destroy(gpu);
-        self.tiles.destroy(gpu);
-        self.smooth.destroy(gpu);
-        self.thickness.destroy(gpu);
     }
 }

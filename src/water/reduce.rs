@@ -21,7 +21,7 @@ use crate::gpu::access::{
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::Rule;
 
@@ -71,10 +71,10 @@ impl Reduce {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
         let plan = Self::plan(gpu, config)?;
-        retire(Retired::Image(std::mem::replace(&mut self.plan, plan)));
+        retired.retire(std::mem::replace(&mut self.plan, plan));
         Ok(())
     }
 
@@ -123,10 +123,5 @@ impl Reduce {
         );
         r.end(scope);
         Ok(())
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        self.pipeline.destroy(gpu);
-        self.plan.destroy(gpu);
     }
 }

@@ -22,7 +22,7 @@ use crate::gpu::access::{
 use crate::gpu::descriptors::{Resource, bind_set};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::{Rule, Smoothing};
 
@@ -118,14 +118,14 @@ impl Smooth {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
         let (a, b) = Self::images(gpu, config)?;
         if let Form::Query(query) = &mut self.form {
-            query.resize(gpu, &a, &b, retire)?;
+            query.resize(gpu, &a, &b, retired)?;
         }
-        retire(Retired::Image(std::mem::replace(&mut self.a, a)));
-        retire(Retired::Image(std::mem::replace(&mut self.b, b)));
+        retired.retire(std::mem::replace(&mut self.a, a));
+        retired.retire(std::mem::replace(&mut self.b, b));
         Ok(())
     }
 
@@ -264,15 +264,6 @@ impl Smooth {
             Form::Query(query) => query.results.size + query.predicates.size,
             _ => 0,
         }
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        match self.form {
-            Form::Tiles(pipeline) | Form::Fused(pipeline) => pipeline.destroy(gpu),
-            Form::Query(query) => query.destroy(gpu),
-        }
-        self.a.destroy(gpu);
-        self.b.destroy(gpu);
     }
 }
 

@@ -22,9 +22,10 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Resource, bind_set};
+use crate::gpu::graveyard::{Grave, Owned};
 use crate::gpu::image::Image;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::{Gate, Rule};
 
@@ -44,14 +45,14 @@ struct Push {
 /// The form's state.
 pub struct Query {
     gate: Gate,
-    pass: vk::RenderPass,
+    pass: Owned<vk::RenderPass>,
     /// Of image `a`, of image `b`.
-    framebuffers: [vk::Framebuffer; 2],
+    framebuffers: [Owned<vk::Framebuffer>; 2],
     iterate: Pipeline,
     count: Pipeline,
     copy: Pipeline,
     write_gate: Pipeline,
-    pool: vk::QueryPool,
+    pool: Owned<vk::QueryPool>,
     /// Samples active in iterations 5, 10, …; 0 for blocks that did not run.
     pub results: Buffer,
     /// One word a block, [`PREDICATE_STRIDE`] apart.
@@ -93,7 +94,7 @@ impl Query {
                     vertex: shader::WATER_SMOOTH_VERT,
                     fragment: shader::WATER_SMOOTH_FRAG,
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                    pass,
+                    pass: pass.handle,
                     blend,
                     constants: &[(0, cull), (1, rule_constant(rule)), (2, task)],
                 },
@@ -108,13 +109,16 @@ impl Query {
         let pool = unsafe { gpu.device.create_query_pool(&info, None) }
             .context(|| "vkCreateQueryPool water/smooth".into())?;
         gpu.name(pool, "water/smooth/active");
+        let pool = gpu.own(pool, Grave::QueryPool);
+        let (iterate, count, copy) =
+            (make(0, no_blend())?, make(1, unwritten)?, make(2, no_blend())?);
         Ok(Self {
             gate,
+            framebuffers: Self::framebuffers(gpu, pass.handle, a, b)?,
+            iterate,
+            count,
+            copy,
             pass,
-            framebuffers: Self::framebuffers(gpu, pass, a, b)?,
-            iterate: make(0, no_blend())?,
-            count: make(1, unwritten)?,
-            copy: make(2, no_blend())?,
             write_gate: Pipeline::compute(gpu, shader::WATER_SMOOTH_GATE_COMP, &[])?,
             pool,
             results: Buffer::new(
@@ -149,7 +153,7 @@ impl Query {
         pass: vk::RenderPass,
         a: &Image,
         b: &Image,
-    ) -> Result<[vk::Framebuffer; 2], Error> {
+    ) -> Result<[Owned<vk::Framebuffer>; 2], Error> {
         Ok([
             gpu.framebuffer("water/smooth/a", pass, a.view, a.extent)?,
             gpu.framebuffer("water/smooth/b", pass, b.view, b.extent)?,
@@ -161,11 +165,11 @@ impl Query {
         gpu: &Gpu,
         a: &Image,
         b: &Image,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let new = Self::framebuffers(gpu, self.pass, a, b)?;
+        let new = Self::framebuffers(gpu, self.pass.handle, a, b)?;
         for old in std::mem::replace(&mut self.framebuffers, new) {
-            retire(Retired::Framebuffer(old));
+            retired.retire(old);
         }
         Ok(())
     }
@@ -236,7 +240,7 @@ impl Query {
             let first: [u32; 8] = [1, 0, 0, 0, 0, 0, 0, 0];
             let bytes = bytemuck::bytes_of(&first);
             gpu.device.cmd_update_buffer(cmd, self.predicates.handle, 0, bytes);
-            gpu.device.cmd_reset_query_pool(cmd, self.pool, 0, self.blocks);
+            gpu.device.cmd_reset_query_pool(cmd, self.pool.handle, 0, self.blocks);
         }
         gpu.barriers(cmd, &[], &[buffer(self.predicates.handle, CLEAR, self.gate_use())]);
 
@@ -271,7 +275,7 @@ impl Query {
             // Labels stay within a command buffer: lavapipe does not survive one that spans two.
             gpu.end_label(r.cmd);
             gpu.end_label(r.cmd);
-            let (next, any) = read_back(r.cmd, self.pool, block)?;
+            let (next, any) = read_back(r.cmd, self.pool.handle, block)?;
             r.cmd = next;
             gpu.begin_label(r.cmd, c"whitewater");
             gpu.begin_label(r.cmd, c"smooth");
@@ -304,7 +308,7 @@ impl Query {
         let barrier = access::image(image, FRAGMENT_SAMPLED, COLOR_ATTACHMENT);
         r.gpu.barriers(r.cmd, &[barrier], &[]);
         let area = image.extent.into();
-        r.gpu.begin_pass(r.cmd, self.pass, self.framebuffers[index], area, [0.0; 4]);
+        r.gpu.begin_pass(r.cmd, self.pass.handle, self.framebuffers[index].handle, area, [0.0; 4]);
     }
 
     /// Ends it; the image is sampled next.
@@ -371,10 +375,10 @@ impl Query {
             vk::QueryControlFlags::empty()
         };
         // SAFETY: inside a render pass; the query was reset at the start, no other is active.
-        unsafe { r.gpu.device.cmd_begin_query(r.cmd, self.pool, query, flags) };
+        unsafe { r.gpu.device.cmd_begin_query(r.cmd, self.pool.handle, query, flags) };
         self.draw(r, &self.count, set, push, tiles);
         // SAFETY: begun above.
-        unsafe { r.gpu.device.cmd_end_query(r.cmd, self.pool, query) };
+        unsafe { r.gpu.device.cmd_end_query(r.cmd, self.pool.handle, query) };
     }
 
     /// The block's count to the next block's predicate.
@@ -384,7 +388,7 @@ impl Query {
         unsafe {
             gpu.device.cmd_copy_query_pool_results(
                 cmd,
-                self.pool,
+                self.pool.handle,
                 block,
                 1,
                 self.results.handle,
@@ -414,18 +418,5 @@ impl Query {
                 buffer(self.predicates.handle, COMPUTE_WRITE, self.gate_use()),
             ],
         );
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        for pipeline in [&self.iterate, &self.count, &self.copy, &self.write_gate] {
-            pipeline.destroy(gpu);
-        }
-        for framebuffer in self.framebuffers {
-            Retired::Framebuffer(framebuffer).destroy(gpu);
-        }
-        Retired::RenderPass(self.pass).destroy(gpu);
-        Retired::QueryPool(self.pool).destroy(gpu);
-        self.results.destroy(gpu);
-        self.predicates.destroy(gpu);
     }
 }

@@ -24,9 +24,10 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
+use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::Splat;
 
@@ -34,8 +35,18 @@ use crate::water::settings::Splat;
 const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ);
 
 enum Path {
-    Raster { points: Pipeline, quads: Pipeline, pass: vk::RenderPass, framebuffer: vk::Framebuffer },
-    Compute { small: Pipeline, large: Pipeline, resolve: Pipeline, sums: Buffer },
+    Raster {
+        points: Pipeline,
+        quads: Pipeline,
+        pass: Owned<vk::RenderPass>,
+        framebuffer: Owned<vk::Framebuffer>,
+    },
+    Compute {
+        small: Pipeline,
+        large: Pipeline,
+        resolve: Pipeline,
+        sums: Buffer,
+    },
 }
 
 /// The pass.
@@ -56,11 +67,11 @@ impl Thickness {
                     gpu,
                     shader::WATER_THICKNESS_VERT,
                     shader::WATER_THICKNESS_FRAG,
-                    pass,
+                    pass.handle,
                     vk::BlendOp::ADD,
                 )?;
                 let framebuffer =
-                    gpu.framebuffer("water/thickness", pass, image.view, image.extent)?;
+                    gpu.framebuffer("water/thickness", pass.handle, image.view, image.extent)?;
                 Path::Raster { points, quads, pass, framebuffer }
             }
             Splat::Compute => Path::Compute {
@@ -102,20 +113,21 @@ impl Thickness {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
         let image = Self::image(gpu, config)?;
         match &mut self.path {
             Path::Raster { pass, framebuffer, .. } => {
-                let new = gpu.framebuffer("water/thickness", *pass, image.view, image.extent)?;
-                retire(Retired::Framebuffer(std::mem::replace(framebuffer, new)));
+                let new =
+                    gpu.framebuffer("water/thickness", pass.handle, image.view, image.extent)?;
+                retired.retire(std::mem::replace(framebuffer, new));
             }
             Path::Compute { sums, .. } => {
                 let new = Self::sums(gpu, &image)?;
-                retire(Retired::Buffer(std::mem::replace(sums, new)));
+                retired.retire(std::mem::replace(sums, new));
             }
         }
-        retire(Retired::Image(std::mem::replace(&mut self.image, image)));
+        retired.retire(std::mem::replace(&mut self.image, image));
         Ok(())
     }
 
@@ -129,7 +141,13 @@ impl Thickness {
                     &[access::image(&self.image, BEFORE.discarded(), COLOR_ATTACHMENT)],
                     &[],
                 );
-                gpu.begin_pass(cmd, *pass, *framebuffer, self.image.extent.into(), [0.0; 4]);
+                gpu.begin_pass(
+                    cmd,
+                    pass.handle,
+                    framebuffer.handle,
+                    self.image.extent.into(),
+                    [0.0; 4],
+                );
                 draw_sprites(r, list, points, quads)?;
                 // SAFETY: the pass was begun above.
                 unsafe { gpu.device.cmd_end_render_pass(cmd) };
@@ -183,23 +201,5 @@ impl Thickness {
             Path::Raster { .. } => 0,
             Path::Compute { sums, .. } => sums.size,
         }
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        match self.path {
-            Path::Raster { points, quads, pass, framebuffer } => {
-                points.destroy(gpu);
-                quads.destroy(gpu);
-                Retired::Framebuffer(framebuffer).destroy(gpu);
-                Retired::RenderPass(pass).destroy(gpu);
-            }
-            Path::Compute { small, large, resolve, sums } => {
-                small.destroy(gpu);
-                large.destroy(gpu);
-                resolve.destroy(gpu);
-                sums.destroy(gpu);
-            }
-        }
-        self.image.destroy(gpu);
     }
 }

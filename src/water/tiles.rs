@@ -18,7 +18,7 @@ use crate::gpu::access::{COMPUTE_READ, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buf
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
-use crate::gpu::retire::Retired;
+use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
 /// Edge of a tile in reduced pixels.
@@ -82,12 +82,12 @@ impl Tiles {
         &mut self,
         gpu: &Gpu,
         config: &Config,
-        retire: &mut dyn FnMut(Retired),
+        retired: &mut RetireList,
     ) -> Result<(), Error> {
         let (columns, count) = grid(config);
         let (work, list) = Self::sized(gpu, count)?;
-        retire(Retired::Buffer(std::mem::replace(&mut self.work, work)));
-        retire(Retired::Buffer(std::mem::replace(&mut self.list, list)));
+        retired.retire(std::mem::replace(&mut self.work, work));
+        retired.retire(std::mem::replace(&mut self.list, list));
         (self.columns, self.count) = (columns, count);
         Ok(())
     }
@@ -131,13 +131,6 @@ impl Tiles {
 
     pub fn memory(&self) -> u64 {
         self.work.size + self.list.size + self.arguments.size
-    }
-
-    pub fn destroy(self, gpu: &Gpu) {
-        self.pipeline.destroy(gpu);
-        self.work.destroy(gpu);
-        self.list.destroy(gpu);
-        self.arguments.destroy(gpu);
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Vertex {
     pub light: [f32; 4],
     /// Albedo of what is seen beside the sky, weighted by how much of it is seen.
     pub around: [f32; 3],
+    /// How far the smooth surface that is meant bulges over the facets.
+    pub bulge: f32,
 }
 
 /// The triangles of one mesh in the index buffer.
@@ -89,7 +91,7 @@ pub const GROUND_FADE: [f32; 2] = [6.0, 45.0];
 /// A mesh in world space; vertices that cannot be drawn take their triangles with them.
 fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
     let normal_matrix = mesh.transform.inverse().transpose();
-    let vertices: Vec<Vertex> = mesh
+    let mut vertices: Vec<Vertex> = mesh
         .positions
         .iter()
         .enumerate()
@@ -103,16 +105,26 @@ fn world(mesh: &Mesh) -> (Vec<Vertex>, Vec<u32>) {
             }
         })
         .collect();
-    let fine = |&i: &u32| {
-        vertices.get(i as usize).is_some_and(|v| Vec3::from(v.position).is_finite())
-    };
-    let indices = mesh
+    let fine =
+        |&i: &u32| vertices.get(i as usize).is_some_and(|v| Vec3::from(v.position).is_finite());
+    let indices: Vec<u32> = mesh
         .indices
         .chunks_exact(3)
         .filter(|triangle| triangle.iter().all(fine))
         .flatten()
         .copied()
         .collect();
+    for t in indices.chunks_exact(3) {
+        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+            let (i, j) = (t[i] as usize, t[j] as usize);
+            let (p, q) = (vertices[i], vertices[j]);
+            // Of a circle's arc over a chord: an eighth of the chord times the turn.
+            let turn = Vec3::from(q.normal) - Vec3::from(p.normal);
+            let bulge = (0.125 * turn.dot(p_position(&q) - p_position(&p))).max(0.0);
+            vertices[i].bulge = p.bulge.max(bulge);
+            vertices[j].bulge = q.bulge.max(bulge);
+        }
+    }
     (vertices, indices)
 }
 
@@ -166,6 +178,7 @@ fn halfway(p: &Vertex, q: &Vertex) -> Vertex {
         position: p_position(p).midpoint(p_position(q)).to_array(),
         normal: normal.to_array(),
         uv: Vec2::from(p.uv).midpoint(q.uv.into()).to_array(),
+        bulge: p.bulge.max(q.bulge),
         ..Vertex::default()
     }
 }
@@ -295,7 +308,13 @@ impl Tracer {
             return;
         }
         let size = high - low;
-        let axis = if size.x >= size.max_element() { 0 } else if size.y >= size.z { 1 } else { 2 };
+        let axis = if size.x >= size.max_element() {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
         let middle = part.len() / 2;
         let key = |t: &Triangle| t.corner[axis] + (t.edges[0][axis] + t.edges[1][axis]) / 3.0;
         part.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)));
@@ -354,7 +373,12 @@ impl Tracer {
         let Some((y, albedo)) = self.ground else { return hit };
         let distance = (y - from.y) / along.y;
         if along.y < 0.0 && hit.as_ref().is_none_or(|hit| distance < hit.distance) {
-            return Some(Hit { distance: distance.max(0.0), normal: Vec3::Y, albedo, inside: false });
+            return Some(Hit {
+                distance: distance.max(0.0),
+                normal: Vec3::Y,
+                albedo,
+                inside: false,
+            });
         }
         hit
     }
@@ -476,7 +500,8 @@ mod tests {
 
     #[test]
     fn splitting_keeps_the_area_and_bounds_the_edges() {
-        let mesh = Mesh::cuboid([0.0; 3], [1.0, 0.5, 0.1], [0.0, 0.0, 0.0, 1.0], Material::default());
+        let mesh =
+            Mesh::cuboid([0.0; 3], [1.0, 0.5, 0.1], [0.0, 0.0, 0.0, 1.0], Material::default());
         let (mut vertices, mut indices) = world(&mesh);
         split(&mut vertices, &mut indices, 0.2);
         let mut area = 0.0;

@@ -3,13 +3,12 @@
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use glam::{Mat4, Vec3};
+use glam::Vec3;
 use serde::Deserialize;
 
 use super::shapes::FACES;
-use super::{Ground, Material, Mesh, Pattern, Scene, SunLight, Texture, Viewpoint};
+use super::{Ground, Material, Mesh, Pattern, Scene, SunLight, Viewpoint};
 use crate::environment::Sky;
 
 /// A scene file that could not be read.
@@ -23,7 +22,7 @@ pub struct SceneError {
 }
 
 /// Vertices and triangles that a file may have.
-const MOST: usize = 20_000_000;
+pub(super) const MOST: usize = 20_000_000;
 
 impl Scene {
     /// Reads a scene by its file's extension: `.glb`, `.obj` or `.json`.
@@ -47,12 +46,12 @@ impl Scene {
     /// Reads the default scene of a glTF file: triangles, base colours and base colour textures.
     ///
     /// # Errors
-    /// The file cannot be read, is no glTF 2.0, or has what is not supported here: sparse or
-    /// compressed data.
+    /// The file cannot be read, is no glTF 2.0, or has what is not supported here: sparse,
+    /// compressed or base64 data.
     pub fn load_glb(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
-        Self::parse_glb(&bytes, path.parent()).map_err(|why| at(path, why))
+        super::gltf::parse(&bytes, path.parent()).map_err(|why| at(path, why))
     }
 
     /// Reads all faces of a Wavefront file as one mesh of the default material.
@@ -201,7 +200,8 @@ impl Scene {
             let inner = |face: usize| {
                 let normal = FACES[face];
                 let at = centre + normal * half;
-                let (a, b) = (at.dot(normal.abs()), (low.dot(normal.abs()), high.dot(normal.abs())));
+                let (a, b) =
+                    (at.dot(normal.abs()), (low.dot(normal.abs()), high.dot(normal.abs())));
                 let margin = 1e-3 * (b.1 - b.0);
                 part.name.starts_with("basin")
                     && basin.len() > 1
@@ -231,10 +231,9 @@ impl Scene {
         for part in file.spheres {
             positive(part.radius, "radius", &part.name)?;
             let material = material(&part.material, &part.name)?;
-            scene.meshes.push(Mesh {
-                name: part.name,
-                ..Mesh::sphere(part.centre, part.radius, material)
-            });
+            scene
+                .meshes
+                .push(Mesh { name: part.name, ..Mesh::sphere(part.centre, part.radius, material) });
         }
         if let Some(ground) = file.ground {
             let material = material(&ground.material, "ground")?;
@@ -282,8 +281,7 @@ impl Scene {
                         corners.push(*known.entry(key).or_insert_with(|| {
                             // Indices begin at 1; 0 says there is none.
                             mesh.positions.push(points[key[0] - 1]);
-                            let uv: [f32; 2] =
-                                if key[1] > 0 { uvs[key[1] - 1] } else { [0.0; 2] };
+                            let uv: [f32; 2] = if key[1] > 0 { uvs[key[1] - 1] } else { [0.0; 2] };
                             mesh.uvs.push([uv[0], 1.0 - uv[1]]);
                             mesh.normals.push(if key[2] > 0 {
                                 let n: [f32; 3] = normals[key[2] - 1];
@@ -360,7 +358,7 @@ fn corner(word: &str, counts: [usize; 3]) -> Result<[usize; 3], String> {
 }
 
 /// Normals for a mesh without: smooth over edges of less than 40 degrees, sharp elsewhere.
-fn make_normals(mesh: &mut Mesh) {
+pub(super) fn make_normals(mesh: &mut Mesh) {
     let crease = 40_f32.to_radians().cos();
     let place = |mesh: &Mesh, i: u32| mesh.positions[i as usize].map(f32::to_bits);
     let faces: Vec<Vec3> = mesh
@@ -397,211 +395,6 @@ fn make_normals(mesh: &mut Mesh) {
     }
     (mesh.positions, mesh.normals, mesh.uvs, mesh.indices) =
         (made.positions, made.normals, made.uvs, made.indices);
-}
-
-impl Scene {
-    fn parse_glb(bytes: &[u8], folder: Option<&Path>) -> Result<Self, String> {
-        let gltf::Gltf { document, blob } =
-            gltf::Gltf::from_slice(bytes).map_err(|error| error.to_string())?;
-        // The crate takes URIs apart with unwrap where they hold encoded bytes.
-        let uris = document.buffers().filter_map(|b| match b.source() {
-            gltf::buffer::Source::Uri(uri) => Some(uri),
-            gltf::buffer::Source::Bin => None,
-        });
-        let images = document.images().filter_map(|i| match i.source() {
-            gltf::image::Source::Uri { uri, .. } => Some(uri),
-            gltf::image::Source::View { .. } => None,
-        });
-        if let Some(uri) = uris.chain(images).find(|u| !u.starts_with("data:") && u.contains('%')) {
-            return Err(format!("expected a file name without escapes, found '{uri}'"));
-        }
-        let buffers = gltf::import_buffers(&document, folder, blob).map_err(|e| e.to_string())?;
-        for view in document.views() {
-            let end = view.offset().checked_add(view.length());
-            if end.is_none_or(|end| end > buffers[view.buffer().index()].len()) {
-                return Err(format!(
-                    "buffer view {}: {} bytes from {} on are outside of its buffer",
-                    view.index(),
-                    view.length(),
-                    view.offset()
-                ));
-            }
-        }
-        let mut textures: HashMap<usize, Arc<Texture>> = HashMap::new();
-        let mut scene = Self::default();
-        let nodes: Vec<_> = match document.default_scene().or_else(|| document.scenes().next()) {
-            Some(scene) => scene.nodes().collect(),
-            None => document.nodes().collect(),
-        };
-        let mut stack: Vec<_> = nodes.into_iter().map(|n| (n, Mat4::IDENTITY, 0)).collect();
-        let mut triangles = 0;
-        while let Some((node, parent, depth)) = stack.pop() {
-            if depth > 256 {
-                return Err("nodes are nested more than 256 deep, or are their own parents".into());
-            }
-            let transform = parent * Mat4::from_cols_array_2d(&node.transform().matrix());
-            stack.extend(node.children().map(|child| (child, transform, depth + 1)));
-            let Some(mesh) = node.mesh() else { continue };
-            for primitive in mesh.primitives() {
-                if primitive.mode() != gltf::mesh::Mode::Triangles {
-                    continue;
-                }
-                let name = node.name().or(mesh.name()).unwrap_or("mesh").to_owned();
-                let material = gltf_material(&primitive.material(), folder, &buffers, &mut textures)
-                    .map_err(|why| format!("mesh '{name}': {why}"))?;
-                let read = gltf_mesh(&primitive, &buffers)
-                    .map_err(|why| format!("mesh '{name}': {why}"))?;
-                triangles += read.indices.len() / 3;
-                if triangles > MOST || scene.meshes.len() > MOST {
-                    return Err(format!("more than {MOST} triangles or meshes"));
-                }
-                scene.meshes.push(Mesh { name, material, transform, ..read });
-            }
-        }
-        if scene.meshes.is_empty() {
-            return Err("expected a mesh of triangles, found none".into());
-        }
-        Ok(scene)
-    }
-}
-
-fn gltf_material(
-    material: &gltf::Material<'_>,
-    folder: Option<&Path>,
-    buffers: &[gltf::buffer::Data],
-    textures: &mut HashMap<usize, Arc<Texture>>,
-) -> Result<Material, String> {
-    let pbr = material.pbr_metallic_roughness();
-    let [r, g, b, _] = pbr.base_color_factor();
-    let mut made = Material::new([r, g, b], pbr.roughness_factor(), Pattern::Plain);
-    if let Some(info) = pbr.base_color_texture() {
-        let image = info.texture().source();
-        let index = image.index();
-        let texture = match textures.get(&index) {
-            Some(texture) => texture.clone(),
-            None => {
-                let data = gltf::image::Data::from_source(image.source(), folder, buffers)
-                    .map_err(|error| format!("image {index}: {error}"))?;
-                let texture = Arc::new(rgba8(data).map_err(|e| format!("image {index}: {e}"))?);
-                textures.insert(index, texture.clone());
-                texture
-            }
-        };
-        made.texture = Some(texture);
-    }
-    Ok(made)
-}
-
-fn rgba8(data: gltf::image::Data) -> Result<Texture, String> {
-    use gltf::image::Format;
-    let p = &data.pixels;
-    let data8 = match data.format {
-        Format::R8 => p.iter().map(|&v| [v, v, v, 255]).collect(),
-        Format::R8G8 => p.chunks_exact(2).map(|c| [c[0], c[0], c[0], c[1]]).collect(),
-        Format::R8G8B8 => p.chunks_exact(3).map(|c| [c[0], c[1], c[2], 255]).collect(),
-        Format::R8G8B8A8 => p.chunks_exact(4).map(|c| [c[0], c[1], c[2], c[3]]).collect(),
-        // The high bytes of little-endian 16-bit values.
-        Format::R16G16B16 => p.chunks_exact(6).map(|c| [c[1], c[3], c[5], 255]).collect(),
-        Format::R16G16B16A16 => p.chunks_exact(8).map(|c| [c[1], c[3], c[5], c[7]]).collect(),
-        other => return Err(format!("expected 8 or 16 bits of RGB or RGBA, found {other:?}")),
-    };
-    let texture = Texture { width: data.width, height: data.height, data: data8 };
-    let texels = u64::from(texture.width) * u64::from(texture.height);
-    if texels == 0 || texture.data.len() as u64 != texels {
-        return Err(format!("expected {texels} texels, found {}", texture.data.len()));
-    }
-    Ok(texture)
-}
-
-/// The crate's readers trust the types and may overflow: all that is checked before.
-fn check_accessor(
-    accessor: &gltf::Accessor<'_>,
-    what: &str,
-    dimensions: gltf::accessor::Dimensions,
-    types: &[gltf::accessor::DataType],
-) -> Result<(), String> {
-    if accessor.dimensions() != dimensions || !types.contains(&accessor.data_type()) {
-        return Err(format!(
-            "{what}: expected {dimensions:?} of {types:?}, found {:?} of {:?}",
-            accessor.dimensions(),
-            accessor.data_type()
-        ));
-    }
-    if accessor.sparse().is_some() {
-        return Err(format!("{what}: sparse accessors are not supported"));
-    }
-    let Some(view) = accessor.view() else {
-        return Err(format!("{what}: has no data (compressed meshes are not supported)"));
-    };
-    let size = accessor.size();
-    let stride = view.stride().unwrap_or(size);
-    let end = accessor
-        .count()
-        .checked_sub(1)
-        .and_then(|last| last.checked_mul(stride))
-        .and_then(|bytes| bytes.checked_add(size))
-        .and_then(|bytes| bytes.checked_add(accessor.offset()));
-    if stride < size || end.is_none_or(|end| end > view.length()) {
-        return Err(format!(
-            "{what}: {} elements {stride} bytes apart do not fit in {} bytes",
-            accessor.count(),
-            view.length()
-        ));
-    }
-    Ok(())
-}
-
-fn gltf_mesh(
-    primitive: &gltf::Primitive<'_>,
-    buffers: &[gltf::buffer::Data],
-) -> Result<Mesh, String> {
-    use gltf::Semantic;
-    use gltf::accessor::{DataType, Dimensions};
-    let check = |semantic, what, dimensions, types: &[DataType]| match primitive.get(&semantic) {
-        Some(accessor) => check_accessor(&accessor, what, dimensions, types).map(|()| true),
-        None => Ok(false),
-    };
-    if !check(Semantic::Positions, "POSITION", Dimensions::Vec3, &[DataType::F32])? {
-        return Err("has no positions".into());
-    }
-    let has_normals = check(Semantic::Normals, "NORMAL", Dimensions::Vec3, &[DataType::F32])?;
-    let types = [DataType::F32, DataType::U8, DataType::U16];
-    let set = primitive.material().pbr_metallic_roughness().base_color_texture();
-    let set = set.map_or(0, |info| info.tex_coord());
-    let has_uvs = check(Semantic::TexCoords(set), "TEXCOORD", Dimensions::Vec2, &types)?;
-    let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &data.0[..]));
-    let mut mesh = Mesh {
-        positions: reader.read_positions().ok_or("positions cannot be read")?.collect(),
-        ..Mesh::default()
-    };
-    let count = mesh.positions.len();
-    if let (true, Some(normals)) = (has_normals, reader.read_normals()) {
-        mesh.normals = normals.collect();
-    }
-    if let (true, Some(uvs)) = (has_uvs, reader.read_tex_coords(set)) {
-        mesh.uvs = uvs.into_f32().collect();
-    }
-    for (found, what) in [(mesh.normals.len(), "normals"), (mesh.uvs.len(), "coordinates")] {
-        if found != 0 && found != count {
-            return Err(format!("expected {count} {what}, found {found}"));
-        }
-    }
-    mesh.indices = match primitive.indices() {
-        Some(accessor) => {
-            let types = [DataType::U8, DataType::U16, DataType::U32];
-            check_accessor(&accessor, "indices", Dimensions::Scalar, &types)?;
-            reader.read_indices().ok_or("indices cannot be read")?.into_u32().collect()
-        }
-        None => (0..u32::try_from(count).map_err(|_| "more than 2^32 vertices")?).collect(),
-    };
-    if let Some(bad) = mesh.indices.iter().find(|&&i| i as usize >= count) {
-        return Err(format!("expected indices below {count}, found {bad}"));
-    }
-    mesh.indices.truncate(mesh.indices.len() / 3 * 3);
-    if mesh.normals.is_empty() {
-        make_normals(&mut mesh);
-    }
-    Ok(mesh)
 }
 
 #[cfg(test)]
@@ -669,45 +462,5 @@ mod tests {
             assert!(why.starts_with("line "), "{why}");
         }
         assert!(Scene::parse_obj(b"\xff\xfe\x00").is_err());
-    }
-
-    /// A triangle with every byte broken in turn: errors or meshes, never a panic.
-    #[test]
-    fn broken_glb_is_an_error() {
-        let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
-            "nodes":[{"mesh":0,"children":[1]},{"translation":[1,2,3]}],
-            "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
-            "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
-            "min":[0,0,0],"max":[1,1,0]},
-            {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
-            "bufferViews":[{"buffer":0,"byteLength":36},
-            {"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":44}]}"#;
-        let mut text = json.as_bytes().to_vec();
-        text.resize(text.len().next_multiple_of(4), b' ');
-        let mut data = Vec::new();
-        for v in [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
-            data.extend(v.to_le_bytes());
-        }
-        data.extend([0, 0, 1, 0, 2, 0, 0, 0]);
-        let mut glb = b"glTF".to_vec();
-        glb.extend(2_u32.to_le_bytes());
-        glb.extend((28 + text.len() as u32 + data.len() as u32).to_le_bytes());
-        glb.extend((text.len() as u32).to_le_bytes());
-        glb.extend(b"JSON");
-        glb.extend(&text);
-        glb.extend((data.len() as u32).to_le_bytes());
-        glb.extend(b"BIN\0");
-        glb.extend(&data);
-        let scene = Scene::parse_glb(&glb, None).expect("good");
-        assert_eq!(scene.meshes[0].indices, [0, 1, 2]);
-        assert_eq!(scene.meshes[0].normals[0], [0.0, 0.0, 1.0]);
-        for i in 0..glb.len() {
-            for value in [0, 1, b'0', b'9', b'-', b'"', 0x7f, 0xff] {
-                let mut broken = glb.clone();
-                broken[i] = value;
-                let _ = Scene::parse_glb(&broken, None);
-            }
-            let _ = Scene::parse_glb(&glb[..i], None);
-        }
     }
 }

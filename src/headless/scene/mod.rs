@@ -3,6 +3,7 @@
 //! the library draws its own.
 
 mod bake;
+mod gltf;
 mod load;
 mod renderer;
 mod shapes;
@@ -203,9 +204,8 @@ impl Material {
         let step = (texture.data.len() / 4096).max(1);
         let texels = texture.data.iter().step_by(step);
         let count = texels.len().max(1) as f32;
-        let sum = texels.fold(Vec3::ZERO, |sum, c| {
-            sum + Vec3::new(linear(c[0]), linear(c[1]), linear(c[2]))
-        });
+        let sum = texels
+            .fold(Vec3::ZERO, |sum, c| sum + Vec3::new(linear(c[0]), linear(c[1]), linear(c[2])));
         base * sum / count
     }
 }

@@ -26,6 +26,7 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource, bind_set};
+use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Pipeline, no_blend};
 use crate::gpu::shader::{self, Shader};
@@ -113,11 +114,7 @@ struct Push {
     pattern: [f32; 4],
 }
 
-shader::assert_layout!(
-    shader::HEADLESS_SCENE_FRAG,
-    "Push",
-    Push { turn, origin, color, pattern }
-);
+shader::assert_layout!(shader::HEADLESS_SCENE_FRAG, "Push", Push { turn, origin, color, pattern });
 
 /// What one record needs.
 #[derive(Clone, Copy)]
@@ -225,8 +222,8 @@ impl SceneRenderer {
         if !scene.sun.color.iter().all(|c| c.is_finite() && *c >= 0.0) {
             return Err(Error::bad("Scene.sun.color", "expected finite values of at least 0"));
         }
-        let counts = gpu.limits.framebuffer_color_sample_counts
-            & gpu.limits.framebuffer_depth_sample_counts;
+        let counts =
+            gpu.limits.framebuffer_color_sample_counts & gpu.limits.framebuffer_depth_sample_counts;
         let many = antialias && counts.contains(SAMPLES);
         let samples = if many { SAMPLES } else { vk::SampleCountFlags::TYPE_1 };
         let shadow_pass = depth_only_pass(gpu, "scene/shadow", vk::Format::D32_SFLOAT)?;
@@ -266,13 +263,8 @@ impl SceneRenderer {
                 vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
             ),
         )?;
-        let shadow_framebuffer = framebuffer(
-            gpu,
-            "scene/shadow",
-            shadow_pass,
-            &[shadow_map.view],
-            shadow_map.extent,
-        )?;
+        let shadow_framebuffer =
+            framebuffer(gpu, "scene/shadow", shadow_pass, &[shadow_map.view], shadow_map.extent)?;
         let (shadow_sampler, texture_sampler) = samplers(gpu)?;
 
         let baked = bake::bake(scene);
@@ -635,11 +627,8 @@ impl SceneRenderer {
     }
 
     fn set_compare(&self, gpu: &Gpu, cmd: vk::CommandBuffer, far: f32) {
-        let nearer = if far == 0.0 {
-            vk::CompareOp::GREATER_OR_EQUAL
-        } else {
-            vk::CompareOp::LESS_OR_EQUAL
-        };
+        let nearer =
+            if far == 0.0 { vk::CompareOp::GREATER_OR_EQUAL } else { vk::CompareOp::LESS_OR_EQUAL };
         // SAFETY: cmd is recording; dynamic in every pipeline here.
         unsafe { gpu.device.cmd_set_depth_compare_op(cmd, nearer) };
     }
@@ -686,12 +675,6 @@ impl SceneRenderer {
     /// Frees everything. The GPU must be done with it.
     pub fn destroy(mut self, gpu: &Gpu) {
         self.finish_setup(gpu);
-        for pipeline in [&self.shadow, &self.depth, &self.sky, &self.irradiance] {
-            pipeline.destroy(gpu);
-        }
-        for pipeline in self.meshes.values().chain(&self.depths) {
-            pipeline.destroy(gpu);
-        }
         // SAFETY: the caller guarantees that the GPU is done; null is allowed.
         unsafe {
             for framebuffer in self.framebuffers.iter().flatten() {
@@ -707,16 +690,11 @@ impl SceneRenderer {
         if let Some(images) = self.multisampled {
             images.destroy(gpu);
         }
-        self.shadow_map.destroy(gpu);
-        for image in self.textures {
-            image.destroy(gpu);
-        }
-        for buffer in self.uniforms {
-            buffer.destroy(gpu);
-        }
-        self.coefficients.destroy(gpu);
-        self.vertices.destroy(gpu);
-        self.indices.destroy(gpu);
+        // Images, buffers and pipelines.
+        drop((self.shadow_map, self.textures, self.uniforms, self.coefficients));
+        drop((self.vertices, self.indices, self.shadow, self.depth, self.depths));
+        drop((self.meshes, self.sky, self.irradiance));
+        gpu.bury();
     }
 }
 
@@ -836,10 +814,7 @@ fn texture_image(gpu: &Gpu, texture: &Texture, index: usize) -> Result<(Image, U
                 next.push(sum * 0.25);
             }
         }
-        sizes.push((
-            vk::Extent2D { width: nw as u32, height: nh as u32 },
-            bytes.len() as u64,
-        ));
+        sizes.push((vk::Extent2D { width: nw as u32, height: nh as u32 }, bytes.len() as u64));
         bytes.extend(next.iter().flat_map(|c| [to_byte(c.x), to_byte(c.y), to_byte(c.z), 255]));
         (level, w, h) = (next, nw, nh);
     }
@@ -1100,7 +1075,8 @@ fn graphics(gpu: &Gpu, desc: &Desc) -> Result<Pipeline, Error> {
         attribute(1, three, std::mem::offset_of!(Vertex, normal)),
         attribute(2, vk::Format::R32G32_SFLOAT, std::mem::offset_of!(Vertex, uv)),
         attribute(3, vk::Format::R32G32B32A32_SFLOAT, std::mem::offset_of!(Vertex, light)),
-        attribute(4, three, std::mem::offset_of!(Vertex, around)),
+        // With `bulge` behind it.
+        attribute(4, vk::Format::R32G32B32A32_SFLOAT, std::mem::offset_of!(Vertex, around)),
     ];
     let mut vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
     match desc.input {
@@ -1140,11 +1116,8 @@ fn graphics(gpu: &Gpu, desc: &Desc) -> Result<Pipeline, Error> {
     let attachments = [write];
     let color = vk::PipelineColorBlendStateCreateInfo::default();
     let color = if desc.has_color { color.attachments(&attachments) } else { color };
-    let dynamic_states = [
-        vk::DynamicState::VIEWPORT,
-        vk::DynamicState::SCISSOR,
-        vk::DynamicState::DEPTH_COMPARE_OP,
-    ];
+    let dynamic_states =
+        [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR, vk::DynamicState::DEPTH_COMPARE_OP];
     let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
     let info = vk::GraphicsPipelineCreateInfo::default()
         .vertex_input_state(&vertex_input)

@@ -7,12 +7,16 @@ use glam::{Mat4, Quat, Vec3};
 use super::{Material, Mesh};
 
 /// Outward normals of a box's faces, in the order +x −x +y −y +z −z.
-pub const FACES: [Vec3; 6] =
-    [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
+pub const FACES: [Vec3; 6] = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
 
 impl Mesh {
     /// A box about a centre, turned by a rotation.
-    pub fn cuboid(centre: [f32; 3], half: [f32; 3], rotation: [f32; 4], material: Material) -> Self {
+    pub fn cuboid(
+        centre: [f32; 3],
+        half: [f32; 3],
+        rotation: [f32; 4],
+        material: Material,
+    ) -> Self {
         Self::cuboid_faces(centre, half, rotation, material, |_| true)
     }
 

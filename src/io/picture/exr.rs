@@ -44,7 +44,7 @@ pub fn write(layers: &Layers, to: impl Write + Seek) -> io::Result<()> {
     let layer = Layer::new(
         (layers.width, layers.height),
         attributes,
-        Encoding { compression: exr::compression::Compression::PIZ, ..Encoding::SMALL_LOSSLESS },
+        Encoding::SMALL_LOSSLESS,
         AnyChannels::sort(channels),
     );
     Image::from_layer(layer).write().to_buffered(to).map_err(|error| match error {

@@ -1,0 +1,130 @@
+//! What is dropped is not freed at once, since the GPU may still use it: its handles go to the
+//! graveyard and are freed by [`Gpu::bury`], when the caller knows that the GPU is done. A
+//! constructor that fails half-way leaks nothing, and a renderer that is simply dropped leaks
+//! safely, with its graveyard.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::vk;
+use gpu_allocator::vulkan::Allocation;
+
+use super::Gpu;
+
+/// Handles whose owner was dropped.
+pub enum Grave {
+    /// An image with its views and memory.
+    Image(vk::Image, [vk::ImageView; 2], Allocation),
+    /// A buffer with its memory.
+    Buffer(vk::Buffer, Allocation),
+    /// A pipeline with its layouts.
+    Pipeline(vk::Pipeline, vk::PipelineLayout, vk::DescriptorSetLayout),
+    /// A framebuffer.
+    Framebuffer(vk::Framebuffer),
+    /// A render pass.
+    RenderPass(vk::RenderPass),
+    /// A view of an image that lives elsewhere.
+    View(vk::ImageView),
+    /// A query pool.
+    QueryPool(vk::QueryPool),
+    /// A descriptor pool.
+    DescriptorPool(vk::DescriptorPool),
+    /// A sampler.
+    Sampler(vk::Sampler),
+}
+
+/// The shared list.
+#[derive(Clone, Default)]
+pub struct Graveyard(Arc<Mutex<Vec<Grave>>>);
+
+impl Graveyard {
+    /// Lays handles down.
+    pub fn push(&self, grave: Grave) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(grave);
+    }
+
+    fn take(&self) -> Vec<Grave> {
+        std::mem::take(&mut *self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// One handle with its owner's duties.
+pub struct Owned<T: Copy> {
+    /// The handle.
+    pub handle: T,
+    grave: fn(T) -> Grave,
+    yard: Graveyard,
+}
+
+impl<T: Copy> Owned<T> {
+    /// Takes a handle into ownership.
+    pub fn new(handle: T, grave: fn(T) -> Grave, yard: &Graveyard) -> Self {
+        Self { handle, grave, yard: yard.clone() }
+    }
+}
+
+impl<T: Copy> Drop for Owned<T> {
+    fn drop(&mut self) {
+        self.yard.push((self.grave)(self.handle));
+    }
+}
+
+/// Frees an object, and what else was dropped, at once.
+pub trait Destroy: Sized {
+    /// The GPU must be done with it.
+    fn destroy(self, gpu: &Gpu) {
+        drop(self);
+        gpu.bury();
+    }
+}
+
+impl Destroy for super::image::Image {}
+impl Destroy for super::buffer::Buffer {}
+impl Destroy for super::pipeline::Pipeline {}
+
+impl Gpu {
+    /// Takes a handle into ownership.
+    pub fn own<T: Copy>(&self, handle: T, grave: fn(T) -> Grave) -> Owned<T> {
+        Owned::new(handle, grave, &self.graveyard)
+    }
+
+    /// Frees all that was dropped. The GPU must be done with it.
+    pub fn bury(&self) {
+        let graves = self.graveyard.take();
+        if graves.is_empty() {
+            return;
+        }
+        // Locked only when there is memory to free: `record` never locks the allocator.
+        let mut allocator = None;
+        let device = &self.device;
+        for grave in graves {
+            // SAFETY: each handle was owned by one object, which is gone; the caller guarantees
+            // that the GPU is done. Null handles are allowed.
+            unsafe {
+                match grave {
+                    Grave::Image(image, views, memory) => {
+                        device.destroy_image_view(views[0], None);
+                        device.destroy_image_view(views[1], None);
+                        device.destroy_image(image, None);
+                        // The only failure is a broken allocator; the memory then stays with it.
+                        let _ = allocator.get_or_insert_with(|| self.lock_allocator()).free(memory);
+                    }
+                    Grave::Buffer(buffer, memory) => {
+                        device.destroy_buffer(buffer, None);
+                        let _ = allocator.get_or_insert_with(|| self.lock_allocator()).free(memory);
+                    }
+                    Grave::Pipeline(pipeline, layout, set_layout) => {
+                        device.destroy_pipeline(pipeline, None);
+                        device.destroy_pipeline_layout(layout, None);
+                        device.destroy_descriptor_set_layout(set_layout, None);
+                    }
+                    Grave::Framebuffer(handle) => device.destroy_framebuffer(handle, None),
+                    Grave::RenderPass(handle) => device.destroy_render_pass(handle, None),
+                    Grave::View(handle) => device.destroy_image_view(handle, None),
+                    Grave::QueryPool(handle) => device.destroy_query_pool(handle, None),
+                    Grave::DescriptorPool(handle) => device.destroy_descriptor_pool(handle, None),
+                    Grave::Sampler(handle) => device.destroy_sampler(handle, None),
+                }
+            }
+        }
+    }
+}
