@@ -17,7 +17,6 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 texel;         // C_x C_y full, C_x C_y reduced: world size of a pixel per depth
     vec4 scene_depth;   // pixels of the scene's depth per full pixel, its size
     vec4 scene_color;   // the same of its colour
-    vec4 output_offset; // unused
     vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
     vec4 density;       // spray below, full radius above, rest
     vec4 smoothing;     // width, depth falloff, most iterations, fixed count

@@ -18,7 +18,7 @@ pub fn normals(depth: &[f32], width: usize, height: usize, slope: [f32; 4]) -> [
     for y in 0..height {
         for x in 0..width {
             let z = at(x, y);
-            if !(z < EMPTY) {
+            if z.is_nan() || z >= EMPTY {
                 continue;
             }
             let here = point(x, y);

@@ -9,8 +9,8 @@ const START: f32 = 0.72;
 /// white.
 pub fn neutral(c: [f32; 3]) -> [f32; 3] {
     const DESATURATION: f32 = 0.15;
-    // NaN goes to 0 in `max`.
-    let c = c.map(|v| v.max(0.0).min(1.0e9));
+    // NaN goes to 0.
+    let c = c.map(|v| if v > 0.0 { v.min(1.0e9) } else { 0.0 });
     let peak = c[0].max(c[1]).max(c[2]);
     if peak < START {
         return c;
