@@ -43,6 +43,12 @@ fn copy_folder(from: &Path, to: &Path) {
 }
 
 fn compile_all(glsl: &Path, compiler: &Compiler, out: &Path) {
+    // What an earlier build left of shaders that are gone.
+    for stale in fs::read_dir(out).expect("OUT_DIR").flatten().map(|entry| entry.path()) {
+        if stale.extension().is_some_and(|e| e == "spv") {
+            fs::remove_file(stale).expect("OUT_DIR is writable");
+        }
+    }
     let mut sources = Vec::new();
     find_shaders(glsl, &mut sources);
     sources.sort();

@@ -64,7 +64,7 @@ impl Fresnel {
     }
 }
 
-/// The images. Depths are eye depths; the thickness is at level 0 or that of the smoothed depth.
+/// The images. Depths are eye depths.
 #[derive(Clone, Copy, Debug)]
 pub struct Inputs<'a> {
     /// The water's depth at full resolution, clipped by the scene.
@@ -75,11 +75,11 @@ pub struct Inputs<'a> {
     pub level: u32,
     /// The thickness along z.
     pub thickness: &'a Image<f64>,
-    /// 0 or `level`.
+    /// The level of the thickness.
     pub thickness_level: u32,
     /// The scene behind, linear.
     pub scene_color: &'a Image<[f64; 4]>,
-    /// The scene's depth.
+    /// The scene's depth, of its own extent.
     pub scene_depth: &'a Image<f64>,
 }
 
@@ -114,27 +114,31 @@ pub struct Surface {
     pub normal: DVec3,
     /// The thickness along z.
     pub thickness: f64,
+    /// By how much rounding of the tangents shows in the normal: |P_x| |P_y| / |P_x x P_y|.
+    pub condition: f64,
 }
 
-/// The derivative along an axis of a texel: the mean of the two differences on the surface, the
-/// smaller of them if one leaves it by less, 0 at an islet.
+/// The part of a texel on the rim in the slope, where there are others.
+pub const RIM: f64 = 1.0 / 64.0;
+/// The steepest slope of a surface that is all rim: depth per width.
+pub const RIM_SLOPE: f64 = 1.5;
+
+/// The derivative along an axis of a texel and whether both sides are on its surface: the mean of
+/// the two differences, or the one that stays on the surface, 0 at an islet.
 fn derivative(
     z: &Image<f64>,
     (x, y): (isize, isize),
     (dx, dy): (isize, isize),
     threshold: f64,
-) -> f64 {
+) -> (f64, bool) {
     let here = z.clamped(x, y);
-    let outside = f64::INFINITY;
-    let a = z.checked(x - dx, y - dy).map_or(outside, |before| here - before);
-    let b = z.checked(x + dx, y + dy).map_or(outside, |after| after - here);
-    let smaller = if a.abs() <= b.abs() { a } else { b };
-    if a.abs() <= threshold && b.abs() <= threshold {
-        (a + b) / 2.0
-    } else if smaller.abs() <= threshold {
-        smaller
-    } else {
-        0.0
+    let a = z.checked(x - dx, y - dy).map_or(f64::INFINITY, |before| here - before);
+    let b = z.checked(x + dx, y + dy).map_or(f64::INFINITY, |after| after - here);
+    match (a.abs() <= threshold, b.abs() <= threshold) {
+        (true, true) => ((a + b) / 2.0, true),
+        (true, false) => (a, false),
+        (false, true) => (b, false),
+        (false, false) => (0.0, false),
     }
 }
 
@@ -177,33 +181,81 @@ pub fn surface(
         weighted.sum::<f64>() / sum
     };
 
+    // The last texels of a body of water curve away: they hardly count in the slope, and a surface
+    // of nothing else is never steep.
+    let g = view.slope_step() * f64::from(1 << inputs.level);
     let (z, z_x, z_y) = if alone {
         (zf, 0.0, 0.0)
     } else {
-        (
-            mean(&|x, y| inputs.smoothed.clamped(x, y)),
-            mean(&|x, y| derivative(inputs.smoothed, (x, y), (1, 0), threshold)),
-            mean(&|x, y| derivative(inputs.smoothed, (x, y), (0, 1), threshold)),
-        )
+        let z = mean(&|x, y| inputs.smoothed.clamped(x, y));
+        let (mut slope, mut trusted) = (DVec2::ZERO, 0.0);
+        for (x, y, weight) in texels.iter().filter(|t| t.2 > 0.0) {
+            let (z_x, whole_x) = derivative(inputs.smoothed, (*x, *y), (1, 0), threshold);
+            let (z_y, whole_y) = derivative(inputs.smoothed, (*x, *y), (0, 1), threshold);
+            let trust = if whole_x && whole_y { 1.0 } else { RIM } * weight / sum;
+            slope += DVec2::new(z_x, z_y) * trust;
+            trusted += trust;
+        }
+        slope /= trusted;
+        if trusted <= 2.0 * RIM {
+            let steepest = g.abs() * z * RIM_SLOPE;
+            slope = slope.clamp(-steepest, steepest);
+        }
+        (z, slope.x, slope.y)
     };
     let thickness = match inputs.thickness_level {
         0 => inputs.thickness.at(x, y),
-        _ => mean(&|x, y| inputs.thickness.clamped(x, y)),
+        same if same == inputs.level => mean(&|x, y| inputs.thickness.clamped(x, y)),
+        other => {
+            // Bilinear, with the texels whose middle is on this surface; with all if none is.
+            let all = inputs.thickness.bilinear(pixel / f64::from(1 << other));
+            let ratio = f64::from(1 << other) / f64::from(1 << inputs.level);
+            let h = (pixel / f64::from(1 << other) - 0.5).floor();
+            let on = |j: usize| {
+                let middle = h + DVec2::new((j & 1) as f64, (j >> 1) as f64) + 0.5;
+                let at = (middle * ratio).floor();
+                let there = inputs.smoothed.clamped(at.x as isize, at.y as isize);
+                (there - z).abs() <= threshold
+            };
+            let same: f64 = (0..4).filter(|j| on(*j)).map(|j| all[j].2).sum();
+            let value = |j: usize| all[j].2 * inputs.thickness.clamped(all[j].0, all[j].1);
+            match same > 1e-3 {
+                true => (0..4).filter(|j| on(*j)).map(value).sum::<f64>() / same,
+                false => (0..4).map(value).sum(),
+            }
+        }
     };
 
     // P = z (s_x, s_y, -1); g is what a pixel of the smoothed image adds to the slope.
     let ray = view.ray(x, y);
-    let g = view.slope_step() * f64::from(1 << inputs.level);
     let position = ray * z;
     let along_x = DVec3::new(g.x * z, 0.0, 0.0) + ray * z_x;
     let along_y = DVec3::new(0.0, g.y * z, 0.0) + ray * z_y;
-    let normal = along_x.cross(along_y).normalize();
+    let cross = along_x.cross(along_y);
+    let condition = along_x.length() * along_y.length() / cross.length();
+    let normal = cross.normalize();
     let normal = if normal.dot(position) > 0.0 { -normal } else { normal };
-    Some(Surface { position, normal, thickness })
+    Some(Surface { position, normal, thickness, condition })
 }
 
-/// The scene's colour behind a surface, displaced by refraction but never onto what stands before
-/// the water. Light bends towards the water's normal, so the look-up moves against it.
+/// Where the background is looked up, in pixels: displaced by refraction. Light bends towards the
+/// water's normal, so the look-up moves against it.
+pub fn look_up(settings: &Settings, surface: &Surface, view: &View, pixel: DVec2) -> DVec2 {
+    // Pixels per length at z, signed as the image's axes run.
+    let scale = 1.0 / (view.slope_step() * -surface.position.z);
+    let offset = -surface.normal.truncate() * surface.thickness * settings.refraction * scale;
+    (pixel + offset).clamp(DVec2::splat(0.5), view.extent() - 0.5)
+}
+
+/// Whether any of the four texels of the scene's depth round a position stands before the water.
+pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
+    let extent = |width: usize, height: usize| DVec2::new(width as f64, height as f64);
+    let (scene, color) = (inputs.scene_depth, inputs.scene_color);
+    let at = at * extent(scene.width, scene.height) / extent(color.width, color.height);
+    scene.bilinear(at).iter().any(|t| scene.clamped(t.0, t.1) < z)
+}
+
+/// The scene's colour behind a surface, displaced but never onto what stands before the water.
 fn background(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -211,19 +263,13 @@ fn background(
     view: &View,
     pixel: DVec2,
 ) -> DVec3 {
-    let z = -surface.position.z;
-    // Pixels per length at z, signed as the image's axes run.
-    let scale = 1.0 / (view.slope_step() * z);
-    let offset = -surface.normal.truncate() * surface.thickness * settings.refraction * scale;
-    let q = (pixel + offset).clamp(DVec2::splat(0.5), view.extent() - 0.5);
-    let texels = inputs.scene_color.bilinear(q);
-    let hidden = texels.iter().any(|t| inputs.scene_depth.clamped(t.0, t.1) < z);
-    let texels = if hidden { inputs.scene_color.bilinear(pixel) } else { texels };
+    let q = look_up(settings, surface, view, pixel);
+    let q = if hidden(inputs, -surface.position.z, q) { pixel } else { q };
     let color = |t: &(isize, isize, f64)| {
         let [r, g, b, _] = inputs.scene_color.clamped(t.0, t.1);
         DVec3::new(r, g, b) * t.2
     };
-    texels.iter().map(color).sum()
+    inputs.scene_color.bilinear(q).iter().map(color).sum()
 }
 
 /// The picture: water over the scene with alpha 1, the scene as it is elsewhere. `env` gives the
@@ -234,12 +280,11 @@ pub fn shade(
     env: impl Fn(DVec3) -> DVec3 + Sync,
     view: &View,
 ) -> Image<[f64; 4]> {
-    assert!([0, inputs.level].contains(&inputs.thickness_level), "the thickness' level");
     Image::from_fn(view.width, view.height, |x, y| {
         let Some(surface) = surface(inputs, settings.radius, view, x, y) else {
             return inputs.scene_color.at(x, y);
         };
-        let Surface { position, normal: n, thickness } = surface;
+        let Surface { position, normal: n, thickness, .. } = surface;
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
         let v = -position.normalize();
         let path = thickness * position.length() / -position.z;

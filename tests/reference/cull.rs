@@ -126,7 +126,8 @@ mod tests {
             let p = projection(DVec2::new(1.0, -1.0), DVec2::ZERO, depth);
             let eye = DMat4::from_translation(DVec3::new(-3.0, 0.0, 0.0));
             let view = View::new(eye, p, 8, 8).expect("a valid view");
-            let params = CullParams::new(1.0, 1000.0);
+            // The bounding sphere has twice the drawn radius.
+            let params = CullParams::new(0.5, 1000.0);
             let seen = |x: f64, y: f64, z: f64| {
                 let position = [x + 3.0, y, z].map(|x| x as f32);
                 cull(&[position], None, &params, &view).visible.len() == 1

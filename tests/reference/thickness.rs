@@ -29,6 +29,12 @@ pub fn kernel(rho_squared: f64) -> f64 {
     (1.0 - rho_squared).max(0.0).sqrt() * (-2.0 * rho_squared).exp()
 }
 
+/// The half-axis that is drawn: a sprite narrower than a pixel is widened to it and holds the same
+/// volume.
+pub fn drawn_axis(half: f64, depth: f64, view: &View) -> f64 {
+    half.max(depth * view.c_x().max(view.c_y()))
+}
+
 /// The thickness along z in each pixel. A particle counts where its centre lies before the scene
 /// (given at the image's resolution), and at all where it lies behind the near plane.
 pub fn splat(
@@ -41,14 +47,17 @@ pub fn splat(
     let near = view.near();
     let mut thickness = Image::new(view.width, view.height, 0.0);
     for sphere in spheres {
-        let (center, depth, half) =
-            (sphere.center.truncate(), -sphere.center.z, 2.0 * sphere.radius);
-        if depth < near || half <= 0.0 {
+        let (center, depth) = (sphere.center.truncate(), -sphere.center.z);
+        let whole = 2.0 * sphere.radius;
+        if depth < near || whole <= 0.0 {
             continue;
         }
+        let half = drawn_axis(whole, depth, view);
         let amplitude = match amplitude {
             Amplitude::Volume { particle_volume } => particle_volume / (PI * J * half * half),
-            Amplitude::Source { particle_size } => 0.8 * 2.0 * particle_size,
+            Amplitude::Source { particle_size } => {
+                0.8 * 2.0 * particle_size * (whole / half).powi(2)
+            }
         };
         let (columns, rows) = view.footprint(center, DVec2::splat(half), depth, depth);
         for y in rows {

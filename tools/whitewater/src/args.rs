@@ -57,7 +57,7 @@ pub struct RenderArgs {
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,
-    /// What stands behind the water: .glb, .obj, or .json (boxes and cylinders)
+    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, spheres)
     /// [default: a ground under the water]
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
@@ -91,7 +91,7 @@ pub struct DrawArgs {
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
     #[arg(long, value_name = "FILE|sky", default_value = "sky")]
     pub environment: String,
-    /// Direction to the sun [default: of the sky 0.4,0.8,0.4; of a file its brightest spot]
+    /// Direction to the sun [default: of the sky -0.7,0.55,-0.35; of a file its brightest spot]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
     /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene

@@ -176,14 +176,12 @@ impl CameraFile {
 /// A perspective camera taken apart, for what the CPU works out.
 #[derive(Clone, Copy, Debug)]
 pub struct Lens {
-    /// World to eye space, which looks down -z.
-    pub view: Mat4,
     /// P00, P11, P20, P21.
     p: Vec4,
     /// Device depth to eye depth: `.0 / (device + .1)`.
     linear: (f32, f32),
     /// Device depth of the far end.
-    pub far: f32,
+    far: f32,
 }
 
 impl Lens {
@@ -206,8 +204,7 @@ impl Lens {
             if depth.is_finite() && depth > 0.0 { depth } else { f32::INFINITY }
         };
         let far = if depth(0.0) > depth(1.0) { 0.0 } else { 1.0 };
-        let view = Mat4::from_diagonal(Vec4::new(1.0, 1.0, mirror, 1.0)) * camera.view;
-        Ok(Self { view, p, linear, far })
+        Ok(Self { p, linear, far })
     }
 
     /// Eye depth of a device depth; `EMPTY` at the far end.
@@ -218,11 +215,6 @@ impl Lens {
         } else {
             whitewater::io::picture::EMPTY
         }
-    }
-
-    /// Device depth of an eye depth.
-    pub fn device_depth(&self, eye: f32) -> f32 {
-        (self.linear.0 / eye - self.linear.1).clamp(0.0, 1.0)
     }
 
     /// Scale and offset from coordinates in pixels (centres at +0.5) to x / depth and y / depth.
@@ -270,11 +262,10 @@ mod tests {
             };
             let camera = file.camera((300, 200)).unwrap();
             let lens = Lens::new(&camera).unwrap();
-            assert_eq!(lens.far, 0.0);
+            assert_eq!(lens.far, 0.0, "reversed");
             let clip = camera.projection * camera.view * Vec4::new(0.1, 0.2, 0.3, 1.0);
             let eye = -(camera.view * Vec4::new(0.1, 0.2, 0.3, 1.0)).z;
             assert!((lens.eye_depth(clip.z / clip.w) - eye).abs() < 1e-4 * eye);
-            assert!((lens.device_depth(eye) - clip.z / clip.w).abs() < 1e-6);
             assert_eq!(lens.eye_depth(0.0), whitewater::io::picture::EMPTY);
         }
     }

@@ -1,19 +1,48 @@
 //! `whitewater demo`: the built-in scene.
 
+use std::io::Write;
+
 use whitewater::Settings;
+use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
 
 use crate::args::DemoArgs;
-use crate::backdrop::Backdrop;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
 use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
+use crate::stage;
 
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
-const SCENE: &str = include_str!("../../../assets/waterfall/scene.json");
+const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
+
+/// Of the particles, as the scene says.
+const SPACING: f32 = 0.04;
+
+/// Towards the sun: along the front wall, so that it and the falling water are lit from the side.
+const SUN: [f32; 3] = [-0.75, 0.62, 0.3];
+
+/// Over the corner of the basin: the chute, the fall and the pool are seen, and some sky.
+fn viewpoint(fov: Option<f32>) -> CameraFile {
+    CameraFile {
+        eye: Some([1.9, 1.75, 3.1]),
+        target: Some([-0.4, 0.52, 0.0]),
+        up: Some([0.0, 1.0, 0.0]),
+        fov_y_degrees: fov.or(Some(36.0)),
+        ..CameraFile::default()
+    }
+}
+
+/// The library reads scenes from files only.
+fn scene() -> Outcome<Scene> {
+    let path = std::env::temp_dir().join(format!("whitewater-{}.json", std::process::id()));
+    output::write(&path, |to| to.write_all(SCENE))?;
+    let scene = stage::read(&path);
+    let _ = std::fs::remove_file(&path);
+    scene
+}
 
 pub fn run(args: &DemoArgs) -> Outcome<()> {
     let began = std::time::Instant::now();
@@ -22,23 +51,19 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         output::probe(&target.path(0))?;
     }
     let settings_file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
-    let environment = session::environment(&args.draw)?;
+    let environment = session::environment(&args.draw, Some(SUN))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
-    let backdrop = Backdrop::parse(SCENE).map_err(Failure::input)?;
+    let mut scene = scene()?;
+    scene.sun = environment.sun_light();
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
-    if let Some(fluid) = &backdrop.fluid {
-        settings.water.spacing = fluid.spacing;
-    }
+    settings.water.spacing = SPACING;
     settings_file.unwrap_or_default().apply(&mut settings).map_err(Failure::input)?;
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,
-        None => CameraFile {
-            fov_y_degrees: args.camera.fov.or(Some(38.0)),
-            ..backdrop.camera.clone().unwrap_or_default()
-        },
+        None => viewpoint(args.camera.fov),
     };
     let count = particles.positions.len();
-    let look = Look { camera, settings, environment, backdrop };
+    let look = Look { camera, settings, environment, scene };
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut progress = Progress::new(1);
     session.frame(0, "waterfall", &particles)?;

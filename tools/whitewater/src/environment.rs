@@ -1,13 +1,17 @@
-//! What shines on the scene: a picture, or the built-in sky worked out on the CPU for the backdrop.
+//! What shines on the scene: a picture, or the built-in sky, whose irradiance is worked out here.
 
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
 
 use glam::{Vec2, Vec3};
+use whitewater::headless::scene::SunLight;
 use whitewater::io::picture::{self, Encoding};
 use whitewater::{Light, Sky};
 
 use crate::failure::{Failure, Outcome};
+
+/// Towards the sun where nothing is said.
+const SUN: [f32; 3] = [-0.7, 0.55, -0.35];
 
 /// An equirectangular picture: row 0 up, its middle column along -z.
 #[derive(Clone, Debug)]
@@ -17,12 +21,17 @@ pub struct Panorama {
     pub pixels: Vec<Vec3>,
 }
 
+/// Where the light comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    Sky(Sky),
+    Picture(Panorama),
+}
+
 /// The light of a scene.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// Where it is not a picture.
-    pub sky: Option<Sky>,
-    pub panorama: Panorama,
+    pub source: Source,
     /// Towards the sun, or the brightest spot.
     pub sun: Vec3,
     /// Of the sun alone, on a plane that faces it.
@@ -34,18 +43,16 @@ pub struct Environment {
 impl Environment {
     /// The built-in sky.
     pub fn sky(sun: Option<[f32; 3]>) -> Outcome<Self> {
-        let mut sky = Sky::default();
-        if let Some(sun) = sun {
-            sky.sun = unit(sun)?.to_array();
-        }
-        let sun = Vec3::from(sky.sun);
-        let panorama = Panorama::build(256, 128, |d| sky.intensity * sky_radiance(d, sun));
-        let above = if sun.y > 0.0 { sky.intensity } else { 0.0 };
-        let sun_irradiance = above * transmittance(optical_depth(EARTH + 0.05, sun.y));
-        // Shadows outdoors get about a sixth of the sun's light; of it the sky without its higher orders of
-        // scattering has half.
-        let sky_irradiance = panorama.irradiance() + 0.08 * sun.y.max(0.0) * sun_irradiance;
-        Ok(Self { sky: Some(sky), panorama, sun, sun_irradiance, sky_irradiance })
+        // Behind the water for the views found here: there it glitters.
+        let sun = unit(sun.unwrap_or(SUN))?;
+        let sky = Sky { sun: sun.to_array(), ..Sky::default() };
+        let sun_irradiance = Vec3::from(SunLight::of(&sky).color);
+        let above = Panorama::build(64, 32, |d| match d.y > 0.0 {
+            true => sky.intensity * sky_radiance(d, sun),
+            false => Vec3::ZERO,
+        });
+        let sky_irradiance = above.irradiance();
+        Ok(Self { source: Source::Sky(sky), sun, sun_irradiance, sky_irradiance })
     }
 
     /// A picture.
@@ -77,7 +84,7 @@ impl Environment {
         };
         let level = sun_irradiance * sun.y.max(0.0);
         let sky_irradiance = (panorama.irradiance() - level).max(Vec3::ZERO);
-        Ok(Self { sky: None, panorama, sun, sun_irradiance, sky_irradiance })
+        Ok(Self { source: Source::Picture(panorama), sun, sun_irradiance, sky_irradiance })
     }
 
     /// The renderer's light for this environment.
@@ -87,22 +94,27 @@ impl Environment {
         Light {
             direction: self.sun.to_array(),
             // The highlight of a sun that is in the picture comes with its reflection.
-            color: match self.sky {
-                Some(_) => (Vec3::from(default.color) * self.sun_irradiance.max_element()
+            color: match self.source {
+                Source::Sky(_) => (Vec3::from(default.color) * self.sun_irradiance.max_element()
                     / reference)
                     .to_array(),
-                None => [0.0; 3],
+                Source::Picture(_) => [0.0; 3],
             },
             // The mean over all directions, half of the sun's taken off by the water above.
             ambient: ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array(),
         }
     }
 
+    /// The same sun for the scene behind the water.
+    pub fn sun_light(&self) -> SunLight {
+        SunLight { direction: self.sun.to_array(), color: self.sun_irradiance.to_array() }
+    }
+
     /// Stops that make a sunlit mid-grey surface fit a screen.
     pub fn exposure(&self) -> f32 {
         let level = self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0);
         let white = level.dot(LUMINANCE) / PI;
-        if white > 0.0 { (2.2 / white).log2().clamp(-20.0, 20.0) } else { 0.0 }
+        if white > 0.0 { (1.35 / white).log2().clamp(-20.0, 20.0) } else { 0.0 }
     }
 }
 
@@ -133,21 +145,6 @@ impl Panorama {
     fn solid_angle(&self, y: usize) -> f32 {
         let (w, h) = (self.width as f32, self.height as f32);
         ((y as f32 + 0.5) / h * PI).sin() * (TAU / w) * (PI / h)
-    }
-
-    /// Radiance in a direction, between texels.
-    pub fn sample(&self, d: Vec3) -> Vec3 {
-        let u = d.x.atan2(-d.z) / TAU + 0.5;
-        let v = d.y.clamp(-1.0, 1.0).acos() / PI;
-        let at = Vec2::new(u * self.width as f32 - 0.5, v * self.height as f32 - 0.5);
-        let (base, part) = (at.floor(), at - at.floor());
-        let texel = |dx: i64, dy: i64| {
-            let x = (base.x as i64 + dx).rem_euclid(self.width as i64) as usize;
-            let y = (base.y as i64 + dy).clamp(0, self.height as i64 - 1) as usize;
-            self.pixels[y * self.width + x]
-        };
-        let row = |dy| texel(0, dy).lerp(texel(1, dy), part.x);
-        row(0).lerp(row(1), part.y)
     }
 
     /// On a level plane.
@@ -238,15 +235,9 @@ fn sky_radiance(direction: Vec3, sun: Vec3) -> Vec3 {
     let phase_r = 3.0 / (16.0 * PI) * (1.0 + mu * mu);
     let phase_m = 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + mu * mu)
         / ((2.0 + g * g) * (1.0 + g * g - 2.0 * g * mu).powf(1.5));
-    let often = 0.04 * RAYLEIGH / RAYLEIGH.z * sun.y.max(0.0);
-    let sky = rayleigh * RAYLEIGH * phase_r
-        + mie * MIE * phase_m
-        + often * (Vec3::ONE - (-RAYLEIGH * along.x).exp());
-    let below = (direction.y / -0.12).clamp(0.0, 1.0);
-    let below = below * below * (3.0 - 2.0 * below);
-    let lit = sun.y.max(0.0) * transmittance(optical_depth(eye, sun.y)) / PI;
-    let ground = 0.22 * (lit + 0.08 * Vec3::new(0.5, 0.6, 0.8));
-    sky.lerp(ground, below)
+    let often = 0.13 * sun.y.max(0.0);
+    let thick = RAYLEIGH * along.x + 2.0 * MIE * along.y;
+    rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (Vec3::ONE - (-thick).exp())
 }
 
 #[cfg(test)]
@@ -254,22 +245,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panorama_gives_its_own_directions_back() {
-        let panorama = Panorama::build(64, 32, |d| d);
-        for i in 0..64 * 32 {
-            let d = panorama.direction(i % 64, i / 64);
-            assert!((panorama.sample(d) - d).length() < 0.02, "{d}");
-        }
+    fn a_white_panorama_gives_pi() {
         let white = Panorama::build(64, 32, |_| Vec3::ONE);
         assert!((white.irradiance() - PI).abs().max_element() < 0.02);
-        assert!(panorama.sample(-Vec3::Z).z < -0.99 && panorama.sample(Vec3::X).x > 0.98);
+        let mut one = Panorama::build(64, 32, |_| Vec3::ZERO);
+        one.pixels[10 * 64 + 48] = Vec3::ONE;
+        let (sun, irradiance) = one.sun();
+        // The middle column looks along -z, the one right of it by a quarter along +x.
+        assert!(sun.x > 0.8 && sun.y > 0.4 && irradiance.x > 0.0, "{sun}");
     }
 
     #[test]
     fn the_sky_is_blue_above_and_lit() {
         let sky = Environment::sky(None).unwrap();
-        let up = sky.panorama.sample(Vec3::Y);
-        assert!(up.z > 1.5 * up.x && up.x > 0.0, "{up}");
+        let light = sky.sky_irradiance;
+        assert!(light.z > 1.2 * light.x && light.x > 0.0, "{light}");
         assert!(sky.exposure().abs() < 6.0);
         assert!(Environment::sky(Some([0.0; 3])).is_err());
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use whitewater::Error;
+use whitewater::ash::vk;
 use whitewater::io::particles::ReadError;
 use whitewater::io::particles::sequence::SequenceError;
 use whitewater::io::picture::PictureError;
@@ -67,6 +68,10 @@ impl Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
+            // What fixes images and pipelines comes from flags.
+            Error::BadInput { field, .. } if field.starts_with("Config.") => {
+                Self::usage(error.to_string())
+            }
             Error::BadInput { .. } => Self::input(error.to_string()),
             Error::Allocation { .. } => Self::new(
                 Kind::Device,
@@ -75,6 +80,13 @@ impl From<Error> for Failure {
             _ if error.is_device_lost() => Self::new(
                 Kind::Device,
                 format!("{error}; finished frames are kept: run again, perhaps with --device"),
+            ),
+            Error::Vulkan { result: vk::Result::ERROR_INCOMPATIBLE_DRIVER, .. } => Self::new(
+                Kind::Device,
+                format!(
+                    "expected a Vulkan driver, found none ({error}); install one, such as \
+                     mesa-vulkan-drivers, which also runs on the CPU"
+                ),
             ),
             _ => Self::new(Kind::Device, error.to_string()),
         }

@@ -1,7 +1,7 @@
 //! The command line of `whitewater`: particle caches in, pictures out.
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 mod args;
-mod backdrop;
 mod bench;
 mod bounds;
 mod camera;
@@ -16,6 +16,7 @@ mod progress;
 mod render;
 mod session;
 mod settings;
+mod stage;
 mod timings;
 
 use std::process::ExitCode;

@@ -6,7 +6,6 @@ use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 
 use crate::args::{RenderArgs, Up};
-use crate::backdrop::Backdrop;
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::environment::Environment;
@@ -16,6 +15,7 @@ use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
+use crate::stage;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
@@ -27,7 +27,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let checked = session::check(&args.draw, all.len() > 1)?;
     let numbered = checked.0.iter().all(output::Target::is_numbered);
     let settings = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
-    let environment = session::environment(&args.draw)?;
+    let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
     if let Some(camera) = &camera {
         camera.camera(args.draw.size)?;
@@ -220,11 +220,12 @@ fn look(
         progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
         camera
     });
-    let backdrop = match &args.scene {
-        Some(path) => Backdrop::read(path)?,
-        None => Backdrop::under(&bounds, 0.0),
+    let mut scene = match &args.scene {
+        Some(path) => stage::read(path)?,
+        None => stage::ground_under(&bounds),
     };
-    Ok(Look { camera, settings, environment, backdrop })
+    scene.sun = environment.sun_light();
+    Ok(Look { camera, settings, environment, scene })
 }
 
 /// Four digits are enough to read.

@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
+use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::Particles;
 use whitewater::io::picture::{self, Layers};
 use whitewater::{Camera, Config, Settings};
 
 use crate::args::DrawArgs;
-use crate::backdrop::{Backdrop, Images};
 use crate::camera::{CameraFile, Lens};
-use crate::environment::Environment;
+use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
@@ -23,7 +23,7 @@ pub struct Look {
     pub camera: CameraFile,
     pub settings: Settings,
     pub environment: Environment,
-    pub backdrop: Backdrop,
+    pub scene: Scene,
 }
 
 /// Draws frames.
@@ -34,7 +34,6 @@ pub struct Session<'a> {
     look: Look,
     camera: Camera,
     lens: Lens,
-    images: Option<Images>,
     /// A device without a renderer yet, or a renderer, or neither after an error.
     device: Option<Device>,
     headless: Option<Headless>,
@@ -61,10 +60,10 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target>, Vec<&'sta
     Ok((targets, wanted))
 }
 
-/// The environment that is asked for.
-pub fn environment(args: &DrawArgs) -> Outcome<Environment> {
+/// The environment that is asked for; `sun`: of the sky, where nothing is said.
+pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environment> {
     match args.environment.as_str() {
-        "sky" => Environment::sky(args.sun),
+        "sky" => Environment::sky(args.sun.or(sun)),
         file => Environment::read(file.as_ref(), args.sun),
     }
 }
@@ -94,7 +93,6 @@ impl<'a> Session<'a> {
             look,
             camera,
             lens,
-            images: None,
             device,
             headless: None,
             times: Times::new(),
@@ -131,16 +129,16 @@ impl<'a> Session<'a> {
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
         let mut headless = Headless::new(device, &config)?;
-        match &self.look.environment.sky {
-            Some(sky) => headless.sky(sky)?,
-            None => {
-                let map = &self.look.environment.panorama;
+        match &self.look.environment.source {
+            Source::Sky(sky) => headless.sky(sky)?,
+            Source::Picture(map) => {
                 let extent = vk::Extent2D { width: map.width as u32, height: map.height as u32 };
                 let pixels: Vec<[f32; 4]> =
                     map.pixels.iter().map(|c| c.extend(1.0).to_array()).collect();
                 headless.equirectangular(extent, &pixels, 1.0, 0.0)?;
             }
         }
+        headless.scene(&self.look.scene, true)?;
         self.headless = Some(headless);
         Ok(())
     }
@@ -160,23 +158,15 @@ impl<'a> Session<'a> {
         particles: &Particles,
         times: &mut Times,
     ) -> Outcome<()> {
-        if self.images.is_none() {
-            let (backdrop, size) = (&self.look.backdrop, self.args.size);
-            let images = times.step("backdrop", number, || {
-                backdrop.draw(&self.camera, size, &self.look.environment)
-            })?;
-            self.images = Some(images);
-        }
         times.step("prepare", number, || self.make_room(particles.positions.len()))?;
-        let (Some(headless), Some((color, depth))) = (self.headless.as_mut(), &self.images) else {
+        let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
         times.step("upload", number, || {
             headless.particles(&particles.positions, particles.densities.as_deref())
         })?;
-        let background = Background::Images { color, depth };
         times.step("draw", number, || {
-            headless.render(&self.camera, &self.look.settings, &background)
+            headless.render(&self.camera, &self.look.settings, &Background::Scene)
         })?;
         times.passes(number, headless.timings());
         let layers = times
@@ -207,7 +197,7 @@ impl<'a> Session<'a> {
 
     fn with_attributes(&self, mut layers: Layers, source: &str) -> Layers {
         let mut note = |name: &str, value: String| {
-            layers.attributes.push((format!("whitewater.{name}"), value));
+            layers.attributes.push((name.into(), value));
         };
         note("version", env!("CARGO_PKG_VERSION").into());
         note("input", source.into());

@@ -1,4 +1,5 @@
 //! The built program, run as a user runs it, on small particle files. Needs a Vulkan 1.3 device; lavapipe will do.
+#![allow(clippy::unwrap_used)] // a test may
 
 #[path = "tool/support.rs"]
 mod support;

@@ -38,7 +38,7 @@ fn a_rerun_draws_only_what_is_missing() {
     assert!(run.stderr().contains("3 finished frames"), "{}", run.stderr());
     assert_eq!(folder.files(), all);
     // The picture of a frame does not depend on which others are drawn with it.
-    assert_eq!(std::fs::read(folder.path("out.0009.exr")).unwrap(), before);
+    assert!(std::fs::read(folder.path("out.0009.exr")).unwrap() == before);
     assert_eq!(std::fs::read(folder.path("out.0010.exr")).unwrap(), b"kept");
     folder.run(&format!("{command} --overwrite --frames 10")).ok();
     assert_ne!(std::fs::read(folder.path("out.0010.exr")).unwrap(), b"kept");

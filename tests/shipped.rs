@@ -1,0 +1,31 @@
+//! The SPIR-V under `spirv/`, which hosts without a shader compiler build with, is what the GLSL
+//! compiles to. To renew it: `WHITEWATER_SPIRV_OUT=$PWD/spirv cargo build`.
+#![cfg(feature = "shaderc")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    std::fs::read_dir(folder)
+        .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
+        .map(|entry| entry.expect("readable").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "spv" || e == "rs"))
+        .map(|path| {
+            let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+            (name, std::fs::read(path).expect("readable"))
+        })
+        .collect()
+}
+
+#[test]
+fn shipped_spirv_is_what_the_glsl_compiles_to() {
+    let built = files(Path::new(env!("OUT_DIR")));
+    let shipped = files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("spirv"));
+    let renew = "renew it: WHITEWATER_SPIRV_OUT=$PWD/spirv cargo build";
+    let names = |map: &BTreeMap<String, Vec<u8>>| map.keys().cloned().collect::<Vec<_>>();
+    assert!(built.len() > 10, "only {} shaders were built", built.len());
+    assert_eq!(names(&built), names(&shipped), "other files; {renew}");
+    for (name, bytes) in &built {
+        assert!(bytes == &shipped[name], "spirv/{name} is stale; {renew}");
+    }
+}

@@ -1,0 +1,73 @@
+//! The host's frame drawn in every form there is, on a device that enables nothing optional: the
+//! same picture from each, no word from validation, and an error from what needs more.
+
+#[allow(dead_code)] // its `main`
+#[path = "../src/main.rs"]
+mod host;
+
+use host::{Picture, draw, take_messages};
+use whitewater::water::{Gate, Smoothing, Splat};
+use whitewater::{Config, Error};
+
+/// One test, since the messages of the layer are the process's.
+#[test]
+fn all_forms_draw_the_same() {
+    let validate = match draw(true, |_| ()) {
+        Ok(_) => true,
+        Err(error) => {
+            let required = std::env::var("WHITEWATER_REQUIRE_VALIDATION").is_ok_and(|v| v == "1");
+            let absent = error.to_string().contains("ERROR_LAYER_NOT_PRESENT");
+            assert!(absent && !required, "{error}");
+            eprintln!("skipped: validation; VK_LAYER_KHRONOS_validation is not installed");
+            false
+        }
+    };
+    let picture = |name: &str, adjust: &dyn Fn(&mut Config)| -> Picture {
+        let (pixels, _) = draw(validate, adjust).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(take_messages(), Vec::<String>::new(), "{name}");
+        pixels
+    };
+
+    let expected = picture("the defaults", &|_| ());
+    for splat in [Splat::Compute, Splat::Raster] {
+        for smoothing in [Smoothing::Tiles, Smoothing::Fused, Smoothing::Query(Gate::VertexCull)] {
+            let name = format!("{splat:?}, {smoothing:?}");
+            let drawn = picture(&name, &|config| {
+                config.depth_splat = Some(splat);
+                config.thickness_splat = Some(splat);
+                config.smoothing = Some(smoothing);
+            });
+            let (mean, most) = difference(&expected, &drawn);
+            println!("{name}: mean difference {mean:.6}, largest {most:.4}");
+            assert!(mean < 1e-4 && most < 0.02, "{name}: mean {mean}, largest {most}");
+        }
+    }
+
+    for (gate, lacks) in
+        [(Gate::DrawCount, "drawIndirectCount"), (Gate::Predicate, "VK_EXT_conditional_rendering")]
+    {
+        let adjust = |config: &mut Config| config.smoothing = Some(Smoothing::Query(gate));
+        let error = draw(validate, adjust).err().unwrap_or_else(|| panic!("{gate:?} was drawn"));
+        match error.downcast_ref() {
+            Some(Error::Missing { what, .. }) => assert!(what.contains(lacks), "{what}"),
+            _ => panic!("{gate:?}: {error}"),
+        }
+    }
+    assert_eq!(take_messages(), Vec::<String>::new());
+}
+
+/// Mean and largest difference of the colours, of what a tone map makes of them: x / (1 + x).
+fn difference(a: &Picture, b: &Picture) -> (f32, f32) {
+    let mapped = |half: u16| {
+        let linear = f32::from_bits(u32::from(half & 0x7fff) << 13) * 2f32.powi(112);
+        linear / (1.0 + linear)
+    };
+    let (mut sum, mut most, mut count) = (0.0, 0.0f32, 0.0);
+    for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+        let difference = (mapped(*a) - mapped(*b)).abs();
+        sum += f64::from(difference);
+        most = most.max(difference);
+        count += 1.0;
+    }
+    ((sum / count) as f32, most)
+}
