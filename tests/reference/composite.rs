@@ -308,7 +308,9 @@ pub fn shade(
         let w = smoothstep(0.0, settings.radius / 4.0, thickness);
         let reflected = 2.0 * n.dot(v) * n - v;
         let reflected = view.view.inverse().transform_vector3(reflected).normalize();
-        color = color.lerp(env(reflected), w * settings.fresnel.reflectance(n.dot(v)));
+        // What is mirrored from below the horizon is more water, not the environment's ground.
+        let sky = smoothstep(-0.3, 0.0, reflected.y);
+        color = color.lerp(env(reflected), w * sky * settings.fresnel.reflectance(n.dot(v)));
 
         let h = (v + settings.sun_direction).normalize_or_zero();
         let highlight = n.dot(h).max(0.0).powf(settings.shininess);

@@ -1,0 +1,11 @@
+//! Claims of the documentation, measured on a Vulkan device (`docs/smoothing.md`).
+//!
+//! `WHITEWATER_SLOW=1`: the whole table too, printed as Markdown (with `--nocapture`).
+#![allow(clippy::unwrap_used)]
+
+#[path = "claims/bed.rs"]
+mod bed;
+#[path = "claims/roughness.rs"]
+mod roughness;
+#[path = "claims/smoothing.rs"]
+mod smoothing;

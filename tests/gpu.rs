@@ -1,0 +1,28 @@
+//! Conformance on a Vulkan device, by the public API alone: every pass against its CPU twin, the
+//! promises of the contract, and proof that each checker can fail.
+//!
+//! `WHITEWATER_EXPECT_ADAPTER`: part of the adapter's name, asserted. `WHITEWATER_REQUIRE_VALIDATION=1`:
+//! fails without the validation layer. `WHITEWATER_SLOW=1`: the long tests too.
+#![allow(clippy::unwrap_used)]
+
+mod reference;
+mod support;
+
+#[path = "gpu/composite.rs"]
+mod composite;
+#[path = "gpu/contract.rs"]
+mod contract;
+#[path = "gpu/depth.rs"]
+mod depth;
+#[path = "gpu/harness.rs"]
+mod harness;
+#[path = "gpu/invariants.rs"]
+mod invariants;
+#[path = "gpu/reduce.rs"]
+mod reduce;
+#[path = "gpu/smooth.rs"]
+mod smooth;
+#[path = "gpu/spied.rs"]
+mod spied;
+#[path = "gpu/thickness.rs"]
+mod thickness;

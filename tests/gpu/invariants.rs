@@ -1,0 +1,462 @@
+//! What must not change the picture: no particles, their order, stray ones, how they are handed in,
+//! in how many pieces they are worked on, and the unit of length.
+
+use ash::vk;
+use whitewater::water::Splat;
+use whitewater::{Config, Count, Packets, Particles, Stream};
+
+use crate::depth::spheres;
+use crate::reference::cull::{CullParams, cull};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
+use crate::support::scenes::{self, Lens, Random};
+use crate::support::tolerance::{self, Sum};
+
+/// Sums in fixed point: the order of the particles is no matter.
+fn exact(size: vk::Extent2D) -> Config {
+    Config {
+        depth_splat: Some(Splat::Compute),
+        thickness_splat: Some(Splat::Compute),
+        ..config(size)
+    }
+}
+
+fn water(size: vk::Extent2D) -> Shot {
+    let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
+    points.extend(scenes::cloud(4, 40, 0.2, 12.0));
+    Shot::new(size, Lens::Standard, 0.2, &points)
+}
+
+fn same_drawn(name: &str, actual: &Drawn, expected: &Drawn) {
+    compare::same(&format!("{name}-depth"), &actual.depth, &expected.depth);
+    compare::same(&format!("{name}-surface"), &actual.surface, &expected.surface);
+    compare::same(&format!("{name}-thickness"), &actual.thickness, &expected.thickness);
+    assert!(actual.plan == expected.plan, "{name}: the plans differ");
+    compare::same_color(name, &actual.output, &expected.output);
+}
+
+const TINY: [(u32, u32); 5] = [(96, 64), (1, 1), (1, 7), (3, 5), (17, 33)];
+
+#[test]
+fn no_particles_change_nothing() {
+    let gpu = Gpu::shared();
+    for (width, height) in TINY {
+        let size = extent(width, height);
+        for in_place in [true, false] {
+            let mut rig = Rig::new(&gpu, &Config { in_place, ..exact(size) });
+            let mut shot = water(size);
+            shot.positions.clear();
+            // Another frame's water must not come back.
+            rig.draw(&water(size));
+            let drawn = rig.draw(&shot);
+            let scene = crate::reference::Image {
+                width: width as usize,
+                height: height as usize,
+                data: shot.color.clone(),
+            };
+            compare::same_color(&format!("zero-{width}-{in_place}"), &drawn.output, &scene);
+            assert!(drawn.depth.data.iter().all(|d| *d >= 1e9));
+            assert!(drawn.thickness.data.iter().all(|t| *t == 0.0));
+            assert!(drawn.plan.data.iter().all(|p| *p == 0));
+        }
+    }
+}
+
+#[test]
+fn pixels_outside_the_water_are_untouched() {
+    let gpu = Gpu::shared();
+    for (width, height) in TINY {
+        let size = extent(width, height);
+        for (level, thickness_level) in [(0, 0), (1, 1), (2, 0)] {
+            let config = Config { smoothing_level: level, thickness_level, ..config(size) };
+            let mut rig = Rig::new(&gpu, &config);
+            let shot = water(size);
+            let drawn = rig.draw(&shot);
+            for (i, depth) in drawn.depth.data.iter().enumerate() {
+                let (found, scene) = (drawn.output.data[i], shot.color[i]);
+                if *depth >= 1e9 {
+                    assert_eq!(found.map(f32::to_bits), scene.map(f32::to_bits), "pixel {i}");
+                } else {
+                    assert!(found.iter().all(|v| v.is_finite()) && found[3] == 1.0, "pixel {i}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_of_the_particles_is_no_matter() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let shot = water(size);
+    let mut mixed = shot.clone();
+    let order = Random(99).order(shot.positions.len());
+    mixed.positions = order.iter().map(|i| shot.positions[*i]).collect();
+    let mut rig = Rig::new(&gpu, &exact(size));
+    let (first, second) = (rig.draw(&shot), rig.draw(&mixed));
+    same_drawn("permutation", &second, &first);
+
+    // Added in another order, floats round otherwise: both are in the bounds.
+    let mut rig = Rig::new(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..exact(size) });
+    for shot in [&shot, &mixed] {
+        let drawn = rig.draw(shot);
+        let level = rig.config.thickness_level;
+        let water = &shot.settings.water;
+        let bounds = tolerance::thickness(
+            &spheres(shot),
+            &shot.view(size),
+            level,
+            &shot.scene_at(size, level),
+            f64::from(water.spacing).powi(3),
+            f64::from(water.radius()),
+            Sum::Float,
+        );
+        compare::between("permutation-floats", &drawn.thickness, &bounds);
+    }
+}
+
+#[test]
+fn strays_do_no_harm() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for splat in [Splat::Compute, Splat::Raster] {
+        // Added in another order, floats would round otherwise.
+        let config = Config { depth_splat: Some(splat), ..exact(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        let clean = water(size);
+        let expected = rig.draw(&clean);
+        let mut shot = clean.clone();
+        let (nan, inf) = (f32::NAN, f32::INFINITY);
+        for (i, stray) in [
+            [nan, 0.0, 0.0],
+            [0.0, nan, 0.0],
+            [0.0, 0.0, nan],
+            [nan, nan, nan],
+            [inf, 0.0, 0.0],
+            [0.0, -inf, 0.0],
+            [0.0, 0.0, inf],
+            [inf, -inf, nan],
+            [f32::MAX, 0.0, 0.0],
+            [0.0, f32::MIN, f32::MAX],
+            [1e30, 1e30, -1e30],
+            [1e19, 0.0, 0.0],
+            [9e17, 9e17, -9e17],
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            shot.positions.insert((i * 29) % (clean.positions.len() + i), stray);
+        }
+        let drawn = rig.draw(&shot);
+        same_drawn(&format!("strays-{splat:?}"), &drawn, &expected);
+        // The last one is a number that is only far away.
+        assert_eq!((expected.dropped, drawn.dropped), (0, 12), "strays are counted");
+    }
+}
+
+/// Sub-threshold particles are spray, thin water has smaller ones; fresh ones (0) are whole.
+#[test]
+fn densities_are_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &exact(size));
+    let mut shot = water(size);
+    let mut random = Random(5);
+    let densities: Vec<f32> =
+        (0..shot.positions.len()).map(|_| random.between(200.0, 600.0).max(0.0)).collect();
+    shot.densities = Some(densities.iter().map(|d| if *d > 590.0 { 0.0 } else { *d }).collect());
+    let drawn = rig.draw(&shot);
+    let below = |d: &&f32| **d > 0.0 && **d < 350.0;
+    let spray = shot.densities.iter().flatten().filter(below).count();
+    assert_eq!(drawn.spray as usize, spray, "spray is counted, on the screen or not");
+    let radius = f64::from(shot.settings.water.radius());
+    let params = CullParams::new(radius, f64::from(shot.settings.water.rest_density));
+    let view = shot.view(size);
+    let culled = cull(&shot.positions, shot.densities.as_deref(), &params, &view);
+    assert!(culled.spray.len() > 50 && culled.visible.len() > 50, "both kinds");
+    compare::between("densities-depth", &drawn.depth, &tolerance::depth(&culled.visible, &view));
+    let level = rig.config.thickness_level;
+    let bounds = tolerance::thickness(
+        &culled.visible,
+        &view,
+        level,
+        &shot.scene_at(size, level),
+        f64::from(shot.settings.water.spacing).powi(3),
+        radius,
+        Sum::Fixed,
+    );
+    compare::between("densities-thickness", &drawn.thickness, &bounds);
+
+    for stray in [f32::NAN, f32::INFINITY, -f32::INFINITY, -5.0, f32::MAX, f32::MIN_POSITIVE] {
+        let mut shot = shot.clone();
+        for density in shot.densities.iter_mut().flatten().step_by(3) {
+            *density = stray;
+        }
+        let drawn = rig.draw(&shot);
+        let finite = drawn.output.data.iter().flatten().all(|v| v.is_finite());
+        assert!(finite, "a density of {stray}");
+    }
+}
+
+fn words(values: &[u32]) -> Vec<u8> {
+    values.iter().flat_map(|v| v.to_le_bytes()).collect()
+}
+
+fn packed(positions: Stream, count: Count) -> Particles {
+    let (before, after) = (HOST_WRITE, HOST_WRITE);
+    Particles { positions, densities: None, count, packets: None, before, after }
+}
+
+const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
+
+#[test]
+fn a_count_on_the_gpu_is_that_of_the_cpu_and_is_clamped() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let shot = water(size);
+    let all = shot.positions.len() as u32;
+    let most = 200;
+    let mut rig = Rig::new(&gpu, &Config { max_particles: most, ..exact(size) });
+    let positions = rig.stub.data(bytemuck::cast_slice(&shot.positions), STORAGE);
+    let alignment = gpu.limits().min_storage_buffer_offset_alignment.max(4);
+    assert!(all > most + 50);
+    for (host, offset, drawn) in [
+        (0, 0, 0),
+        (1, alignment, 1),
+        (150, 0, 150),
+        (most, 3 * alignment, most),
+        (all, alignment, most),
+        (u32::MAX, 0, most),
+    ] {
+        let mut bytes = vec![0xFF; offset as usize];
+        bytes.extend(words(&[host, 77]));
+        let count = rig.stub.data(&bytes, STORAGE);
+        let stream = stream(&positions, 0, 12);
+        let on_gpu =
+            rig.draw_particles(&shot, &packed(stream, Count::Gpu { buffer: count.buffer, offset }));
+        let on_cpu = rig.draw_particles(&shot, &packed(stream, Count::Cpu(drawn)));
+        same_drawn(&format!("count-{host}"), &on_gpu, &on_cpu);
+    }
+    // A stream that ends before the count does.
+    let count = rig.stub.data(&words(&[190]), STORAGE);
+    let short = Stream { size: 100 * 12, ..stream(&positions, 0, 12) };
+    let on_gpu = packed(short, Count::Gpu { buffer: count.buffer, offset: 0 });
+    let on_gpu = rig.draw_particles(&shot, &on_gpu);
+    let on_cpu = rig.draw_particles(&shot, &packed(short, Count::Cpu(100)));
+    same_drawn("count-short-stream", &on_gpu, &on_cpu);
+}
+
+#[test]
+fn streams_may_be_strided_offset_and_interleaved() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &Config { max_stride: 64, ..exact(size) });
+    let mut shot = water(size);
+    let mut random = Random(8);
+    shot.densities = Some(shot.positions.iter().map(|_| random.between(300.0, 500.0)).collect());
+    let expected = rig.draw(&shot);
+    let densities = shot.densities.clone().expect("set above");
+    // Words from a particle to the next, and the first words of position and density.
+    for (stride, position, density) in [(4, 0, 3), (5, 1, 0), (8, 4, 2), (16, 13, 6), (7, 3, 20)] {
+        let mut data = vec![f32::NAN; stride * shot.positions.len() + 32];
+        for (i, (p, d)) in shot.positions.iter().zip(&densities).enumerate() {
+            data[i * stride + position..][..3].copy_from_slice(p);
+            data[i * stride + density] = *d;
+        }
+        if density == 20 {
+            // Apart from it.
+            for (i, p) in shot.positions.iter().enumerate() {
+                data[i * stride + position..][..3].copy_from_slice(p);
+            }
+        }
+        let buffer = rig.stub.data(bytemuck::cast_slice(&data), STORAGE);
+        let own = rig.stub.data(bytemuck::cast_slice(&densities), STORAGE);
+        let interleaved = density != 20;
+        let mut particles = packed(
+            stream(&buffer, 4 * position as u64, 4 * stride as u32),
+            Count::Cpu(densities.len() as u32),
+        );
+        particles.densities = Some(match interleaved {
+            true => stream(&buffer, 4 * density as u64, 4 * stride as u32),
+            false => stream(&own, 0, 4),
+        });
+        let drawn = rig.draw_particles(&shot, &particles);
+        same_drawn(&format!("stream-{stride}-{position}"), &drawn, &expected);
+    }
+}
+
+fn packet_bytes(shot: &Shot, ranges: &[(u32, u32)]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    for &(first, count) in ranges {
+        let mut low = [f32::INFINITY; 3];
+        let mut high = [f32::NEG_INFINITY; 3];
+        for p in shot.positions.iter().skip(first as usize).take(count as usize) {
+            for i in 0..3 {
+                (low[i], high[i]) = (low[i].min(p[i]), high[i].max(p[i]));
+            }
+        }
+        bytes.extend(words(&[first, count]));
+        bytes.extend(low.into_iter().chain(high).flat_map(f32::to_le_bytes));
+    }
+    bytes
+}
+
+#[test]
+fn packets_cull_as_single_particles() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let shot = water(size);
+    let n = shot.positions.len() as u32;
+    // One chunk, and several that cut through the packets.
+    for max_stride in [16, 1 << 19] {
+        let mut rig = Rig::new(&gpu, &Config { max_stride, ..exact(size) });
+        let expected = rig.draw(&shot);
+        let all: Vec<(u32, u32)> = (0..n).step_by(70).map(|i| (i, 70.min(n - i))).collect();
+        // The last one counts beyond the particles, and beyond 32 bits.
+        let mut open = all.clone();
+        open.last_mut().expect("some").1 = u32::MAX - 1;
+        let mut mixed = all.clone();
+        mixed.reverse();
+        for (name, ranges) in [("all", &all), ("open", &open), ("reversed", &mixed)] {
+            let cloud = rig.particles(&shot);
+            let packets = rig.stub.data(&packet_bytes(&shot, ranges), STORAGE);
+            let (buffer, count) = (packets.buffer, ranges.len() as u32);
+            let packets = Some(Packets { buffer, offset: 0, count });
+            let particles = Particles { packets, ..cloud.particles() };
+            let drawn = rig.draw_particles(&shot, &particles);
+            same_drawn(&format!("packets-{name}-{max_stride}"), &drawn, &expected);
+        }
+        // Those in no packet are not drawn.
+        let half: Vec<(u32, u32)> = vec![(0, n / 2)];
+        let cloud = rig.particles(&shot);
+        let data = rig.stub.data(&packet_bytes(&shot, &half), STORAGE);
+        let packets = Some(Packets { buffer: data.buffer, offset: 0, count: 1 });
+        let drawn = rig.draw_particles(&shot, &Particles { packets, ..cloud.particles() });
+        let mut less = shot.clone();
+        less.positions.truncate(n as usize / 2);
+        same_drawn("packets-half", &drawn, &rig.draw(&less));
+    }
+}
+
+/// The stride there may be decides how many particles are worked on at a time.
+#[test]
+fn chunks_do_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut shot = water(size);
+    let more = scenes::cloud(21, 3000, 0.5, 15.0);
+    shot.positions.extend(scenes::world(&shot.camera, &more));
+    let expected = Rig::new(&gpu, &exact(size)).draw(&shot);
+    for splat in [Splat::Compute, Splat::Raster] {
+        let config = Config { depth_splat: Some(splat), max_stride: 1 << 17, ..exact(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        let drawn = rig.draw(&shot);
+        same_drawn(&format!("chunks-{splat:?}"), &drawn, &expected);
+        // A chunk or more without particles.
+        let mut few = shot.clone();
+        few.positions.truncate(100);
+        let expected =
+            Rig::new(&gpu, &Config { depth_splat: Some(splat), ..exact(size) }).draw(&few);
+        same_drawn(&format!("chunks-few-{splat:?}"), &rig.draw(&few), &expected);
+    }
+}
+
+/// As many chunks as a configuration may come to: each has its descriptor sets.
+#[test]
+fn many_chunks_have_their_descriptors() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    let most = 65_536;
+    let mut rig =
+        Rig::new(&gpu, &Config { max_stride: 1 << 16, max_particles: most, ..exact(size) });
+    let shot = water(size);
+    let expected = Rig::new(&gpu, &exact(size)).draw(&shot);
+    same_drawn("many-chunks", &rig.draw(&shot), &expected);
+}
+
+/// A stream longer than what one binding may hold is read through windows.
+#[test]
+fn a_stream_longer_than_a_binding_is_read_whole() {
+    let gpu = Gpu::shared();
+    let range = u64::from(gpu.limits().max_storage_buffer_range);
+    if range > 1 << 28 {
+        eprintln!("skipped: a binding holds {range} bytes here");
+        return;
+    }
+    let size = extent(96, 64);
+    let shot = water(size);
+    let stride = 1_u64 << 20;
+    let count = (range / stride + 20).min(shot.positions.len() as u64);
+    let data = {
+        let mut rig = Rig::new(&gpu, &Config { max_stride: 1 << 20, ..exact(size) });
+        let mut data = rig.stub.sized(count * stride, STORAGE);
+        // Only the pages that are written cost memory.
+        for (i, p) in shot.positions.iter().take(count as usize).enumerate() {
+            data.write_at(i as u64 * stride, bytemuck::cast_slice(p));
+        }
+        let particles = packed(stream(&data, 0, stride as u32), Count::Cpu(count as u32));
+        rig.draw_particles(&shot, &particles)
+    };
+    let mut less = shot.clone();
+    less.positions.truncate(count as usize);
+    same_drawn("long-stream", &data, &Rig::new(&gpu, &exact(size)).draw(&less));
+}
+
+fn scaled(shot: &Shot, scale: f32) -> Shot {
+    use whitewater::water::Medium;
+    let mut shot = shot.clone();
+    for p in &mut shot.positions {
+        *p = p.map(|x| x * scale);
+    }
+    // Depths are scaled, device depths stay as they are.
+    let mut view = shot.camera.view;
+    view.w_axis = (view.w_axis.truncate() * scale).extend(1.0);
+    shot.camera.view = view;
+    shot.camera.projection.w_axis.z *= scale;
+    shot.settings.water.spacing *= scale;
+    if let Medium::Physical { absorption, scattering } = &mut shot.settings.water.medium {
+        *absorption = absorption.map(|k| k / scale);
+        *scattering = scattering.map(|k| k / scale);
+    }
+    shot
+}
+
+/// Powers of two scale every number without rounding: the pictures are the same bit for bit. Others
+/// are checked against the twins at their scale.
+#[test]
+fn the_unit_of_length_does_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &exact(size));
+    rig.environment(extent(4, 2), &[[0.5, 0.75, 1.0, 1.0]; 8]);
+    let mut shot = water(size);
+    shot.scene_depth(|x, _| Some(if x < 40 { 4.5 } else { 60.0 }));
+    let expected = rig.draw(&shot);
+    for scale in [1024.0, 1.0 / 1024.0] {
+        let drawn = rig.draw(&scaled(&shot, scale));
+        compare::same_color(&format!("unit-{scale}"), &drawn.output, &expected.output);
+        assert!(drawn.plan == expected.plan, "the plans differ at {scale}");
+    }
+    for scale in [1000.0, 0.001] {
+        let shot = scaled(&shot, scale);
+        let mut open = shot.clone();
+        open.scene_depth(|_, _| None);
+        let drawn = rig.draw(&open);
+        let bounds = tolerance::depth(&spheres(&open), &open.view(size));
+        compare::between(&format!("unit-depth-{scale}"), &drawn.depth, &bounds);
+        let drawn = rig.draw(&shot);
+        let level = rig.config.thickness_level;
+        let bounds = tolerance::thickness(
+            &spheres(&shot),
+            &shot.view(size),
+            level,
+            &shot.scene_at(size, level),
+            f64::from(shot.settings.water.spacing).powi(3),
+            f64::from(shot.settings.water.radius()),
+            Sum::Fixed,
+        );
+        compare::between(&format!("unit-thickness-{scale}"), &drawn.thickness, &bounds);
+    }
+}

@@ -1,0 +1,99 @@
+//! Pass `smooth`: curvature flow against the twin on the same input and plan, and all forms of it
+//! against each other.
+
+use whitewater::Config;
+use whitewater::water::{Gate, Rule, Smoothing};
+
+use crate::reduce::{decoded, params, rules, wide};
+use crate::reference;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::scenes::{self, LENSES, Lens};
+use crate::support::tolerance;
+
+/// Water as it is: a block of particles, and strays before and behind it.
+fn water(size: ash::vk::Extent2D, lens: Lens) -> Shot {
+    let mut points = scenes::block(3, 0.25, [14, 8, 4], [-1.8, -1.0, 4.0]);
+    points.extend(scenes::cloud(4, 12, 1.5, 12.0));
+    Shot::new(size, lens, 0.2, &points)
+}
+
+#[test]
+fn the_surface_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for level in 0..3 {
+        for (rule, twin) in rules() {
+            let config =
+                Config { smoothing_level: level, thickness_level: 0, rule, ..config(size) };
+            let mut rig = Rig::new(&gpu, &config);
+            let lenses: &[Lens] = match (level, rule) {
+                (1, Rule::ConstantWidth) => &LENSES,
+                _ => &[Lens::Standard, Lens::OffAxis],
+            };
+            for lens in lenses {
+                let shot = water(size, *lens);
+                let drawn = rig.draw(&shot);
+                let params = params(&shot, config.max_iterations);
+                let view = shot.view(size).reduced(level);
+                let reduced = reference::reduce::reduce(&wide(&drawn.depth), level);
+                let plan = decoded(&drawn, twin, &params);
+                let (expected, error) = tolerance::smoothing(&reduced, &plan, &view, twin, &params);
+                let name = format!("smooth-{rule:?}-{level}-{lens:?}").replace(['(', ')'], "");
+                let census =
+                    compare::close(&name, &drawn.surface, &expected, 0, |x, y, _| error.at(x, y));
+                // The bound must be far below what the smoothing does.
+                let mut errors: Vec<f64> =
+                    error.data.iter().copied().filter(|e| *e > 0.0).collect();
+                errors.sort_by(f64::total_cmp);
+                let median = errors[errors.len() / 2];
+                let moved: f64 = (reduced.data.iter().zip(&expected.data))
+                    .filter(|(a, _)| **a < 1e9)
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, f64::max);
+                assert!(median < 0.02 * params.radius, "{name}: a bound of {median} shows nothing");
+                assert!(moved > 0.1 * params.radius, "{name}: nothing was smoothed");
+                if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+                    eprintln!("{name}: median bound {median:.2e}, {census}");
+                }
+            }
+        }
+    }
+}
+
+/// All do the same arithmetic: bit for bit.
+#[test]
+fn all_forms_give_the_same_surface() {
+    let gpu = Gpu::shared();
+    let mut forms = vec![Smoothing::Tiles, Smoothing::Fused, Smoothing::Query(Gate::VertexCull)];
+    if gpu.enabled.draw_indirect_count {
+        forms.push(Smoothing::Query(Gate::DrawCount));
+    }
+    if gpu.enabled.conditional_rendering {
+        forms.push(Smoothing::Query(Gate::Predicate));
+    }
+    for (size, cap) in [(extent(97, 61), 256), (extent(130, 35), 7), (extent(3, 5), 40)] {
+        for (rule, _) in rules() {
+            let mut first = None;
+            for form in &forms {
+                let config = Config {
+                    smoothing_level: 0,
+                    thickness_level: 0,
+                    smoothing: Some(*form),
+                    max_iterations: cap,
+                    rule,
+                    ..config(size)
+                };
+                let mut rig = Rig::new(&gpu, &config);
+                let shot = water(size, Lens::OffAxis);
+                // The second frame starts from the state that the first one left.
+                rig.draw(&shot);
+                let surface = rig.draw(&shot).surface;
+                let first = first.get_or_insert_with(|| surface.clone());
+                let name = format!("forms-{form:?}-{rule:?}-{}", size.width);
+                compare::same(&name.replace(['(', ')'], ""), &surface, first);
+            }
+        }
+    }
+}

@@ -1,0 +1,433 @@
+//! Behind a spy in the function table: a record only records, memory is steady, and every call that
+//! can fail does so cleanly.
+
+use std::mem;
+
+use ash::vk;
+use whitewater::headless::{Background, Headless};
+use whitewater::water::{Gate, Smoothing, Splat};
+use whitewater::{Config, Error, Frame, Recorded, Slot};
+
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+use crate::support::{slow, spy};
+
+fn spied() -> Gpu {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    gpu
+}
+
+fn water(size: vk::Extent2D) -> Shot {
+    let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
+    Shot::new(size, Lens::Standard, 0.2, &points)
+}
+
+fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot) {
+    let (color, depth) = rig.scene(shot);
+    let cloud = rig.particles(shot);
+    let frame = Frame {
+        slot: Slot(0),
+        output: color.host_image(),
+        scene_color: color.host_image(),
+        scene_depth: depth.host_image(),
+        particles: cloud.particles(),
+        camera: shot.camera,
+        settings: &shot.settings,
+    };
+    for _ in 0..3 {
+        let cmd = rig.stub.begin(0);
+        spy::reset();
+        // Nobody may take the allocator: a record that tries would wait for ever.
+        let allocator = rig.gpu.allocator.clone();
+        let held = allocator.lock().unwrap();
+        // SAFETY: cmd is recording; the slot was waited for.
+        unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+        drop(held);
+        for function in spy::NOT_IN_A_RECORD {
+            assert_eq!(function.calls(), 0, "{name}: record calls {:?}", function.name);
+        }
+        let (sets, room) = (spy::ALLOCATE_SETS.calls(), spy::MAX_SETS.load(RELAXED));
+        assert!(sets <= room, "{name}: {sets} descriptor sets from a pool of {room}");
+        assert!(spy::CMD_BARRIER.calls() > 5 && spy::CMD_BIND_PIPELINE.calls() > 5, "it sees");
+        rig.stub.end(0);
+        rig.stub.wait(0);
+        rig.renderer().collect(Slot(0));
+    }
+}
+
+const RELAXED: std::sync::atomic::Ordering = std::sync::atomic::Ordering::Relaxed;
+
+#[test]
+fn record_only_records() {
+    let gpu = spied();
+    let size = extent(48, 32);
+    let base = config(size);
+    let query = Some(Smoothing::Query(Gate::VertexCull));
+    let mut configs = vec![
+        ("default", base),
+        (
+            "raster",
+            Config {
+                depth_splat: Some(Splat::Raster),
+                thickness_splat: Some(Splat::Raster),
+                ..base
+            },
+        ),
+        ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
+        ("query", Config { smoothing: query, ..base }),
+    ];
+    if gpu.enabled.conditional_rendering {
+        let smoothing = Some(Smoothing::Query(Gate::Predicate));
+        configs.push(("predicate", Config { smoothing, ..base }));
+    }
+    if gpu.enabled.draw_indirect_count {
+        let smoothing = Some(Smoothing::Query(Gate::DrawCount));
+        configs.push(("draw count", Config { smoothing, ..base }));
+    }
+    for (name, config) in configs {
+        watched(name, &mut Rig::new(&gpu, &config), &water(size));
+    }
+}
+
+/// Drivers that count their pools' sets must have enough for every chunk.
+#[test]
+fn many_chunks_have_their_descriptor_sets() {
+    let gpu = spied();
+    let size = extent(48, 32);
+    let config = Config { max_stride: 1 << 16, max_particles: 1 << 16, ..config(size) };
+    watched("many chunks", &mut Rig::new(&gpu, &config), &water(size));
+}
+
+/// Frames in a steady state make and destroy as much.
+#[test]
+fn memory_is_steady() {
+    let gpu = spied();
+    let size = extent(16, 8);
+    let mut rig = Rig::with_slots(&gpu, &config(size), 3);
+    let shot = Shot::new(size, Lens::Standard, 0.3, &[[0.0, 0.0, 3.0], [0.4, 0.1, 4.0]]);
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let mut after_warm_up = None;
+    let frames = if slow() { 10_000 } else { 300 };
+    for i in 0..frames {
+        let slot = i % 3;
+        let frame = Frame {
+            slot: Slot(slot),
+            output: color.host_image(),
+            scene_color: color.host_image(),
+            scene_depth: depth.host_image(),
+            particles: cloud.particles(),
+            camera: shot.camera,
+            settings: &shot.settings,
+        };
+        let cmd = rig.stub.begin(slot);
+        rig.renderer().collect(Slot(slot));
+        // SAFETY: cmd is recording; the slot was waited for.
+        unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+        rig.stub.end(slot);
+        if i == 20 || i == frames - 1 {
+            let now = (spy::live(), gpu.allocations().len(), rig.renderer().memory());
+            let before = after_warm_up.get_or_insert_with(|| now.clone());
+            assert_eq!(*before, now, "frame {i}");
+        }
+    }
+    (0..3).for_each(|slot| rig.stub.wait(slot));
+    assert!(gpu.expect_messages().is_empty());
+}
+
+/// Which of a function's calls to fail: all of them in the long tests, else some.
+fn chosen(calls: u32) -> Vec<u32> {
+    if slow() || calls <= 6 {
+        return (1..=calls).collect();
+    }
+    let mut chosen: Vec<u32> = (0..5).map(|i| 1 + i * (calls - 1) / 4).collect();
+    chosen.dedup();
+    chosen
+}
+
+fn is_memory_error(error: &Error) -> bool {
+    match error {
+        Error::Vulkan { result, .. } => *result == vk::Result::ERROR_OUT_OF_DEVICE_MEMORY,
+        Error::Allocation { .. } => true,
+        _ => false,
+    }
+}
+
+/// Whichever call of the construction fails: an error that names it, and nothing is left behind.
+#[test]
+fn a_failed_construction_leaves_nothing() {
+    let gpu = spied();
+    let size = extent(32, 16);
+    let config = Config { depth_splat: Some(Splat::Raster), ..config(size) };
+    // SAFETY: live handles.
+    let make = || unsafe { whitewater::Renderer::new(&gpu.host(2), &config) };
+    spy::reset();
+    let renderer = make().unwrap_or_else(|error| panic!("{error}"));
+    let calls: Vec<u32> = spy::MAKERS.iter().map(|f| f.calls()).collect();
+    // SAFETY: nothing was recorded.
+    unsafe { renderer.destroy() };
+    assert_eq!(spy::live(), Vec::<String>::new());
+    let mut wrong = Vec::new();
+    for (function, calls) in spy::MAKERS.iter().zip(calls) {
+        for k in chosen(calls) {
+            spy::reset();
+            spy::forget();
+            // The allocator keeps blocks: it only asks for more when it has none.
+            *gpu.allocator.lock().unwrap() = gpu.make_allocator(&gpu.functions);
+            function.fail(k, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
+            let name = format!("{} call {k}", function.name.to_string_lossy());
+            match make() {
+                Err(error) if is_memory_error(&error) && !error.to_string().is_empty() => {}
+                Err(error) => wrong.push(format!("{name}: {error}")),
+                Ok(renderer) => {
+                    if !function.pending() {
+                        wrong.push(format!("{name}: no error"));
+                    }
+                    // SAFETY: nothing was recorded.
+                    unsafe { renderer.destroy() };
+                }
+            }
+            let (live, held) = (spy::live(), gpu.allocations());
+            if !live.is_empty() || !held.is_empty() {
+                wrong.push(format!("{name}: left {} allocations, {}", held.len(), live.join(", ")));
+            }
+            // What is left is told once and must not spoil the rest.
+            mem::forget(mem::replace(
+                &mut *gpu.allocator.lock().unwrap(),
+                gpu.make_allocator(&gpu.functions),
+            ));
+        }
+    }
+    let messages = gpu.expect_messages();
+    assert!(messages.is_empty(), "{messages:?}");
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Draws at one size; makes the `k`-th call of a function fail in a change to another; says what is
+/// wrong afterwards. None when the change makes fewer calls.
+fn failed_change(
+    gpu: &Gpu,
+    config: &Config,
+    function: &spy::Function,
+    k: u32,
+    change: impl Fn(&mut whitewater::Renderer) -> Result<(), Error>,
+    recovers: impl Fn(&mut whitewater::Renderer) -> Result<(), Error>,
+) -> Option<String> {
+    let shot = water(config.extent);
+    let before = spy::live();
+    let mut wrong = Vec::new();
+    {
+        let mut rig = Rig::new(gpu, config);
+        // Bitwise, whichever way the sprites are added: the thickness is left out.
+        let expected = rig.draw(&shot);
+        spy::reset();
+        function.fail(k, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
+        let result = change(rig.renderer());
+        let pending = function.pending();
+        spy::reset();
+        match result {
+            Ok(()) if pending => return None,
+            Ok(()) => wrong.push("no error".into()),
+            Err(error) if !is_memory_error(&error) => wrong.push(error.to_string()),
+            Err(_) => {}
+        }
+        match recovers(rig.renderer()) {
+            Ok(()) => {
+                let found = rig.draw(&shot);
+                if found.surface != expected.surface || found.plan != expected.plan {
+                    wrong.push("another picture afterwards".into());
+                }
+            }
+            Err(error) => wrong.push(format!("no way back: {error}")),
+        }
+    }
+    let live = spy::live();
+    if live != before {
+        wrong.push(format!("left: {}", live.join(", ")));
+    }
+    let messages = gpu.expect_messages();
+    wrong.extend(messages.first().map(|m| m.chars().take(160).collect()));
+    (!wrong.is_empty()).then(|| wrong.join("; ")).or(Some(String::new()))
+}
+
+const CHANGED: [&spy::Function; 6] = [
+    &spy::CREATE_IMAGE,
+    &spy::CREATE_IMAGE_VIEW,
+    &spy::CREATE_BUFFER,
+    &spy::CREATE_FRAMEBUFFER,
+    &spy::BIND_IMAGE_MEMORY,
+    &spy::CREATE_COMPUTE_PIPELINES,
+];
+
+/// After a resize that failed frames are refused before any command, until one has succeeded.
+#[test]
+fn a_failed_resize_is_made_good_by_another() {
+    let gpu = spied();
+    let (old, new) = (extent(48, 32), extent(96, 64));
+    let mut wrong = Vec::new();
+    for splat in [Splat::Raster, Splat::Compute] {
+        let config =
+            Config { depth_splat: Some(splat), thickness_splat: Some(splat), ..config(old) };
+        for function in CHANGED {
+            for k in 1..=20 {
+                let found = failed_change(
+                    &gpu,
+                    &config,
+                    function,
+                    k,
+                    |renderer| renderer.resize(new),
+                    |renderer| renderer.resize(old),
+                );
+                match found {
+                    None => break,
+                    Some(what) if what.is_empty() => {}
+                    Some(what) => {
+                        let name = function.name.to_string_lossy();
+                        wrong.push(format!("{splat:?}, {name} call {k}: {what}"));
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn frames_are_refused_after_a_failed_resize() {
+    let gpu = spied();
+    let size = extent(48, 32);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let shot = water(size);
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    spy::reset();
+    spy::CREATE_IMAGE.fail(3, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
+    assert!(rig.renderer().resize(extent(96, 64)).is_err());
+    let frame = Frame {
+        slot: Slot(0),
+        output: color.host_image(),
+        scene_color: color.host_image(),
+        scene_depth: depth.host_image(),
+        particles: cloud.particles(),
+        camera: shot.camera,
+        settings: &shot.settings,
+    };
+    let cmd = rig.stub.begin(0);
+    spy::reset();
+    // SAFETY: cmd is recording.
+    let result = unsafe { rig.renderer().record(cmd, &frame) };
+    let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    assert!(matches!(result, Err(Error::BadInput { .. })) && commands == 0, "{commands} commands");
+}
+
+/// A reconfigure that fails leaves the renderer as it was.
+#[test]
+fn a_failed_reconfigure_changes_nothing() {
+    let gpu = spied();
+    let old = config(extent(48, 32));
+    let new = Config { smoothing_level: 0, environment_size: 32, ..config(extent(96, 64)) };
+    let mut wrong = Vec::new();
+    for function in CHANGED {
+        for k in [1, 2, 3, 5, 8, 13] {
+            let found = failed_change(
+                &gpu,
+                &old,
+                function,
+                k,
+                |renderer| renderer.reconfigure(&new).map(|_| ()),
+                |renderer| {
+                    assert_eq!(*renderer.config(), old, "the configuration is kept");
+                    Ok(())
+                },
+            );
+            match found {
+                None => break,
+                Some(what) if what.is_empty() => {}
+                Some(what) => {
+                    wrong.push(format!("{} call {k}: {what}", function.name.to_string_lossy()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Whatever of a record's calls fails: the error says so, and after `abandon` the slot is good again.
+#[test]
+fn a_failed_record_can_be_repeated() {
+    let gpu = spied();
+    let size = extent(48, 32);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let shot = water(size);
+    let expected = rig.draw(&shot);
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let frame = Frame {
+        slot: Slot(0),
+        output: color.host_image(),
+        scene_color: color.host_image(),
+        scene_depth: depth.host_image(),
+        particles: cloud.particles(),
+        camera: shot.camera,
+        settings: &shot.settings,
+    };
+    for (function, calls) in [
+        (&spy::CREATE_FRAMEBUFFER, vec![1]),
+        (&spy::RESET_DESCRIPTOR_POOL, vec![1]),
+        (&spy::ALLOCATE_SETS, vec![1, 2, 5, 8]),
+    ] {
+        for k in calls {
+            let cmd = rig.stub.begin(0);
+            spy::reset();
+            function.fail(k, vk::Result::ERROR_DEVICE_LOST);
+            // SAFETY: cmd is recording; the slot was waited for.
+            let result = unsafe { rig.renderer().record(cmd, &frame) };
+            spy::reset();
+            match result {
+                Err(error) => assert!(error.is_device_lost(), "{error}"),
+                Ok(_) => panic!("{:?} call {k}: no error", function.name),
+            }
+            // Discarded: begin resets it.
+            rig.renderer().abandon(Slot(0));
+        }
+    }
+    let cmd = rig.stub.begin(0);
+    // SAFETY: as above.
+    unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    let found = rig.read(&color.host_image(), &Recorded::default());
+    compare::same_color("after-failed-record", &found.output, &expected.output);
+}
+
+/// The headless renderer reports a lost device from submit and wait.
+#[test]
+fn headless_reports_a_lost_device() {
+    let mut gpu = Gpu::own();
+    let functions = spy::functions(&gpu);
+    let mut device = gpu.take_device();
+    device.device = functions;
+    let size = extent(32, 16);
+    let mut headless = Headless::new(device, &config(size)).expect("headless");
+    let shot = water(size);
+    headless.particles(&shot.positions, None).expect("particles");
+    for function in [&spy::QUEUE_SUBMIT2, &spy::WAIT_FOR_FENCES] {
+        spy::reset();
+        function.fail(1, vk::Result::ERROR_DEVICE_LOST);
+        let background = Background::Color([0.1, 0.2, 0.3]);
+        match headless.render(&shot.camera, &shot.settings, &background) {
+            Err(error) => assert!(error.is_device_lost(), "{error}"),
+            Ok(()) => panic!("{:?}: no error", function.name),
+        }
+        // The work was submitted where only the wait failed.
+        // SAFETY: a live device.
+        unsafe { headless.device().device.device_wait_idle() }.expect("idle");
+    }
+    spy::reset();
+    drop(headless.finish());
+}

@@ -1,0 +1,148 @@
+//! Comparisons. A failing one writes actual, expected and difference as EXR files and a census
+//! under `test-output/`, then says how many pixels fail, by how much, and where.
+
+use std::path::PathBuf;
+
+use super::tolerance::Between;
+use crate::reference::{self, Census, Image};
+
+fn folder() -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("test-output");
+    std::fs::create_dir_all(&folder).expect("test-output can be made");
+    folder
+}
+
+fn write(name: &str, image: &Image<[f32; 4]>) {
+    let file = folder().join(format!("{name}.exr"));
+    let written = exr::prelude::write_rgba_file(&file, image.width, image.height, |x, y| {
+        let [r, g, b, a] = image.at(x, y);
+        (r, g, b, a)
+    });
+    if let Err(error) = written {
+        eprintln!("{}: {error}", file.display());
+    }
+}
+
+/// Writes the triple of a failed comparison; returns where it lies.
+fn triple(
+    name: &str,
+    actual: &Image<[f32; 4]>,
+    expected: &Image<[f32; 4]>,
+    census: &str,
+) -> String {
+    let difference = Image {
+        width: actual.width,
+        height: actual.height,
+        data: (actual.data.iter().zip(&expected.data))
+            .map(|(a, b)| [0, 1, 2, 3].map(|i| a[i] - b[i]))
+            .collect(),
+    };
+    write(&format!("{name}-actual"), actual);
+    write(&format!("{name}-expected"), expected);
+    write(&format!("{name}-difference"), &difference);
+    let _ = std::fs::write(folder().join(format!("{name}.txt")), census);
+    folder().join(format!("{name}-*.exr")).display().to_string()
+}
+
+fn grey(image: &Image<f32>) -> Image<[f32; 4]> {
+    image.map(|v| [*v, *v, *v, 1.0])
+}
+
+/// Asserts that no pixel is further from the twin than its tolerance, and that no more than
+/// `coverage` pixels are empty in one image only.
+pub fn close(
+    name: &str,
+    actual: &Image<f32>,
+    expected: &Image<f64>,
+    coverage: usize,
+    tolerance: impl Fn(usize, usize, f64) -> f64,
+) -> Census {
+    let census = reference::compare(actual, expected, tolerance);
+    if !census.passes(coverage) {
+        let expected = expected.map(|v| *v as f32);
+        let files = triple(name, &grey(actual), &grey(&expected), &census.to_string());
+        panic!("{name}: {census}\nsee {files}");
+    }
+    census
+}
+
+/// Asserts that every pixel lies in its bounds.
+pub fn between(name: &str, actual: &Image<f32>, bounds: &Between) {
+    assert_eq!((actual.width, actual.height), (bounds.low.width, bounds.low.height), "{name}");
+    let mut census = String::new();
+    let mut failed = 0;
+    let mut surfaces = 0;
+    for (i, value) in actual.data.iter().enumerate() {
+        let (low, high) = (bounds.low.data[i], bounds.high.data[i]);
+        let value = f64::from(*value);
+        surfaces += usize::from(value < 1e9);
+        // Empty is what single precision makes of it.
+        if !(value >= low.min(1e10) && value <= high.max(low)) {
+            failed += 1;
+            if failed <= 8 {
+                let (x, y) = (i % actual.width, i / actual.width);
+                census += &format!("({x}, {y}): {value:e}, expected {low:e} to {high:e}\n");
+            }
+        }
+    }
+    if failed > 0 {
+        let census =
+            format!("{failed} of {} pixels, {surfaces} surfaces\n{census}", actual.data.len());
+        let expected = bounds.low.map(|v| *v as f32);
+        let files = triple(name, &grey(actual), &grey(&expected), &census);
+        panic!("{name}: {census}see {files}");
+    }
+}
+
+/// Asserts that two images are the same bit for bit.
+pub fn same(name: &str, actual: &Image<f32>, expected: &Image<f32>) {
+    same_color(name, &grey(actual), &grey(expected));
+}
+
+/// Asserts that two pictures are the same bit for bit.
+pub fn same_color(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[f32; 4]>) {
+    assert_eq!((actual.width, actual.height), (expected.width, expected.height), "{name}");
+    let bits = |c: &[f32; 4]| c.map(f32::to_bits);
+    let differ: Vec<usize> = (0..actual.data.len())
+        .filter(|i| bits(&actual.data[*i]) != bits(&expected.data[*i]))
+        .collect();
+    if let Some(first) = differ.first() {
+        let census = format!(
+            "{} of {} pixels differ, first at ({}, {}): {:?}, expected {:?}",
+            differ.len(),
+            actual.data.len(),
+            first % actual.width,
+            first / actual.width,
+            actual.data[*first],
+            expected.data[*first]
+        );
+        let files = triple(name, actual, expected, &census);
+        panic!("{name}: {census}\nsee {files}");
+    }
+}
+
+/// Asserts that pictures agree within a tolerance per pixel and channel.
+pub fn close_color(
+    name: &str,
+    actual: &Image<[f32; 4]>,
+    expected: &Image<[f64; 4]>,
+    tolerance: impl Fn(usize, usize) -> [f64; 4],
+) -> Census {
+    let mut worst: Option<Census> = None;
+    for channel in 0..4 {
+        let census = reference::compare(
+            &actual.map(|c| c[channel]),
+            &expected.map(|c| c[channel]),
+            |x, y, _| tolerance(x, y)[channel],
+        );
+        if !census.passes(0) {
+            let expected = expected.map(|c| c.map(|v| v as f32));
+            let files = triple(name, actual, &expected, &census.to_string());
+            panic!("{name}, channel {channel}: {census}\nsee {files}");
+        }
+        if worst.as_ref().is_none_or(|w| census.worst > w.worst) {
+            worst = Some(census);
+        }
+    }
+    worst.expect("four channels")
+}

@@ -1,0 +1,215 @@
+//! The device under test. GPU tests run one at a time, so that a validation message belongs to the
+//! test that is running; each ends by asserting that there was none.
+
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use ash::vk;
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use whitewater::headless::{Device, DeviceOptions};
+use whitewater::{Error, Host};
+
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+static SHARED: OnceLock<Device> = OnceLock::new();
+
+/// A device for the time of one test.
+pub struct Gpu {
+    device: Option<Held>,
+    /// Functions and allocator handed to the library; a spy replaces them.
+    pub functions: ash::Device,
+    pub allocator: Arc<Mutex<Allocator>>,
+    /// The test leaves objects behind on purpose.
+    pub leaks: bool,
+    _lock: MutexGuard<'static, ()>,
+}
+
+enum Held {
+    Shared(&'static Device),
+    Own(Box<Device>),
+}
+
+/// Whether messages of the validation layer arrive.
+pub fn validates() -> bool {
+    static VALIDATES: OnceLock<bool> = OnceLock::new();
+    *VALIDATES.get_or_init(|| {
+        let device = Device::new(&DeviceOptions { validation: true, ..Default::default() });
+        match device {
+            Ok(_) => true,
+            Err(Error::Missing { what, why }) if what.contains("validation") => {
+                let required =
+                    std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
+                assert!(!required, "validation is required, but {what} is missing: {why}");
+                eprintln!("gpu: NO VALIDATION: {what} is missing ({why})");
+                false
+            }
+            Err(error) => panic!("no device: {error}"),
+        }
+    })
+}
+
+fn make(options: &DeviceOptions) -> Device {
+    let options = DeviceOptions { validation: validates(), ..options.clone() };
+    let device = Device::new(&options).unwrap_or_else(|error| panic!("no device: {error}"));
+    if let Ok(expected) = std::env::var("WHITEWATER_EXPECT_ADAPTER") {
+        assert!(
+            device.adapter.to_lowercase().contains(&expected.to_lowercase()),
+            "expected the adapter {expected}, found {}",
+            device.adapter
+        );
+    }
+    device
+}
+
+fn lock() -> MutexGuard<'static, ()> {
+    ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn messages_of(device: &Device) -> Vec<String> {
+    device.take_messages()
+}
+
+impl Gpu {
+    fn new(lock: MutexGuard<'static, ()>, device: Held) -> Self {
+        let (functions, allocator) = match &device {
+            Held::Shared(device) => (device.device.clone(), device.allocator.clone()),
+            Held::Own(device) => (device.device.clone(), device.allocator.clone()),
+        };
+        Self { device: Some(device), functions, allocator, leaks: false, _lock: lock }
+    }
+
+    /// The device that most tests share.
+    pub fn shared() -> Self {
+        let lock = lock();
+        let device = SHARED.get_or_init(|| {
+            let device = make(&DeviceOptions::default());
+            eprintln!("gpu: adapter {} ({})", device.adapter, device.driver);
+            device
+        });
+        drop(messages_of(device));
+        Self::new(lock, Held::Shared(device))
+    }
+
+    /// A device of the test's own: everything made from it must be gone at the end.
+    pub fn own() -> Self {
+        Self::own_with(&DeviceOptions::default())
+    }
+
+    /// The same with options.
+    pub fn own_with(options: &DeviceOptions) -> Self {
+        let lock = lock();
+        Self::new(lock, Held::Own(Box::new(make(options))))
+    }
+
+    /// The host's side of the contract.
+    pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
+        Host {
+            device: &self.functions,
+            allocator: self.allocator.clone(),
+            ..Device::host(self, frames_in_flight)
+        }
+    }
+
+    /// Takes a device of the test's own out of it; the lock stays.
+    pub fn take_device(&mut self) -> Device {
+        match self.device.take() {
+            Some(Held::Own(device)) => *device,
+            _ => panic!("a shared device stays"),
+        }
+    }
+
+    /// The messages so far, which then do not fail the test.
+    pub fn expect_messages(&self) -> Vec<String> {
+        messages_of(self)
+    }
+
+    /// Names of what the allocator still holds.
+    pub fn allocations(&self) -> Vec<String> {
+        let allocator = self.allocator.lock().unwrap_or_else(PoisonError::into_inner);
+        allocator.generate_report().allocations.into_iter().map(|a| a.name).collect()
+    }
+
+    /// An allocator on a device's functions.
+    pub fn make_allocator(&self, functions: &ash::Device) -> Allocator {
+        Allocator::new(&AllocatorCreateDesc {
+            instance: self.instance.clone(),
+            device: functions.clone(),
+            physical_device: self.physical,
+            debug_settings: Default::default(),
+            buffer_device_address: false,
+            allocation_sizes: Default::default(),
+        })
+        .unwrap_or_else(|error| panic!("no allocator: {error}"))
+    }
+
+    /// Features of a format for optimal tiling.
+    pub fn format_features(&self, format: vk::Format) -> vk::FormatFeatureFlags {
+        // SAFETY: live handles.
+        unsafe { self.instance.get_physical_device_format_properties(self.physical, format) }
+            .optimal_tiling_features
+    }
+
+    /// Limits of the device.
+    pub fn limits(&self) -> vk::PhysicalDeviceLimits {
+        // SAFETY: live handles.
+        unsafe { self.instance.get_physical_device_properties(self.physical) }.limits
+    }
+}
+
+impl Deref for Gpu {
+    type Target = Device;
+
+    fn deref(&self) -> &Device {
+        match &self.device {
+            Some(Held::Shared(device)) => device,
+            Some(Held::Own(device)) => device,
+            None => unreachable!("only drop takes the device"),
+        }
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        let failed = std::thread::panicking();
+        if self.device.is_none() {
+            return;
+        }
+        let left = self.allocations();
+        let mut messages = messages_of(self);
+        if let Some(Held::Own(device)) = self.device.take() {
+            if !failed && !self.leaks {
+                // The blocks must go before the device does.
+                let spied = self.allocator.clone();
+                let real = device.allocator.clone();
+                for (allocator, functions) in [(spied, &self.functions), (real, &device.device)] {
+                    let empty = Allocator::new(&AllocatorCreateDesc {
+                        instance: device.instance.clone(),
+                        device: functions.clone(),
+                        physical_device: device.physical,
+                        debug_settings: Default::default(),
+                        buffer_device_address: false,
+                        allocation_sizes: Default::default(),
+                    });
+                    if let Ok(empty) = empty {
+                        *allocator.lock().unwrap_or_else(PoisonError::into_inner) = empty;
+                    }
+                }
+                // SAFETY: the test is over and its renderers are gone: what is left is a leak that
+                // the layer reports here.
+                unsafe {
+                    let _ = device.device.device_wait_idle();
+                    device.device.destroy_device(None);
+                }
+                messages.extend(messages_of(&device));
+            }
+            std::mem::forget(device);
+        }
+        if failed {
+            for message in messages.iter().take(5) {
+                eprintln!("validation: {message}");
+            }
+            return;
+        }
+        assert!(messages.is_empty(), "validation messages:\n{}", messages.join("\n"));
+        assert!(self.leaks || left.is_empty(), "memory that was not freed: {left:?}");
+    }
+}

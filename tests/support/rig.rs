@@ -1,0 +1,424 @@
+//! A renderer in a host: the host stub with the images and buffers of a frame, and what comes back.
+
+use ash::vk;
+use whitewater::water::Splat;
+use whitewater::{
+    Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
+    Particles, Recorded, Renderer, Settings, Slot, Stream,
+};
+
+use super::device::Gpu;
+use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
+use super::scenes;
+use crate::reference::{Image, View};
+
+/// Format of the outputs: its rounding is that of the shaders.
+pub const OUTPUT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+/// A size.
+pub fn extent(width: u32, height: u32) -> vk::Extent2D {
+    vk::Extent2D { width, height }
+}
+
+/// A configuration for tests: small environment, layers kept, and sums whose order is no matter.
+pub fn config(size: vk::Extent2D) -> Config {
+    Config {
+        environment_size: 16,
+        keep_layers: true,
+        depth_splat: Some(Splat::Compute),
+        thickness_splat: Some(Splat::Compute),
+        ..Config::new(size, OUTPUT, 4096)
+    }
+}
+
+/// What a frame shows.
+#[derive(Clone)]
+pub struct Shot {
+    pub camera: Camera,
+    pub settings: Settings,
+    pub positions: Vec<[f32; 3]>,
+    pub densities: Option<Vec<f32>>,
+    /// The scene's colour, of the output's size.
+    pub color: Vec<[f32; 4]>,
+    /// The scene's device depth and its size.
+    pub depth: Vec<f32>,
+    pub depth_extent: vk::Extent2D,
+    pub depth_format: vk::Format,
+}
+
+impl Shot {
+    /// Particles (eye space x, y, depth) of a radius before a far, coloured scene.
+    pub fn new(size: vk::Extent2D, lens: scenes::Lens, radius: f32, points: &[[f32; 3]]) -> Self {
+        let camera = scenes::camera(lens, size);
+        let mut shot = Self {
+            positions: scenes::world(&camera, points),
+            camera,
+            settings: scenes::settings(radius),
+            densities: None,
+            color: Vec::new(),
+            depth: Vec::new(),
+            depth_extent: size,
+            depth_format: vk::Format::D32_SFLOAT,
+        };
+        shot.color = gradient(size);
+        shot.scene_depth(|_, _| None);
+        shot
+    }
+
+    /// The twins' camera.
+    pub fn view(&self, size: vk::Extent2D) -> View {
+        scenes::twin(&self.camera, size)
+    }
+
+    /// World to the twins' eye space.
+    pub fn camera_view(&self) -> glam::DMat4 {
+        self.view(self.depth_extent).view
+    }
+
+    /// Fills the scene's depth: eye depth of each of its texels; none: nothing there.
+    pub fn scene_depth(&mut self, eye: impl Fn(u32, u32) -> Option<f64>) {
+        let view = self.view(self.depth_extent);
+        let far = view.far().map_or_else(
+            || view.device_depth(f64::INFINITY),
+            |_| {
+                let farther = view.eye_depth(1.0) > view.eye_depth(0.0);
+                f64::from(farther)
+            },
+        );
+        let size = self.depth_extent;
+        self.depth = (0..size.height)
+            .flat_map(|y| (0..size.width).map(move |x| (x, y)))
+            .map(|(x, y)| {
+                let device = eye(x, y).map_or(far, |d| view.device_depth(d));
+                device.clamp(0.0, 1.0) as f32
+            })
+            .collect();
+    }
+
+    /// The eye depth of the scene as the depth image has it, for the twins; one value a texel.
+    pub fn scene_eye(&self) -> Image<f64> {
+        let view = self.view(self.depth_extent);
+        let eye = |z: &f32| {
+            let d = view.eye_depth(f64::from(*z));
+            if d > 0.0 { d } else { f64::INFINITY }
+        };
+        Image {
+            width: self.depth_extent.width as usize,
+            height: self.depth_extent.height as usize,
+            data: self.depth.iter().map(eye).collect(),
+        }
+    }
+}
+
+impl Shot {
+    /// The scene's eye depth at the pixels of the output halved `level` times: the nearest texel.
+    pub fn scene_at(&self, size: vk::Extent2D, level: u32) -> Image<f64> {
+        let eye = self.scene_eye();
+        let block = 1_usize << level;
+        let (width, height) = (size.width as usize, size.height as usize);
+        let texel = |i: usize, full: usize, texels: usize| {
+            let at = (i as f64 + 0.5) * block as f64 * texels as f64 / full as f64;
+            (at.floor() as usize).min(texels - 1)
+        };
+        Image::from_fn(width.div_ceil(block), height.div_ceil(block), |x, y| {
+            eye.at(texel(x, width, eye.width), texel(y, height, eye.height))
+        })
+    }
+}
+
+/// A scene's colour that differs from pixel to pixel, smoothly.
+pub fn gradient(size: vk::Extent2D) -> Vec<[f32; 4]> {
+    (0..size.height)
+        .flat_map(|y| (0..size.width).map(move |x| (x as f32, y as f32)))
+        .map(|(x, y)| [0.125 + x / 256.0, 0.25 + y / 256.0, 0.5 + (x - y) / 512.0, 0.75])
+        .collect()
+}
+
+/// What a frame gave.
+#[derive(Clone)]
+pub struct Drawn {
+    pub output: Image<[f32; 4]>,
+    pub depth: Image<f32>,
+    pub surface: Image<f32>,
+    pub plan: Image<u32>,
+    pub thickness: Image<f32>,
+    /// Particles dropped for their positions, and set aside as spray.
+    pub dropped: u32,
+    pub spray: u32,
+}
+
+/// A renderer and its host.
+pub struct Rig<'g> {
+    pub gpu: &'g Gpu,
+    pub stub: Stub,
+    pub config: Config,
+    renderer: Option<Renderer>,
+}
+
+impl<'g> Rig<'g> {
+    pub fn new(gpu: &'g Gpu, config: &Config) -> Self {
+        Self::with_slots(gpu, config, 1)
+    }
+
+    pub fn with_slots(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
+        Self::try_new(gpu, config, slots).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    pub fn try_new(gpu: &'g Gpu, config: &Config, slots: u32) -> Result<Self, Error> {
+        let stub = Stub::new(gpu, slots);
+        // SAFETY: the device outlives the rig.
+        let mut renderer = unsafe { Renderer::new(&gpu.host(slots), config) }?;
+        // SAFETY: submitted before any record.
+        stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+        Ok(Self { gpu, stub, config: *config, renderer: Some(renderer) })
+    }
+
+    pub fn renderer(&mut self) -> &mut Renderer {
+        self.renderer.as_mut().expect("only drop takes it")
+    }
+
+    /// Records the set-up again: after a reconfigure that made the environment anew.
+    pub fn set_up(&mut self) {
+        let renderer = self.renderer.as_mut().expect("only drop takes it");
+        // SAFETY: submitted before any record.
+        self.stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+    }
+
+    /// Leaves the renderer to a plain drop: it leaks.
+    pub fn leak(mut self) {
+        drop(self.renderer.take());
+    }
+
+    pub fn resize(&mut self, size: vk::Extent2D) {
+        self.renderer().resize(size).expect("resize");
+        self.config.extent = size;
+    }
+
+    /// An environment of an equirectangular image.
+    pub fn environment(&mut self, size: vk::Extent2D, texels: &[[f32; 4]]) {
+        let after = Access::new(
+            vk::PipelineStageFlags2::COMPUTE_SHADER,
+            vk::AccessFlags2::SHADER_SAMPLED_READ,
+            vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+        );
+        let image = self.stub.uploaded(
+            OUTPUT,
+            size,
+            vk::ImageUsageFlags::SAMPLED,
+            bytemuck::cast_slice(texels),
+            after,
+        );
+        let source = EnvironmentSource::Equirectangular(Equirectangular {
+            image: image.host_image(),
+            scale: 1.0,
+            turn: 0.0,
+        });
+        let renderer = self.renderer.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording; the slot's work is done.
+        let result =
+            self.stub.run(|cmd| unsafe { renderer.record_environment(cmd, Slot(0), &source) });
+        result.expect("record_environment");
+        renderer.collect(Slot(0));
+    }
+
+    /// The images of a frame as its host has them: colour and depth of the scene, filled.
+    pub fn scene(&self, shot: &Shot) -> (Texture, Texture) {
+        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        let color = self.stub.uploaded(
+            self.config.output_format,
+            self.config.extent,
+            usage,
+            &color_bytes(self.config.output_format, &shot.color),
+            COLOR,
+        );
+        let usage = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        let depth = self.stub.uploaded(
+            shot.depth_format,
+            shot.depth_extent,
+            usage,
+            &depth_bytes(shot.depth_format, &shot.depth),
+            DEPTH,
+        );
+        (color, depth)
+    }
+
+    /// Buffers of packed particles.
+    pub fn particles(&self, shot: &Shot) -> Cloud {
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Cloud {
+            positions: self.stub.data(bytemuck::cast_slice(&shot.positions), usage),
+            densities: shot
+                .densities
+                .as_ref()
+                .map(|d| self.stub.data(bytemuck::cast_slice(d), usage)),
+            count: shot.positions.len() as u32,
+        }
+    }
+
+    /// Draws a shot and reads everything back.
+    pub fn draw(&mut self, shot: &Shot) -> Drawn {
+        let cloud = self.particles(shot);
+        let particles = cloud.particles();
+        self.draw_particles(shot, &particles)
+    }
+
+    /// Draws a shot with other particles than its own.
+    pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
+        let (color, depth) = self.scene(shot);
+        let apart = (!self.config.in_place).then(|| {
+            let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+            let bytes = color_bytes(self.config.output_format, &shot.color);
+            let (format, extent) = (self.config.output_format, self.config.extent);
+            self.stub.uploaded(format, extent, usage, &bytes, COLOR)
+        });
+        let output = apart.as_ref().unwrap_or(&color).host_image();
+        let frame = Frame {
+            slot: Slot(0),
+            output,
+            scene_color: color.host_image(),
+            scene_depth: depth.host_image(),
+            particles: *particles,
+            camera: shot.camera,
+            settings: &shot.settings,
+        };
+        let cmd = self.stub.begin(0);
+        let renderer = self.renderer.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+        let recorded = unsafe { renderer.record(cmd, &frame) };
+        self.stub.end(0);
+        self.stub.wait(0);
+        let recorded = recorded.unwrap_or_else(|error| panic!("{error}"));
+        let drawn = self.read(&output, &recorded);
+        self.renderer().collect(Slot(0));
+        drawn
+    }
+
+    /// Reads the output and the kept layers.
+    pub fn read(&self, output: &HostImage, recorded: &Recorded) -> Drawn {
+        let bytes = self.stub.download(
+            output.image,
+            output.format,
+            output.aspect,
+            output.extent,
+            output.after,
+        );
+        let empty = || Image::new(0, 0, 0.0);
+        let mut drawn = Drawn {
+            output: picture(output.format, output.extent, &bytes),
+            depth: empty(),
+            surface: empty(),
+            plan: Image::new(0, 0, 0),
+            thickness: empty(),
+            dropped: 0,
+            spray: 0,
+        };
+        if let Some(counts) = &recorded.counts {
+            let size = 256 * u64::from(counts.chunks);
+            let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+            self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, counts.all, &back));
+            for chunk in back.bytes().chunks_exact(256) {
+                let words: Vec<u32> = words(chunk).collect();
+                drawn.dropped += words[18];
+                drawn.spray += words[19];
+            }
+        }
+        for layer in &recorded.layers {
+            let color = vk::ImageAspectFlags::COLOR;
+            let bytes =
+                self.stub.download(layer.image, layer.format, color, layer.extent, layer.access);
+            let (width, height) = (layer.extent.width as usize, layer.extent.height as usize);
+            let floats =
+                || Image { width, height, data: words(&bytes).map(f32::from_bits).collect() };
+            match layer.name {
+                "water.depth" => drawn.depth = floats(),
+                "water.surface" => drawn.surface = floats(),
+                "water.thickness.front" => drawn.thickness = floats(),
+                "water.iterations" => {
+                    assert_eq!(layer.format, vk::Format::R32_UINT);
+                    drawn.plan = Image { width, height, data: words(&bytes).collect() };
+                }
+                other => panic!("an unknown layer {other}"),
+            }
+        }
+        drawn
+    }
+}
+
+impl Drop for Rig<'_> {
+    fn drop(&mut self) {
+        if let Some(renderer) = self.renderer.take() {
+            // SAFETY: idle.
+            unsafe {
+                let _ = self.gpu.device.device_wait_idle();
+                renderer.destroy();
+            }
+        }
+    }
+}
+
+/// Packed particles of the host's.
+pub struct Cloud {
+    pub positions: Data,
+    pub densities: Option<Data>,
+    pub count: u32,
+}
+
+impl Cloud {
+    pub fn particles(&self) -> Particles {
+        Particles {
+            positions: stream(&self.positions, 0, 12),
+            densities: self.densities.as_ref().map(|d| stream(d, 0, 4)),
+            count: Count::Cpu(self.count),
+            packets: None,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+        }
+    }
+}
+
+/// A stream over a buffer.
+pub fn stream(data: &Data, offset: u64, stride: u32) -> Stream {
+    Stream { buffer: data.buffer, size: data.size, offset, stride }
+}
+
+fn words(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
+    bytes.chunks_exact(4).map(bytemuck::pod_read_unaligned)
+}
+
+fn color_bytes(format: vk::Format, color: &[[f32; 4]]) -> Vec<u8> {
+    match host::texel_size(format) {
+        16 => bytemuck::cast_slice(color).to_vec(),
+        8 => {
+            let half = |c: &[f32; 4]| c.map(|v| half::f16::from_f32(v).to_bits());
+            color.iter().flat_map(half).flat_map(u16::to_le_bytes).collect()
+        }
+        _ => panic!("{format:?} is not made here"),
+    }
+}
+
+fn depth_bytes(format: vk::Format, depth: &[f32]) -> Vec<u8> {
+    match format {
+        vk::Format::D16_UNORM => {
+            depth.iter().flat_map(|z| ((z * 65535.0).round() as u16).to_le_bytes()).collect()
+        }
+        vk::Format::D24_UNORM_S8_UINT | vk::Format::X8_D24_UNORM_PACK32 => {
+            let bits = |z: &f32| (f64::from(*z) * 16_777_215.0).round() as u32;
+            depth.iter().flat_map(|z| bits(z).to_le_bytes()).collect()
+        }
+        _ => bytemuck::cast_slice(depth).to_vec(),
+    }
+}
+
+fn picture(format: vk::Format, extent: vk::Extent2D, bytes: &[u8]) -> Image<[f32; 4]> {
+    let data: Vec<[f32; 4]> = match host::texel_size(format) {
+        16 => bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect(),
+        _ => bytes
+            .chunks_exact(8)
+            .map(|c| {
+                let half: [u16; 4] = bytemuck::pod_read_unaligned(c);
+                half.map(|v| half::f16::from_bits(v).to_f32())
+            })
+            .collect(),
+    };
+    Image { width: extent.width as usize, height: extent.height as usize, data }
+}

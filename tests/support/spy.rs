@@ -1,0 +1,320 @@
+//! A spy in the device's function table: counts calls, follows what is made and destroyed, and lets
+//! a call fail. One at a time, as the tests.
+
+use std::ffi::{CStr, c_void};
+use std::sync::atomic::{AtomicI32, AtomicI64, AtomicPtr, AtomicU32, Ordering::SeqCst};
+use std::sync::{Arc, Mutex};
+
+use ash::vk;
+
+use super::device::Gpu;
+
+/// What the spy knows of one function.
+pub struct Function {
+    pub name: &'static CStr,
+    real: AtomicPtr<c_void>,
+    calls: AtomicU32,
+    /// Calls until it fails; 0: it does not.
+    fails_in: AtomicU32,
+    result: AtomicI32,
+    /// Objects it made, less those that its counterpart destroyed.
+    live: AtomicI64,
+}
+
+impl Function {
+    const fn new(name: &'static CStr) -> Self {
+        Self {
+            name,
+            real: AtomicPtr::new(std::ptr::null_mut()),
+            calls: AtomicU32::new(0),
+            fails_in: AtomicU32::new(0),
+            result: AtomicI32::new(0),
+            live: AtomicI64::new(0),
+        }
+    }
+
+    /// Calls since the last reset.
+    pub fn calls(&self) -> u32 {
+        self.calls.load(SeqCst)
+    }
+
+    /// Lets the `nth` call from now on fail (1 is the next), once.
+    pub fn fail(&self, nth: u32, result: vk::Result) {
+        self.result.store(result.as_raw(), SeqCst);
+        self.fails_in.store(nth, SeqCst);
+    }
+
+    /// Whether the failure asked for is still to come.
+    pub fn pending(&self) -> bool {
+        self.fails_in.load(SeqCst) > 0
+    }
+
+    fn called(&self) -> Option<vk::Result> {
+        self.calls.fetch_add(1, SeqCst);
+        let left = self.fails_in.load(SeqCst);
+        if left == 0 {
+            return None;
+        }
+        self.fails_in.store(left - 1, SeqCst);
+        (left == 1).then(|| vk::Result::from_raw(self.result.load(SeqCst)))
+    }
+}
+
+/// Functions with a result: the spy's stand-ins. `made`: how many objects a success makes.
+macro_rules! spied {
+    ($($id:ident $name:literal ($($arg:ident: $type:ty),*) made $made:expr;)*) => {
+        $(
+            pub static $id: Function = Function::new($name);
+        )*
+        mod stand_in {
+            use super::*;
+            $(
+                #[allow(non_snake_case)]
+                pub unsafe extern "system" fn $id($($arg: $type),*) -> vk::Result {
+                    if let Some(result) = super::$id.called() {
+                        return result;
+                    }
+                    // SAFETY: the pointer is the driver's function of this signature.
+                    let result = unsafe {
+                        let real: unsafe extern "system" fn($($type),*) -> vk::Result =
+                            std::mem::transmute(super::$id.real.load(SeqCst));
+                        real($($arg),*)
+                    };
+                    if result == vk::Result::SUCCESS {
+                        super::$id.live.fetch_add(i64::from($made), SeqCst);
+                    }
+                    result
+                }
+            )*
+        }
+        const WITH_RESULT: &[(&Function, *const c_void)] =
+            &[$((&$id, stand_in::$id as *const c_void)),*];
+    };
+}
+
+type P = *const c_void;
+
+spied! {
+    QUEUE_SUBMIT c"vkQueueSubmit" (q: vk::Queue, n: u32, s: P, f: u64) made 0;
+    QUEUE_SUBMIT2 c"vkQueueSubmit2" (q: vk::Queue, n: u32, s: P, f: u64) made 0;
+    QUEUE_WAIT_IDLE c"vkQueueWaitIdle" (q: vk::Queue) made 0;
+    DEVICE_WAIT_IDLE c"vkDeviceWaitIdle" (d: vk::Device) made 0;
+    WAIT_FOR_FENCES c"vkWaitForFences" (d: vk::Device, n: u32, f: P, all: u32, t: u64) made 0;
+    WAIT_SEMAPHORES c"vkWaitSemaphores" (d: vk::Device, i: P, t: u64) made 0;
+    ALLOCATE_MEMORY c"vkAllocateMemory" (d: vk::Device, i: P, a: P, o: P) made 1;
+    MAP_MEMORY c"vkMapMemory" (d: vk::Device, m: u64, o: u64, s: u64, f: u32, p: P) made 0;
+    BIND_BUFFER_MEMORY c"vkBindBufferMemory" (d: vk::Device, b: u64, m: u64, o: u64) made 0;
+    BIND_IMAGE_MEMORY c"vkBindImageMemory" (d: vk::Device, b: u64, m: u64, o: u64) made 0;
+    CREATE_BUFFER c"vkCreateBuffer" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_IMAGE c"vkCreateImage" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_IMAGE_VIEW c"vkCreateImageView" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_SAMPLER c"vkCreateSampler" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_SHADER_MODULE c"vkCreateShaderModule" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_SET_LAYOUT c"vkCreateDescriptorSetLayout" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_PIPELINE_LAYOUT c"vkCreatePipelineLayout" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_RENDER_PASS c"vkCreateRenderPass" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_FRAMEBUFFER c"vkCreateFramebuffer" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_QUERY_POOL c"vkCreateQueryPool" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_GRAPHICS_PIPELINES c"vkCreateGraphicsPipelines"
+        (d: vk::Device, c: u64, n: u32, i: P, a: P, o: P) made n as i32;
+    CREATE_COMPUTE_PIPELINES c"vkCreateComputePipelines"
+        (d: vk::Device, c: u64, n: u32, i: P, a: P, o: P) made n as i32;
+    ALLOCATE_SETS c"vkAllocateDescriptorSets" (d: vk::Device, i: P, o: P) made 0;
+    RESET_DESCRIPTOR_POOL c"vkResetDescriptorPool" (d: vk::Device, p: u64, f: u32) made 0;
+}
+
+/// Commands, which return nothing, and what destroys.
+macro_rules! spied_void {
+    ($($id:ident $name:literal ($($arg:ident: $type:ty),*) $(undoes $maker:ident if $alive:ident)?;)*) => {
+        $(
+            pub static $id: Function = Function::new($name);
+        )*
+        mod stand_in_void {
+            use super::*;
+            $(
+                #[allow(non_snake_case)]
+                pub unsafe extern "system" fn $id($($arg: $type),*) {
+                    super::$id.called();
+                    $(
+                        if $alive != 0 {
+                            super::$maker.live.fetch_sub(1, SeqCst);
+                        }
+                    )?
+                    // SAFETY: the pointer is the driver's function of this signature.
+                    unsafe {
+                        let real: unsafe extern "system" fn($($type),*) =
+                            std::mem::transmute(super::$id.real.load(SeqCst));
+                        real($($arg),*)
+                    }
+                }
+            )*
+        }
+        const WITHOUT_RESULT: &[(&Function, *const c_void)] =
+            &[$((&$id, stand_in_void::$id as *const c_void)),*];
+    };
+}
+
+spied_void! {
+    CMD_BARRIER c"vkCmdPipelineBarrier2" (c: vk::CommandBuffer, i: P);
+    CMD_BIND_PIPELINE c"vkCmdBindPipeline" (c: vk::CommandBuffer, b: i32, p: u64);
+    CMD_DISPATCH c"vkCmdDispatch" (c: vk::CommandBuffer, x: u32, y: u32, z: u32);
+    CMD_DISPATCH_INDIRECT c"vkCmdDispatchIndirect" (c: vk::CommandBuffer, b: u64, o: u64);
+    CMD_DRAW_INDIRECT c"vkCmdDrawIndirect" (c: vk::CommandBuffer, b: u64, o: u64, n: u32, s: u32);
+    CMD_BEGIN_PASS c"vkCmdBeginRenderPass" (c: vk::CommandBuffer, i: P, s: i32);
+    CMD_RESET_QUERIES c"vkCmdResetQueryPool" (c: vk::CommandBuffer, p: u64, f: u32, n: u32);
+    CMD_TIMESTAMP c"vkCmdWriteTimestamp2" (c: vk::CommandBuffer, s: u64, p: u64, q: u32);
+    FREE_MEMORY c"vkFreeMemory" (d: vk::Device, h: u64, a: P) undoes ALLOCATE_MEMORY if h;
+    DESTROY_BUFFER c"vkDestroyBuffer" (d: vk::Device, h: u64, a: P) undoes CREATE_BUFFER if h;
+    DESTROY_IMAGE c"vkDestroyImage" (d: vk::Device, h: u64, a: P) undoes CREATE_IMAGE if h;
+    DESTROY_IMAGE_VIEW c"vkDestroyImageView" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_IMAGE_VIEW if h;
+    DESTROY_SAMPLER c"vkDestroySampler" (d: vk::Device, h: u64, a: P) undoes CREATE_SAMPLER if h;
+    DESTROY_SHADER_MODULE c"vkDestroyShaderModule" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_SHADER_MODULE if h;
+    DESTROY_DESCRIPTOR_POOL c"vkDestroyDescriptorPool" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_DESCRIPTOR_POOL if h;
+    DESTROY_SET_LAYOUT c"vkDestroyDescriptorSetLayout" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_SET_LAYOUT if h;
+    DESTROY_PIPELINE_LAYOUT c"vkDestroyPipelineLayout" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_PIPELINE_LAYOUT if h;
+    DESTROY_RENDER_PASS c"vkDestroyRenderPass" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_RENDER_PASS if h;
+    DESTROY_FRAMEBUFFER c"vkDestroyFramebuffer" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_FRAMEBUFFER if h;
+    DESTROY_QUERY_POOL c"vkDestroyQueryPool" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_QUERY_POOL if h;
+    // Compute pipelines are booked with the graphics ones.
+    DESTROY_PIPELINE c"vkDestroyPipeline" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_GRAPHICS_PIPELINES if h;
+}
+
+/// Everything that waits, submits, allocates or compiles: what a record must not do.
+pub static NOT_IN_A_RECORD: [&Function; 12] = [
+    &QUEUE_SUBMIT,
+    &QUEUE_SUBMIT2,
+    &QUEUE_WAIT_IDLE,
+    &DEVICE_WAIT_IDLE,
+    &WAIT_FOR_FENCES,
+    &WAIT_SEMAPHORES,
+    &ALLOCATE_MEMORY,
+    &MAP_MEMORY,
+    &CREATE_SHADER_MODULE,
+    &CREATE_GRAPHICS_PIPELINES,
+    &CREATE_COMPUTE_PIPELINES,
+    &FREE_MEMORY,
+];
+
+/// Everything that makes something and can fail.
+pub static MAKERS: [&Function; 15] = [
+    &ALLOCATE_MEMORY,
+    &BIND_BUFFER_MEMORY,
+    &BIND_IMAGE_MEMORY,
+    &CREATE_BUFFER,
+    &CREATE_IMAGE,
+    &CREATE_IMAGE_VIEW,
+    &CREATE_SAMPLER,
+    &CREATE_SHADER_MODULE,
+    &CREATE_DESCRIPTOR_POOL,
+    &CREATE_SET_LAYOUT,
+    &CREATE_PIPELINE_LAYOUT,
+    &CREATE_RENDER_PASS,
+    &CREATE_QUERY_POOL,
+    &CREATE_GRAPHICS_PIPELINES,
+    &CREATE_COMPUTE_PIPELINES,
+];
+
+/// The commands that are watched.
+pub static COMMANDS: [&Function; 8] = [
+    &CMD_BARRIER,
+    &CMD_BIND_PIPELINE,
+    &CMD_DISPATCH,
+    &CMD_DISPATCH_INDIRECT,
+    &CMD_DRAW_INDIRECT,
+    &CMD_BEGIN_PASS,
+    &CMD_RESET_QUERIES,
+    &CMD_TIMESTAMP,
+];
+
+/// Made by hand: it keeps what the pool has room for.
+pub static CREATE_DESCRIPTOR_POOL: Function = Function::new(c"vkCreateDescriptorPool");
+/// Sets that the pool made last has room for.
+pub static MAX_SETS: AtomicU32 = AtomicU32::new(0);
+
+unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P) -> vk::Result {
+    if let Some(result) = CREATE_DESCRIPTOR_POOL.called() {
+        return result;
+    }
+    // SAFETY: the driver's function, with a valid create info.
+    let result = unsafe {
+        let info = &*i.cast::<vk::DescriptorPoolCreateInfo<'_>>();
+        MAX_SETS.store(info.max_sets, SeqCst);
+        let real: unsafe extern "system" fn(vk::Device, P, P, P) -> vk::Result =
+            std::mem::transmute(CREATE_DESCRIPTOR_POOL.real.load(SeqCst));
+        real(d, i, a, o)
+    };
+    CREATE_DESCRIPTOR_POOL.live.fetch_add(i64::from(result == vk::Result::SUCCESS), SeqCst);
+    result
+}
+
+const BY_HAND: &[(&Function, *const c_void)] =
+    &[(&CREATE_DESCRIPTOR_POOL, create_descriptor_pool as *const c_void)];
+
+fn all() -> impl Iterator<Item = &'static (&'static Function, *const c_void)> {
+    WITH_RESULT.iter().chain(WITHOUT_RESULT).chain(BY_HAND)
+}
+
+/// The device's functions with the spy among them.
+pub fn functions(gpu: &Gpu) -> ash::Device {
+    let handle = gpu.device.handle();
+    let load = |name: &CStr| -> *const c_void {
+        // SAFETY: live instance and device.
+        let real = unsafe { gpu.instance.get_device_proc_addr(handle, name.as_ptr()) };
+        let real = real.map_or(std::ptr::null(), |f| f as *const c_void);
+        match all().find(|(function, _)| function.name == name) {
+            Some((function, stand_in)) if !real.is_null() => {
+                function.real.store(real.cast_mut(), SeqCst);
+                *stand_in
+            }
+            _ => real,
+        }
+    };
+    // SAFETY: every pointer is the driver's or a stand-in of the same signature.
+    unsafe { ash::Device::load_with(load, handle) }
+}
+
+/// Puts the spy between the library and a device of the test's own.
+pub fn install(gpu: &mut Gpu) {
+    let functions = functions(gpu);
+    gpu.allocator = Arc::new(Mutex::new(gpu.make_allocator(&functions)));
+    gpu.functions = functions;
+    forget();
+    reset();
+}
+
+/// Forgets what is alive.
+pub fn forget() {
+    for (function, _) in all() {
+        function.live.store(0, SeqCst);
+    }
+}
+
+/// Forgets the calls and the failures asked for.
+pub fn reset() {
+    for (function, _) in all() {
+        function.calls.store(0, SeqCst);
+        function.fails_in.store(0, SeqCst);
+    }
+}
+
+/// Objects that are made and not destroyed, device memory apart (the allocator keeps blocks).
+pub fn live() -> Vec<String> {
+    let pipelines = [&CREATE_GRAPHICS_PIPELINES, &CREATE_COMPUTE_PIPELINES];
+    let mut found: Vec<(&CStr, i64)> = all()
+        .filter(|(f, _)| !std::ptr::eq(*f, &ALLOCATE_MEMORY))
+        .filter(|(f, _)| !pipelines.iter().any(|p| std::ptr::eq(*f, *p)))
+        .map(|(f, _)| (f.name, f.live.load(SeqCst)))
+        .collect();
+    found.push((c"pipelines", pipelines.iter().map(|p| p.live.load(SeqCst)).sum()));
+    let shown = |(name, n): &(&CStr, i64)| format!("{n} of {}", name.to_string_lossy());
+    found.iter().filter(|f| f.1 != 0).map(shown).collect()
+}

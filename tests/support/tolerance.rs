@@ -1,0 +1,252 @@
+//! Rounding bounds. u is half an ulp of single precision; every bound is a count of operations
+//! times u times the magnitude of the operands.
+
+use glam::{DVec3, DVec4};
+
+use crate::reference::cull::frustum;
+use crate::reference::depth::hit;
+use crate::reference::smooth::{Params, Rule, derivatives, first_form, rate};
+use crate::reference::thickness::{J, drawn_axis, kernel};
+use crate::reference::{EMPTY, Image, Sphere, View};
+
+/// Relative error of one rounded operation of single precision.
+pub const U: f64 = 1.0 / (1u64 << 24) as f64;
+
+/// An image is known to lie between two.
+pub struct Between {
+    pub low: Image<f64>,
+    pub high: Image<f64>,
+}
+
+/// Largest |slope| of the image's rays in x and y, as a length: what a slope's rounding goes by.
+pub fn reach(view: &View) -> f64 {
+    let corners = [(0, 0), (view.width - 1, 0), (0, view.height - 1)];
+    let all = corners.map(|(x, y)| view.ray(x, y).truncate().length());
+    all.into_iter().fold(0.0, f64::max)
+}
+
+/// How far off the distance between a ray and a sphere's centre may be. The centre: the product
+/// with the view matrix, 4 products and 3 sums an axis, 7u of |p| + |t| (world and eye positions
+/// bound it). The slope: pixel·scale + offset, 2 rounded numbers and 2 operations, 4u of the image's
+/// reach plus its span, times the depth. w·c / w·w, c − w·along: 12 operations, 12u of |c| |w|.
+pub fn ray_distance(center: DVec3, view: &View) -> f64 {
+    let eye = view.view.inverse().w_axis.truncate().length();
+    let world = 2.0 * (center.length() + eye);
+    let span = 3.0 * (1.0 + reach(view));
+    U * (7.0 * world + 4.0 * span * center.z.abs() + 12.0 * (1.0 + reach(view)) * center.length())
+}
+
+/// Bounds of the depth splats: a sphere as much larger and smaller as its distance from the ray is
+/// uncertain; the root and the difference add 8u of the depth.
+pub fn depth(spheres: &[Sphere], view: &View) -> Between {
+    let near = view.near();
+    let mut low = Image::new(view.width, view.height, EMPTY);
+    let mut high = low.clone();
+    for sphere in spheres {
+        let d = ray_distance(sphere.center, view) + 4.0 * U * sphere.radius;
+        let slack = 8.0 * U * (sphere.center.length() + sphere.radius) + d;
+        let larger = Sphere { radius: sphere.radius + d, ..*sphere };
+        let smaller = Sphere { radius: (sphere.radius - d).max(0.0), ..*sphere };
+        let (center, r) = (sphere.center, sphere.radius + d);
+        if -center.z + r < near {
+            continue;
+        }
+        let half = glam::DVec2::splat(r);
+        let (columns, rows) = view.footprint(center.truncate(), half, -center.z - r, -center.z + r);
+        for y in rows {
+            for x in columns.clone() {
+                let ray = view.ray(x, y);
+                let Some(nearest) = hit(ray, &larger).map(|t| t - slack) else { continue };
+                let farthest = hit(ray, &smaller).map(|t| t + slack);
+                // Without a sure hit it may lie anywhere up to the silhouette.
+                let latest =
+                    farthest.unwrap_or_else(|| ray.dot(center) / ray.length_squared() + slack);
+                if latest >= near * (1.0 - 8.0 * U) {
+                    let pixel = low.at_mut(x, y);
+                    *pixel = pixel.min(nearest.max(near * (1.0 - 8.0 * U)));
+                }
+                if let Some(farthest) = farthest.filter(|_| nearest >= near * (1.0 + 8.0 * U)) {
+                    let pixel = high.at_mut(x, y);
+                    *pixel = pixel.min(farthest);
+                }
+            }
+        }
+    }
+    Between { low, high }
+}
+
+/// What a step of the smoothing rounds at a pixel, and the largest change of it that a difference
+/// just at the falloff can make.
+///
+/// The new depth is rounded once. Differences within a surface are exact (Sterbenz) but for their
+/// last sum; every product and sum of the forms adds u of the absolute values that enter it: Ē, F̄,
+/// Ḡ, L̄, M̄, N̄ below are sums of absolute values. The quotient's error is that of the numerator over
+/// the denominator, plus the quotient times the denominator's relative error.
+fn smoothing_round(
+    z: &Image<f64>,
+    (x, y): (usize, usize),
+    error: f64,
+    step: f64,
+    view: &View,
+    rule: Rule,
+    params: &Params,
+) -> f64 {
+    let here = z.at(x, y);
+    let (px, py) = (x as isize, y as isize);
+    let d = derivatives(z, px, py, params.depth_falloff);
+    let (c_x, c_y) = (view.c_x(), view.c_y());
+    let rounded = if rule == Rule::ConstantWidth {
+        let (ray, g) = (view.ray(x, y), view.slope_step());
+        let (e, f, gg) = first_form(ray, g, here, &d);
+        let ww = ray.length_squared();
+        let (gx, gy) = ((g.x * here).abs(), (g.y * here).abs());
+        let (sx, sy, zx, zy) = (ray.x.abs(), ray.y.abs(), d.x.abs(), d.y.abs());
+        let e_abs = ww * zx * zx + gx * (2.0 * sx * zx + gx);
+        let g_abs = ww * zy * zy + gy * (2.0 * sy * zy + gy);
+        let f_abs = ww * zx * zy + gx * sx * zy + gy * sy * zx;
+        let l_abs = d.xx.abs() + 2.0 * zx * zx / here;
+        let n_abs = d.yy.abs() + 2.0 * zy * zy / here;
+        let m_abs = d.xy.map_or(0.0, |xy| xy.abs() + 2.0 * zx * zy / here);
+        let below = e * gg - f * f;
+        let below_error = 20.0 * U * (e_abs * g_abs + f_abs * f_abs) / below;
+        let above = g_abs * l_abs + 2.0 * f_abs * m_abs + e_abs * n_abs;
+        let scale = (c_x * here).powi(2) / below;
+        scale * above * (20.0 * U + below_error)
+    } else {
+        let (c_x2, c_y2) = (c_x * c_x, c_y * c_y);
+        let big = c_y2 * d.x * d.x + c_x2 * d.y * d.y + c_x2 * c_y2 * here * here;
+        let half = |z_i: f64, z_ii: f64, c2: f64| {
+            let inner = c2 * (z_i * z_ii).abs() + c_x2 * c_y2 * (here * z_i).abs();
+            z_i.abs() * inner + z_ii.abs() * big
+        };
+        let above = c_y * half(d.x, d.xx, c_y2) + c_x * half(d.y, d.yy, c_x2);
+        32.0 * U * above / (big * big.sqrt())
+    };
+    // Differences this near to the falloff may be cut here and not there.
+    let slack = 2.0 * error + 4.0 * U * here;
+    let side =
+        |falloff: f64| rate(z, px, py, view, rule, &Params { depth_falloff: falloff, ..*params });
+    let near =
+        (-1..=1_isize).flat_map(|dy| (-1..=1_isize).map(move |dx| (dx, dy))).any(|(dx, dy)| {
+            let away =
+                z.checked(px + dx, py + dy).map_or(f64::INFINITY, |there| (there - here).abs());
+            (away - params.depth_falloff).abs() <= slack
+        });
+    let jump = match near {
+        true => (side(params.depth_falloff + slack) - side(params.depth_falloff - slack)).abs(),
+        false => 0.0,
+    };
+    U * here + step * (rounded + jump)
+}
+
+/// The twin's smoothing with a bound of the difference that single precision makes: a stable step
+/// is a mean of its stencil, so the error of a pixel is the largest of its neighbours' plus what the
+/// step rounds. `plan`: iterations and steps.
+pub fn smoothing(
+    reduced: &Image<f64>,
+    plan: &Image<(u32, f64)>,
+    view: &View,
+    rule: Rule,
+    params: &Params,
+) -> (Image<f64>, Image<f64>) {
+    let last = plan.data.iter().map(|p| p.0).max().unwrap_or(0);
+    let mut z = reduced.clone();
+    let mut error = reduced.map(|_| 0.0);
+    for i in 1..=last {
+        let next = Image::from_fn(z.width, z.height, |x, y| {
+            let (n, step) = plan.at(x, y);
+            if i > n {
+                return (z.at(x, y), error.at(x, y));
+            }
+            let (px, py) = (x as isize, y as isize);
+            let spread = [(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)]
+                .map(|(dx, dy)| error.clamped(px + dx, py + dy))
+                .into_iter()
+                .fold(0.0, f64::max);
+            let moved = z.at(x, y) + step * rate(&z, px, py, view, rule, params);
+            let local = smoothing_round(&z, (x, y), spread, step, view, rule, params);
+            (moved, spread + local)
+        });
+        z = next.map(|p| p.0);
+        error = next.map(|p| p.1);
+    }
+    (z, error)
+}
+
+/// How the sums of the thickness are made.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Sum {
+    /// One rounding of the sum an addend.
+    Float,
+    /// Each addend to a multiple of a 4096th of a whole particle's amplitude; one conversion.
+    Fixed,
+}
+
+/// Bounds of the thickness splats: each sprite's centre is as uncertain as its distance from the
+/// ray; kernel and amplitude add 40u (exp 3 + 2·2 ulp, sqrt and quotients 2.5 ulp each), the sums as
+/// their kind. `full` is the output's view, whose frustum culls by two radii; the image is halved
+/// `level` times. `scene`: its eye depth at the image's resolution, whose rounding is 8u.
+pub fn thickness(
+    spheres: &[Sphere],
+    full: &View,
+    level: u32,
+    scene: &Image<f64>,
+    volume: f64,
+    radius: f64,
+    sum: Sum,
+) -> Between {
+    let view = &full.reduced(level);
+    let planes = frustum(full);
+    let near = view.near();
+    let mut low = Image::new(view.width, view.height, 0.0);
+    let mut high = low.clone();
+    let mut count = Image::new(view.width, view.height, 0_u32);
+    let amplitude_of = |half: f64| volume / (std::f64::consts::PI * J * half * half);
+    let unit = amplitude_of(2.0 * radius) / 4096.0;
+    for sphere in spheres {
+        let (center, d) = (sphere.center.truncate(), -sphere.center.z);
+        let whole = 2.0 * sphere.radius;
+        let half = drawn_axis(whole, d, view);
+        let uncertain = ray_distance(sphere.center, view) + 4.0 * U * half;
+        if d < near * (1.0 - 8.0 * U) - uncertain {
+            continue;
+        }
+        // How far it is inside the frustum, less what rounding may make of it.
+        let inside = |p: &DVec4| p.dot(sphere.center.extend(1.0)) + whole;
+        let inside = planes.iter().map(inside).fold(f64::INFINITY, f64::min);
+        if inside < -uncertain {
+            continue;
+        }
+        let amplitude = amplitude_of(half);
+        let reach = glam::DVec2::splat(half + uncertain);
+        let (columns, rows) = view.footprint(center, reach, d, d);
+        for y in rows {
+            for x in columns.clone() {
+                let away = (view.ray(x, y).truncate() * d - center).length();
+                if away > half + uncertain {
+                    continue;
+                }
+                let at = |off: f64| kernel((off / half).powi(2).min(1.0)) * amplitude;
+                let slack = 8.0 * U * scene.at(x, y) + uncertain;
+                let (least, most) = (at(away + uncertain), at((away - uncertain).max(0.0)));
+                let sure = inside > uncertain
+                    && d < scene.at(x, y) - slack
+                    && d > near * (1.0 + 8.0 * U) + uncertain;
+                let rounding = if sum == Sum::Fixed { unit / 2.0 } else { 0.0 };
+                if sure {
+                    *low.at_mut(x, y) += (least * (1.0 - 40.0 * U) - rounding).max(0.0);
+                }
+                if sure || d < scene.at(x, y) + slack {
+                    *high.at_mut(x, y) += most * (1.0 + 40.0 * U) + rounding;
+                    *count.at_mut(x, y) += 1;
+                }
+            }
+        }
+    }
+    for i in 0..low.data.len() {
+        let n = if sum == Sum::Fixed { 4.0 } else { f64::from(count.data[i]) + 4.0 };
+        low.data[i] *= 1.0 - n * U;
+        high.data[i] *= 1.0 + n * U;
+    }
+    Between { low, high }
+}
