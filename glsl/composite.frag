@@ -53,13 +53,24 @@ float thickness_at(Surface s, vec2 pixel, float threshold) {
     return sum;
 }
 
+// Whether any of the four texels of the scene's depth round a point stands before a depth.
+bool stands_before(vec2 at, float z) {
+    vec4 scene = frame.depth.x / (textureGather(scene_depth, at / frame.extent.xy) + frame.depth.y);
+    // Infinity of a reversed depth may come out negative.
+    return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
+}
+
 // Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
     vec2 q = clamp(pixel + offset, vec2(0.5), frame.extent.xy - 0.5);
-    // The four texels that filtering would touch, in device depth mapped to the eye's.
-    vec4 scene = frame.depth.x / (textureGather(scene_depth, q / frame.extent.xy) + frame.depth.y);
-    bool before = any(greaterThan(scene, vec4(0.0)) ) && any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
-    q = before ? pixel : q;
+    // Every texel of the scene's depth in or next to what filtering will touch.
+    vec2 reach = any(notEqual(frame.scene_depth.xy, vec2(1.0))) ? vec2(0.5) : vec2(0.0);
+    bool hidden = stands_before(q - reach, z);
+    if (reach.x > 0.0) {
+        hidden = hidden || stands_before(q + reach, z) || stands_before(q + reach * vec2(1.0, -1.0), z)
+              || stands_before(q + reach * vec2(-1.0, 1.0), z);
+    }
+    q = hidden ? pixel : q;
     return textureLod(scene_color, q / frame.extent.xy, 0.0).rgb;
 }
 
@@ -108,7 +119,9 @@ void main() {
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.
     float w = smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 reflected = mat3(frame.world) * reflect(-v, n);
-    c = mix(c, textureLod(environment, reflected, 0.0).rgb, w * fresnel(dot(n, v)));
+    // What is mirrored from below the horizon is more water, not the environment's ground.
+    float sky = smoothstep(-0.3, 0.0, reflected.y);
+    c = mix(c, textureLod(environment, reflected, 0.0).rgb, w * sky * fresnel(dot(n, v)));
     vec3 h = normalize(v + frame.sun_direction.xyz);
     float shine = pow(max(dot(n, h), 0.0), frame.surface.z);
     c += w * frame.surface.y * shine * frame.sun_color.rgb;

@@ -18,7 +18,8 @@ pub struct Host<'a> {
     /// A Vulkan 1.3 device with what [`requirements`](crate::requirements) asks for.
     pub device: &'a ash::Device,
     /// Shared allocator; locked only in construction, `reconfigure`, `resize`, `collect` and
-    /// `destroy`.
+    /// `destroy`. It must be dropped after the renderer is destroyed and before the device is;
+    /// `Host` holds it too, so drop that first.
     pub allocator: Arc<Mutex<Allocator>>,
     /// One family with graphics and compute; every command buffer handed in is of it.
     pub queue_family: u32,
@@ -39,6 +40,8 @@ pub struct Enabled {
     pub conditional_rendering: bool,
     /// Vulkan 1.2 `drawIndirectCount`.
     pub draw_indirect_count: bool,
+    /// `largePoints`: without it the raster splats draw quads alone.
+    pub large_points: bool,
     /// `occlusionQueryPrecise`: without it a query only tells zero from non-zero, which is all
     /// the termination needs.
     pub precise_occlusion_queries: bool,
@@ -111,7 +114,8 @@ pub struct Slot(pub u32);
 /// An image of the host's, with its state when `record` takes it over and when it hands it back.
 #[derive(Clone, Copy, Debug)]
 pub struct HostImage {
-    /// The image: single-sampled, 2D.
+    /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
+    /// (its read-only layout asks for it), an output as [`Config::in_place`] says.
     pub image: vk::Image,
     /// A 2D view of its first mip and layer; of depth-stencil images of the depth aspect alone.
     pub view: vk::ImageView,
@@ -182,7 +186,8 @@ pub struct Particles {
     pub count: Count,
     /// Groups to cull by instead of each particle.
     pub packets: Option<Packets>,
-    /// Last use of all these buffers before `record` (layout ignored).
+    /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
+    /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
     pub before: Access,
     /// First use of them after `record` (layout ignored).
     pub after: Access,

@@ -102,11 +102,12 @@ impl Environment {
             },
         )?;
         let faces = gpu.view(cube.handle, cube.format, 6, 0, 1, "environment/faces")?;
+        let faces = gpu.own(faces, Grave::View);
         Ok(Self {
             sky: Pipeline::compute(gpu, shader::ENVIRONMENT_SKY_COMP, &[])?,
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
             cube,
-            faces: gpu.own(faces, Grave::View),
+            faces,
             mips,
         })
     }

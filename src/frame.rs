@@ -60,7 +60,7 @@ shader::assert_layout!(
         texel,
         scene_depth,
         scene_color,
-            particle,
+        particle,
         density,
         smoothing,
         medium_a,
@@ -288,6 +288,17 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     let (a, b) = medium(&water.medium);
     for value in a.into_iter().chain(b) {
         at_least("Settings.water.medium", value, 0.0)?;
+    }
+    let fresnel = match water.fresnel {
+        Fresnel::Schlick { f0 } => [f0, 0.0, 0.0],
+        Fresnel::Source { bias, scale, power } => [bias, scale, power],
+    };
+    for value in fresnel {
+        at_least("Settings.water.fresnel", value, 0.0)?;
+    }
+    let direction = glam::Vec3::from(light.direction);
+    if !direction.is_finite() || direction == glam::Vec3::ZERO {
+        return Err(Error::bad("Settings.light", format!("direction {direction}: no direction")));
     }
     for value in light.color.into_iter().chain(light.ambient) {
         at_least("Settings.light", value, 0.0)?;

@@ -24,7 +24,7 @@
 //! |---|---|---|---|
 //! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, `Config.output_format`, `Config.extent`; transfer source when it is also the scene | `before` → `after` |
 //! | `scene_color` | the scene behind the water; may be `output` itself (`Config.in_place`) | sampled, linear filtering | `before` → `after` |
-//! | `scene_depth` | device depth in the camera's convention; any size | sampled, a view of the depth aspect alone, single-sampled | `before` → `after` |
+//! | `scene_depth` | device depth in the camera's convention; any size | sampled and depth attachment, a view of the depth aspect alone, single-sampled | `before` → `after` |
 //! | `particles.positions` | 3×f32, world space; NaN, infinite and huge ones are dropped and counted | storage buffer, any stride and offset that are multiples of 4 | `before` → `after` |
 //! | `particles.densities` | f32; 0 marks a particle just emitted | as above | as above |
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
@@ -87,6 +87,14 @@
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
+
+/// Named uses of images and buffers, for [`HostImage`] and [`Particles`].
+pub mod access {
+    pub use crate::gpu::access::{
+        CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+        COPY_WRITE, FRAGMENT_SAMPLED, NOTHING,
+    };
+}
 
 pub use ash;
 pub use gpu_allocator;

@@ -32,6 +32,8 @@ struct SlotState {
     uniforms: Buffer,
     /// The output's framebuffer of the frame recorded last.
     framebuffer: Option<Owned<vk::Framebuffer>>,
+    /// The environment was recorded with the slot since it came back: its sets must stay.
+    has_environment: bool,
 }
 
 /// Draws particle water into a host's frame. One per view; see the crate's documentation for the
@@ -108,7 +110,7 @@ impl Renderer {
     ///
     /// # Safety
     /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
-    /// comes before it there.
+    /// comes before it there; at most four before the slot is collected.
     pub unsafe fn record_environment(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -117,6 +119,7 @@ impl Renderer {
     ) -> Result<(), Error> {
         let index = self.slot_index(slot)?;
         self.retired.recorded(slot.0);
+        self.slots[index].begin_environment(&self.gpu)?;
         self.environment.record(&self.gpu, cmd, &self.slots[index].descriptors, source)
     }
 
@@ -226,7 +229,8 @@ impl Renderer {
     }
 
     /// Times of the slot's last finished frame, pass by pass; empty before there is one. Never
-    /// waits: while the frame is still running these are the times of the one before.
+    /// waits: while the frame is still running these are the times of the one before. Best read
+    /// after the slot's fence, before its next record.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -237,6 +241,9 @@ impl Renderer {
     /// Says that the slot has come back (its work is complete): frees what `resize` and
     /// `reconfigure` retired and no frame in flight uses any more.
     pub fn collect(&mut self, slot: Slot) {
+        if let Some(state) = self.slots.get_mut(slot.0 as usize) {
+            state.has_environment = false;
+        }
         self.retired.collect(slot.0);
         self.gpu.bury();
     }
@@ -321,7 +328,7 @@ impl Renderer {
             Parts::scene_copy(gpu, config)?,
             if same_environment { None } else { Some(Environment::new(gpu, config)?) },
             (0..gpu.slots)
-                .map(|_| Descriptors::new(gpu, SlotState::sets(config)))
+                .map(|_| Descriptors::new(gpu, SlotState::sets(gpu, config)))
                 .collect::<Result<_, _>>()?,
         ))
     }
@@ -460,9 +467,12 @@ fn check_particles(
                 ),
             ));
         }
-        let end = u64::from(count) * u64::from(stream.stride);
-        let end =
-            stream.offset + if count > 0 { end - u64::from(stream.stride) + bytes } else { 0 };
+        // Of the last particle only the value itself has to be there.
+        let used = match u64::from(count) {
+            0 => 0,
+            count => (count - 1) * u64::from(stream.stride) + bytes,
+        };
+        let end = stream.offset.saturating_add(used);
         if end > stream.size {
             return Err(Error::bad(
                 field,
@@ -559,7 +569,7 @@ impl Parts {
 impl SlotState {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         Ok(Self {
-            descriptors: Descriptors::new(gpu, Self::sets(config))?,
+            descriptors: Descriptors::new(gpu, Self::sets(gpu, config))?,
             timer: Timer::new(gpu)?,
             uniforms: Buffer::new(
                 gpu,
@@ -569,12 +579,13 @@ impl SlotState {
                 MemoryLocation::CpuToGpu,
             )?,
             framebuffer: None,
+            has_environment: false,
         })
     }
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
-    fn sets(config: &Config) -> u32 {
-        64 + 16 * (config.max_particles / (1 << 16) + 1)
+    fn sets(gpu: &Gpu, config: &Config) -> u32 {
+        68 + 8 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -582,6 +593,17 @@ impl SlotState {
         self.framebuffer = None;
         // Framebuffers alone: what holds memory is dropped by `collect`, which buries it.
         gpu.bury();
+        if std::mem::take(&mut self.has_environment) {
+            return Ok(());
+        }
+        self.descriptors.reset(gpu)
+    }
+
+    /// The same for the environment, which may share the slot with the frame after it.
+    fn begin_environment(&mut self, gpu: &Gpu) -> Result<(), Error> {
+        if std::mem::replace(&mut self.has_environment, true) {
+            return Ok(());
+        }
         self.descriptors.reset(gpu)
     }
 }

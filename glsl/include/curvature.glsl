@@ -9,6 +9,7 @@ struct Stencil {
 
 struct Derivatives {
     float x, y, xx, yy, xy;
+    bool has_xy;
 };
 
 // Central differences. No smoothing across silhouettes: an axis with a one-sided difference over
@@ -27,11 +28,13 @@ Derivatives derivatives(Stencil s, float falloff, bool mixed) {
     z.y = cut_y ? 0.0 : y;
     z.yy = cut_y ? 0.0 : yy;
     z.xy = 0.0;
+    z.has_xy = false;
     if (mixed) {
         vec4 far = abs(s.corner - s.z);
         bool cut = cut_x || cut_y || max(max(far.x, far.y), max(far.z, far.w)) > falloff;
         precise float xy = 0.25 * ((s.corner.w - s.corner.z) - (s.corner.y - s.corner.x));
-        z.xy = cut ? 0.0 : xy;
+        z.xy = xy;
+        z.has_xy = !cut;
     }
     return z;
 }
@@ -67,7 +70,9 @@ float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     precise float h = ww * z.y * z.y + gy * (2.0 * slope.y * z.y + gy);
     precise float bend = 2.0 / s.z;
     precise float l = z.xx - bend * z.x * z.x;
-    precise float m = z.xy - bend * z.x * z.y;
+    // Without z_xy there is no M: half of it would bend a plane.
+    precise float mixed = z.xy - bend * z.x * z.y;
+    precise float m = z.has_xy ? mixed : 0.0;
     precise float n = z.yy - bend * z.y * z.y;
     precise float moved = s.z + kappa * gx * gx * (h * l - 2.0 * f * m + e * n) / (e * h - f * f);
     return moved;

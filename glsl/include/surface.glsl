@@ -62,6 +62,11 @@ Surface surface_at(vec2 pixel, float front, float threshold) {
     vec4 right = vec4(row1.zw, row2.zw);
     vec4 up = vec4(row0, row1.yz);
     vec4 down = vec4(row2.yz, row3);
+    // Of the texels that will stand in for those beyond the edge: nothing lies on that side.
+    if (base.x < 0) { left.yw = vec2(EMPTY); }
+    if (base.x >= last.x) { right.xz = vec2(EMPTY); }
+    if (base.y < 0) { up.zw = vec2(EMPTY); }
+    if (base.y >= last.y) { down.xy = vec2(EMPTY); }
     bvec4 whole = bvec4(true);
     vec4 dx = differences(left, z, right, threshold, whole);
     vec4 dy = differences(up, z, down, threshold, whole);

@@ -50,8 +50,11 @@ uint plan_pixel(float z, vec2 slope) {
     float cap = frame.smoothing.z;
     if (RULE == RULE_CONSTANT_WIDTH) {
         float sigma = frame.smoothing.x / width;
-        // Off the axis a pixel sees the surface foreshortened: more, smaller steps keep it stable.
-        float count = ceil((2.0 + dot(slope, slope)) * sigma * sigma);
+        // Off the axis a pixel sees the surface foreshortened, flat pixels are nearer to each
+        // other in y: more, smaller steps keep it stable.
+        float shape = frame.texel.z / frame.texel.w;
+        float spread = 1.0 + slope.x * slope.x + (1.0 + slope.y * slope.y) * shape * shape;
+        float count = ceil(STEADY * spread * sigma * sigma);
         float kappa = sigma * sigma / (2.0 * max(count, 1.0));
         return plan_pack(uint(min(count, cap)), kappa / MOST_KAPPA);
     }

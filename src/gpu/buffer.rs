@@ -64,6 +64,7 @@ impl Buffer {
     }
 
     /// Bytes of a mapped buffer; empty for one that is not mapped.
+    #[cfg(feature = "headless")]
     pub fn mapped(&self) -> &[u8] {
         self.allocation.mapped_slice().unwrap_or_default()
     }

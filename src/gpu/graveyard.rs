@@ -69,6 +69,7 @@ impl<T: Copy> Drop for Owned<T> {
 }
 
 /// Frees an object, and what else was dropped, at once.
+#[cfg(feature = "headless")]
 pub trait Destroy: Sized {
     /// The GPU must be done with it.
     fn destroy(self, gpu: &Gpu) {
@@ -77,8 +78,11 @@ pub trait Destroy: Sized {
     }
 }
 
+#[cfg(feature = "headless")]
 impl Destroy for super::image::Image {}
+#[cfg(feature = "headless")]
 impl Destroy for super::buffer::Buffer {}
+#[cfg(feature = "headless")]
 impl Destroy for super::pipeline::Pipeline {}
 
 impl Gpu {

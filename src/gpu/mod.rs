@@ -48,6 +48,7 @@ pub struct Gpu {
 }
 
 /// The samplers there are; all clamp to the edge.
+#[derive(Default)]
 pub struct Samplers {
     /// Nearest texel, first mip.
     pub nearest: vk::Sampler,
@@ -84,25 +85,7 @@ impl Gpu {
                 format!("expected 1 to 8, found {}", host.frames_in_flight),
             ));
         }
-        let sampler = |filter, mip, max_lod| {
-            let info = vk::SamplerCreateInfo::default()
-                .mag_filter(filter)
-                .min_filter(filter)
-                .mipmap_mode(mip)
-                .max_lod(max_lod)
-                .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-                .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-                .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
-            // SAFETY: valid create info.
-            unsafe { host.device.create_sampler(&info, None) }.context(|| "vkCreateSampler".into())
-        };
-        let graveyard = Graveyard::default();
-        let own = |handle| Owned::new(handle, Grave::Sampler, &graveyard);
-        let nearest = own(sampler(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?);
-        let linear =
-            own(sampler(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?);
-        let samplers = Samplers { nearest: nearest.handle, linear: linear.handle };
-        Ok(Arc::new(Self {
+        let mut gpu = Self {
             device: host.device.clone(),
             enabled: host.enabled,
             slots: host.frames_in_flight,
@@ -113,16 +96,47 @@ impl Gpu {
                 .enabled
                 .conditional_rendering
                 .then(|| ash::ext::conditional_rendering::Device::new(host.instance, host.device)),
-            samplers,
+            samplers: Samplers::default(),
             pipeline_cache: host.pipeline_cache,
             debug: host
                 .enabled
                 .debug_utils
                 .then(|| ash::ext::debug_utils::Device::new(host.instance, host.device)),
             allocator: host.allocator.clone(),
-            graveyard,
-            own_samplers: vec![nearest, linear],
-        }))
+            graveyard: Graveyard::default(),
+            own_samplers: Vec::new(),
+        };
+        match gpu.make_samplers() {
+            Ok(()) => Ok(Arc::new(gpu)),
+            Err(error) => {
+                gpu.own_samplers.clear();
+                gpu.bury();
+                Err(error)
+            }
+        }
+    }
+
+    fn make_samplers(&mut self) -> Result<(), Error> {
+        let mut make = |filter, mip, max_lod| -> Result<vk::Sampler, Error> {
+            let info = vk::SamplerCreateInfo::default()
+                .mag_filter(filter)
+                .min_filter(filter)
+                .mipmap_mode(mip)
+                .max_lod(max_lod)
+                .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+                .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
+                .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
+            // SAFETY: valid create info.
+            let handle = unsafe { self.device.create_sampler(&info, None) }
+                .context(|| "vkCreateSampler".into())?;
+            self.own_samplers.push(Owned::new(handle, Grave::Sampler, &self.graveyard));
+            Ok(handle)
+        };
+        self.samplers = Samplers {
+            nearest: make(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?,
+            linear: make(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
+        };
+        Ok(())
     }
 
     /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is

@@ -172,6 +172,7 @@ impl Pipeline {
     }
 
     /// A graphics pipeline whose state is the caller's own; stages and layout are filled in.
+    #[cfg(feature = "headless")]
     pub fn from_state(
         gpu: &Gpu,
         stages: &[(Shader, vk::ShaderStageFlags)],

@@ -136,6 +136,16 @@ impl Offer {
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
         }
+        let range = u64::from(self.limits.max_storage_buffer_range).saturating_sub(256);
+        if 16 * u64::from(config.max_stride) > range {
+            return Err(Error::bad(
+                "Config.max_stride",
+                format!(
+                    "{}: sixteen particles are more than the device binds at once",
+                    config.max_stride
+                ),
+            ));
+        }
         let most = self.limits.max_image_dimension2_d;
         if config.extent.width > most || config.extent.height > most {
             return Err(Error::bad(

@@ -63,4 +63,12 @@ macro_rules! assert_layout {
 }
 pub(crate) use assert_layout;
 
-include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+pub use compiled::*;
+
+#[allow(dead_code)] // those of features that are off
+mod compiled {
+    use super::{Aligned, Shader};
+    use ash::vk;
+
+    include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+}

@@ -329,11 +329,12 @@ fn make_device(
         debug_utils: false,
         conditional_rendering: has_conditional.conditional_rendering == vk::TRUE,
         draw_indirect_count: !options.bare && has12.draw_indirect_count == vk::TRUE,
+        large_points: !options.bare && core.large_points == vk::TRUE,
         precise_occlusion_queries: !options.bare && core.occlusion_query_precise == vk::TRUE,
     };
     let features = vk::PhysicalDeviceFeatures::default()
         .occlusion_query_precise(enabled.precise_occlusion_queries)
-        .large_points(core.large_points == vk::TRUE);
+        .large_points(enabled.large_points);
     let mut v12 = vk::PhysicalDeviceVulkan12Features::default()
         .draw_indirect_count(enabled.draw_indirect_count);
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true);

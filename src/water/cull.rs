@@ -98,6 +98,17 @@ struct EndPush {
     most_groups: u32,
 }
 
+/// Particles of a chunk and how many chunks there are: a chunk of every stream can be bound at
+/// once, and the chunks' parts of the list begin at offsets that every device can bind.
+pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
+    let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
+    let fits = (range / u64::from(config.max_stride.max(16))).min(u64::from(MOST_CHUNK)) as u32;
+    // 16 spheres are 256 bytes.
+    let wanted = config.max_particles.max(1).next_multiple_of(16);
+    let size = wanted.min(fits & !15).max(16);
+    (size, config.max_particles.max(1).div_ceil(size))
+}
+
 /// How lists are read by the passes that draw or dispatch them.
 pub const LIST_USE: Access = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
 
@@ -128,13 +139,7 @@ pub struct Chunk {
 impl SphereList {
     /// Room for the configuration's particles, in chunks that can be bound.
     pub fn new(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
-        let range = u64::from(gpu.limits.max_storage_buffer_range);
-        let widest = u64::from(config.max_stride.max(16));
-        let fits = ((range - 256) / widest).min(u64::from(MOST_CHUNK)) as u32;
-        // Parts of the list begin at offsets that every device can bind.
-        let chunk_size =
-            fits.min(config.max_particles.max(1)).next_multiple_of(256).min(fits & !255).max(256);
-        let chunks = config.max_particles.max(1).div_ceil(chunk_size);
+        let (chunk_size, chunks) = chunks(&gpu.limits, config);
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Ok(Self {
             counts: Buffer::new(

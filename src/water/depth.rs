@@ -143,7 +143,8 @@ impl Depth {
     pub fn point_limit(&self, gpu: &Gpu) -> f32 {
         match self.path {
             // The footprint's margin, and the snapping, on top.
-            Path::Raster { .. } => gpu.limits.point_size_range[1] - 1.0,
+            Path::Raster { .. } if gpu.enabled.large_points => gpu.limits.point_size_range[1] - 1.0,
+            Path::Raster { .. } => 0.0,
             Path::Compute { .. } => 64.0,
         }
     }

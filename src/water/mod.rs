@@ -22,6 +22,7 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 
+pub(crate) use cull::chunks;
 pub use settings::{Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
 
 /// What every pass records with.

@@ -247,12 +247,19 @@ pub fn look_up(settings: &Settings, surface: &Surface, view: &View, pixel: DVec2
     (pixel + offset).clamp(DVec2::splat(0.5), view.extent() - 0.5)
 }
 
-/// Whether any of the four texels of the scene's depth round a position stands before the water.
+/// Whether any of the four texels of the scene's depth round a position stands before the water;
+/// where its size is another than the colour's, round the four corners of the pixel there.
 pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
     let extent = |width: usize, height: usize| DVec2::new(width as f64, height as f64);
     let (scene, color) = (inputs.scene_depth, inputs.scene_color);
-    let at = at * extent(scene.width, scene.height) / extent(color.width, color.height);
-    scene.bilinear(at).iter().any(|t| scene.clamped(t.0, t.1) < z)
+    let ratio = extent(scene.width, scene.height) / extent(color.width, color.height);
+    let before = |at: DVec2| scene.bilinear(at * ratio).iter().any(|t| scene.clamped(t.0, t.1) < z);
+    if ratio == DVec2::ONE {
+        return before(at);
+    }
+    [(-0.5, -0.5), (0.5, -0.5), (-0.5, 0.5), (0.5, 0.5)]
+        .iter()
+        .any(|&(x, y)| before(at + DVec2::new(x, y)))
 }
 
 /// The scene's colour behind a surface, displaced but never onto what stands before the water.
