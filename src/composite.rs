@@ -15,6 +15,20 @@ use crate::gpu::shader;
 use crate::water::settings::Fresnel;
 use crate::water::{Recording, WaterLayers};
 
+/// What the pass takes beside the layers.
+pub struct Surroundings {
+    /// Framebuffer of the output, in COLOR_ATTACHMENT_OPTIMAL.
+    pub target: vk::Framebuffer,
+    /// Its size.
+    pub extent: vk::Extent2D,
+    /// The scene behind the water, sampled linearly.
+    pub scene_color: Resource,
+    /// What it reflects, a cube.
+    pub environment: Resource,
+    /// Chooses the pipeline.
+    pub fresnel: Fresnel,
+}
+
 /// The pass.
 pub struct Composite {
     pass: Owned<vk::RenderPass>,
@@ -57,24 +71,20 @@ impl Composite {
         gpu.framebuffer("composite/output", self.pass.handle, view, extent)
     }
 
-    /// The output is in COLOR_ATTACHMENT_OPTIMAL, all layers are sampled by fragments.
+    /// All layers are sampled by fragments.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
-        framebuffer: vk::Framebuffer,
-        extent: vk::Extent2D,
+        around: &Surroundings,
         layers: &WaterLayers<'_>,
-        scene_color: Resource,
-        environment: Resource,
-        fresnel: Fresnel,
     ) -> Result<(), Error> {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let pipeline = match fresnel {
+        let pipeline = match around.fresnel {
             Fresnel::Schlick { .. } => &self.pipelines[0],
             Fresnel::Source { .. } => &self.pipelines[1],
         };
-        gpu.begin_pass(cmd, self.pass.handle, framebuffer, extent.into(), [0.0; 4]);
+        gpu.begin_pass(cmd, self.pass.handle, around.target, around.extent.into(), [0.0; 4]);
         let nearest = gpu.samplers.nearest;
         r.descriptors.bind(
             gpu,
@@ -85,9 +95,9 @@ impl Composite {
                 (1, Resource::Sampled(layers.smoothed.view, nearest)),
                 (2, Resource::Sampled(layers.depth.view, nearest)),
                 (3, Resource::Sampled(layers.thickness.view, nearest)),
-                (4, scene_color),
+                (4, around.scene_color),
                 (5, r.scene_depth),
-                (6, environment),
+                (6, around.environment),
                 (9, Resource::buffer(&layers.tiles.list)),
             ],
         )?;

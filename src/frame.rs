@@ -74,7 +74,7 @@ shader::assert_layout!(
 );
 
 /// `∫₀¹ √(1−u)·e^(−2u) du`, the integral of the thickness kernel over ρ².
-pub const KERNEL_INTEGRAL: f32 = 0.340_003_0;
+pub const KERNEL_INTEGRAL: f32 = 0.340_003;
 
 /// Half-axis of a thickness sprite in drawn radii.
 pub const THICKNESS_SCALE: f32 = 2.0;

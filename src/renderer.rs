@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use crate::composite::Composite;
+use crate::composite::{Composite, Surroundings};
 use crate::contract::{
     Config, Count, Frame, Host, HostImage, MemoryUse, Particles, Recorded, Slot, Stream,
 };
@@ -197,12 +197,14 @@ impl Renderer {
         };
         self.composite.record(
             &mut r,
-            target,
-            frame.output.extent,
+            &Surroundings {
+                target,
+                extent: frame.output.extent,
+                scene_color: Resource::Sampled(scene_color, gpu.samplers.linear),
+                environment: Resource::Sampled(self.environment.cube.view, gpu.samplers.linear),
+                fresnel: frame.settings.water.fresnel,
+            },
             &self.water.layers(),
-            Resource::Sampled(scene_color, gpu.samplers.linear),
-            Resource::Sampled(self.environment.cube.view, gpu.samplers.linear),
-            frame.settings.water.fresnel,
         )?;
 
         let cmd = r.cmd;
@@ -449,7 +451,10 @@ fn check_particles(
         Count::Gpu { .. } => 0,
     };
     let stream = |field, stream: &Stream, bytes: u64| -> Result<(), Error> {
-        if stream.stride % 4 != 0 || u64::from(stream.stride) < bytes || stream.offset % 4 != 0 {
+        if !stream.stride.is_multiple_of(4)
+            || u64::from(stream.stride) < bytes
+            || !stream.offset.is_multiple_of(4)
+        {
             return Err(Error::bad(
                 field,
                 format!(
@@ -487,7 +492,7 @@ fn check_particles(
     }
     let aligned = |field, offset: u64| {
         let to = limits.min_storage_buffer_offset_alignment.max(4);
-        if offset % to == 0 {
+        if offset.is_multiple_of(to) {
             Ok(())
         } else {
             Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
@@ -516,7 +521,7 @@ fn check_config(config: &Config) -> Result<(), Error> {
     if config.max_particles == 0 {
         return bad("Config.max_particles", "zero; it sizes the buffers".into());
     }
-    if config.max_stride < 4 || config.max_stride % 4 != 0 {
+    if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
         return bad("Config.max_stride", format!("{} is no multiple of 4", config.max_stride));
     }
     if config.smoothing_level > 2 {

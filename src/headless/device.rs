@@ -210,7 +210,7 @@ fn make_instance(
     options: &DeviceOptions,
     list: &Mutex<Vec<String>>,
 ) -> Result<(ash::Instance, bool), Error> {
-    // SAFETY (both): plain enumeration.
+    // SAFETY: plain enumeration.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .context(|| "vkEnumerateInstanceLayerProperties".into())?;
     let has_layer = layers.iter().any(|l| l.layer_name_as_c_str() == Ok(VALIDATION));

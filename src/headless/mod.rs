@@ -119,7 +119,7 @@ impl Headless {
         let pool = vk::CommandPoolCreateInfo::default()
             .queue_family_index(device.queue_family)
             .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-        // SAFETY (this and the next two): valid create infos on a live device.
+        // SAFETY: valid create infos on a live device, here and below.
         let pool = unsafe { gpu.device.create_command_pool(&pool, None) }
             .context(|| "vkCreateCommandPool".into())?;
         let info =

@@ -77,7 +77,7 @@ pub fn sprites(
 impl Depth {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let image = Self::image(gpu, config)?;
-        let path = match config.depth_splat.unwrap_or_else(|| default_splat(gpu)) {
+        let path = match config.depth_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
                 let pass =
                     gpu.color_pass("water/depth", image.format, vk::AttachmentLoadOp::CLEAR)?;
@@ -209,10 +209,8 @@ impl Depth {
     }
 }
 
-/// The measured fastest: see docs/performance.md.
-pub fn default_splat(gpu: &Gpu) -> Splat {
-    if gpu.is_cpu() { Splat::Compute } else { Splat::Compute }
-}
+/// Faster than sprites on lavapipe (docs/performance.md); GPUs are still to be measured.
+pub const DEFAULT_SPLAT: Splat = Splat::Compute;
 
 /// Draws all chunks' sprites inside a render pass: points, then quads.
 pub fn draw_sprites(

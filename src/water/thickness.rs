@@ -13,7 +13,7 @@ use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::SphereList;
-use super::depth::{default_splat, dispatch_sprites, draw_sprites, sprites};
+use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::reduced;
@@ -59,7 +59,7 @@ pub struct Thickness {
 impl Thickness {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let image = Self::image(gpu, config)?;
-        let path = match config.thickness_splat.unwrap_or_else(|| default_splat(gpu)) {
+        let path = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
                 let pass =
                     gpu.color_pass("water/thickness", image.format, vk::AttachmentLoadOp::CLEAR)?;
