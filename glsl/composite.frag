@@ -19,6 +19,20 @@ layout(set = 0, binding = 6) uniform samplerCube environment;
 
 layout(location = 0) out vec4 color;
 
+// Derivatives of the unsmoothed depth, per reduced pixel; never steep.
+vec2 drop_slope(ivec2 pixel, float front, float threshold) {
+    vec2 texel = 1.0 / frame.extent.xy;
+    vec4 before = textureGather(depth, vec2(pixel) * texel);
+    vec4 after = textureGather(depth, vec2(pixel + 1) * texel);
+    ivec2 last = ivec2(frame.extent.xy) - 1;
+    vec2 low = vec2(pixel.x < 1 ? EMPTY : before.x, pixel.y < 1 ? EMPTY : before.z);
+    vec2 high = vec2(pixel.x >= last.x ? EMPTY : after.z, pixel.y >= last.y ? EMPTY : after.x);
+    bvec4 whole = bvec4(true);
+    vec2 dz = differences(low.xyxy, vec4(front), high.xyxy, threshold, whole).xy;
+    vec2 steepest = frame.texel.xy * front * RIM_SLOPE;
+    return clamp(dz, -steepest, steepest) * frame.thick_extent.w;
+}
+
 // Upsampled with the weights of texels on the same surface.
 float thickness_at(Surface s, vec2 pixel, float threshold) {
     if (THICKNESS == 0u) {
@@ -102,11 +116,14 @@ void main() {
     }
     float threshold = frame.surface.w;
     Surface surface = surface_at(gl_FragCoord.xy, front, threshold);
+    float t = thickness_at(surface, gl_FragCoord.xy, threshold);
+    // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
+    float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
+    surface.dz = mix(surface.dz, drop_slope(pixel, front, threshold), drop);
     vec2 slope = ray_slope(gl_FragCoord.xy, frame.slope);
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, frame.reduced_slope.xy, position, n);
-    float t = thickness_at(surface, gl_FragCoord.xy, threshold);
 
     float away = length(position);
     vec3 v = -position / away;

@@ -226,6 +226,18 @@ pub fn surface(
         }
     };
 
+    // Less than a layer of water is a drop: it keeps the shape of its sphere.
+    let spacing = radius / 0.656;
+    let drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, thickness);
+    let raw = |step: (isize, isize)| {
+        derivative(inputs.depth, (x as isize, y as isize), step, threshold).0
+    };
+    let reduced = f64::from(1 << inputs.level);
+    let steepest = view.slope_step().abs() * zf * RIM_SLOPE;
+    let sphere = DVec2::new(raw((1, 0)), raw((0, 1))).clamp(-steepest, steepest) * reduced;
+    let slope = DVec2::new(z_x, z_y).lerp(sphere, drop);
+    let (z_x, z_y) = (slope.x, slope.y);
+
     // P = z (s_x, s_y, -1); g is what a pixel of the smoothed image adds to the slope.
     let ray = view.ray(x, y);
     let position = ray * z;

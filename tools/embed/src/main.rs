@@ -24,7 +24,7 @@ use whitewater::{
 
 /// Size of the picture.
 pub const EXTENT: vk::Extent2D = vk::Extent2D { width: 960, height: 540 };
-const FRAMES: u32 = 6;
+const FRAMES: u32 = 4;
 const FRAMES_IN_FLIGHT: u32 = 2;
 const MAX_PARTICLES: usize = 32_768;
 const SPACING: f32 = 0.03; // between particles at rest, in metres
@@ -86,7 +86,7 @@ pub fn draw(
     let usage = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
     let (depth, depth_memory) =
         gpu.image(vk::Format::D32_SFLOAT, EXTENT, vk::ImageAspectFlags::DEPTH, usage, CLEAR)?;
-    // Particles: a region for each frame in flight, since the CPU writes one as the GPU reads another.
+    // A region for each frame in flight: the CPU writes one while the GPU reads another.
     let region = (MAX_PARTICLES * size_of::<Particle>()) as u64;
     let size = region * u64::from(FRAMES_IN_FLIGHT);
     let (buffer, mut buffer_memory) =
@@ -137,9 +137,9 @@ pub fn draw(
         water.collect(slot);
 
         let time = number as f32 / 30.0;
-        let pool_of_water = wave(time);
+        let wave = wave(time);
         let offset = region * u64::from(slot.0);
-        let bytes: &[u8] = bytemuck::cast_slice(&pool_of_water);
+        let bytes: &[u8] = bytemuck::cast_slice(&wave);
         let mapped = buffer_memory.mapped_slice_mut().ok_or("the particles are not mapped")?;
         mapped[offset as usize..][..bytes.len()].copy_from_slice(bytes);
         let stream = |field: usize| {
@@ -149,7 +149,7 @@ pub fn draw(
         let particles = Particles {
             positions: stream(std::mem::offset_of!(Particle, position)),
             densities: Some(stream(std::mem::offset_of!(Particle, density))),
-            count: Count::Cpu(pool_of_water.len() as u32),
+            count: Count::Cpu(wave.len() as u32),
             packets: None,
             before: CPU,
             after: CPU,
@@ -158,7 +158,7 @@ pub fn draw(
         let aspect = EXTENT.width as f32 / EXTENT.height as f32;
         let projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0))
             * Mat4::perspective_infinite_reverse_rh(0.6, aspect, 0.1);
-        let view = Mat4::look_at_rh(vec3(1.2 - time, 1.9, 1.8), vec3(0.0, 0.1, 0.0), Vec3::Y);
+        let view = Mat4::look_at_rh(vec3(1.2 - 2.0 * time, 1.9, 1.8), vec3(0.0, 0.1, 0.0), Vec3::Y);
         let frame = Frame {
             slot,
             output: color,

@@ -206,7 +206,7 @@ impl Gpu {
         }
     }
 
-    /// Copies an image, as it is after the water, to a buffer that the CPU may read after the fence.
+    /// Copies an image, as the water leaves it, to a buffer that the CPU reads after the fence.
     ///
     /// # Safety
     /// As [`Gpu::clear`]; the image is in COPY's layout and the buffer is large enough.

@@ -1,0 +1,261 @@
+/// `composite.frag`
+pub const COMPOSITE_FRAG: Shader = Shader {
+    name: "composite.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/composite.frag.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ],
+};
+/// `composite.vert`
+pub const COMPOSITE_VERT: Shader = Shader {
+    name: "composite.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/composite.vert.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (9, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("List", "list", 0), ("Push", "columns", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ],
+};
+/// `environment/equirect.comp`
+pub const ENVIRONMENT_EQUIRECT_COMP: Shader = Shader {
+    name: "environment/equirect.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/environment.equirect.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::STORAGE_IMAGE), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Push", "size", 0), ("Push", "scale", 4), ("Push", "turn", 8), ],
+};
+/// `environment/sky.comp`
+pub const ENVIRONMENT_SKY_COMP: Shader = Shader {
+    name: "environment/sky.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/environment.sky.comp.spv"))); &CODE.0 },
+    push_size: 20,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::STORAGE_IMAGE), ],
+    members: &[("Push", "sun", 0), ("Push", "size", 16), ],
+};
+/// `headless/depth.vert`
+pub const HEADLESS_DEPTH_VERT: Shader = Shader {
+    name: "headless/depth.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/headless.depth.vert.spv"))); &CODE.0 },
+    push_size: 64,
+    local_size: [1, 1, 1],
+    bindings: &[],
+    members: &[("Push", "clip", 0), ],
+};
+/// `headless/irradiance.comp`
+pub const HEADLESS_IRRADIANCE_COMP: Shader = Shader {
+    name: "headless/irradiance.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/headless.irradiance.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Irradiance", "irradiance", 0), ],
+};
+/// `headless/scene.frag`
+pub const HEADLESS_SCENE_FRAG: Shader = Shader {
+    name: "headless/scene.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/headless.scene.frag.spv"))); &CODE.0 },
+    push_size: 64,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Push", "turn", 0), ("Push", "origin", 16), ("Push", "color", 32), ("Push", "pattern", 48), ("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ("Irradiance", "irradiance", 0), ],
+};
+/// `headless/scene.vert`
+pub const HEADLESS_SCENE_VERT: Shader = Shader {
+    name: "headless/scene.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/headless.scene.vert.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ],
+};
+/// `headless/sky.frag`
+pub const HEADLESS_SKY_FRAG: Shader = Shader {
+    name: "headless/sky.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/headless.sky.frag.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ],
+};
+/// `headless/sky.vert`
+pub const HEADLESS_SKY_VERT: Shader = Shader {
+    name: "headless/sky.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/headless.sky.vert.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
+    members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ],
+};
+/// `water/cull.comp`
+pub const WATER_CULL_COMP: Shader = Shader {
+    name: "water/cull.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.cull.comp.spv"))); &CODE.0 },
+    push_size: 36,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "packet_word", 16), ("Push", "chunk_first", 20), ("Push", "capacity", 24), ("Push", "small_limit", 28), ("Push", "small_inside", 32), ("Positions", "positions", 0), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Densities", "densities", 0), ("Visible", "visible", 0), ("HostPackets", "packets", 0), ],
+};
+/// `water/cull_begin.comp`
+pub const WATER_CULL_BEGIN_COMP: Shader = Shader {
+    name: "water/cull_begin.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.cull_begin.comp.spv"))); &CODE.0 },
+    push_size: 28,
+    local_size: [32, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "count", 0), ("Push", "word", 4), ("Push", "from_gpu", 8), ("Push", "chunks", 12), ("Push", "chunk_size", 16), ("Push", "packets", 20), ("Push", "group_size", 24), ("HostCount", "host_count", 0), ("AllCounts", "words", 0), ],
+};
+/// `water/cull_end.comp`
+pub const WATER_CULL_END_COMP: Shader = Shader {
+    name: "water/cull_end.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.cull_end.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [32, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "chunks", 0), ("Push", "group_size", 4), ("Push", "most_groups", 8), ("AllCounts", "words", 0), ],
+};
+/// `water/depth.comp`
+pub const WATER_DEPTH_COMP: Shader = Shader {
+    name: "water/depth.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.depth.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_IMAGE), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Push", "capacity", 0), ],
+};
+/// `water/depth.frag`
+pub const WATER_DEPTH_FRAG: Shader = Shader {
+    name: "water/depth.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.depth.frag.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ],
+};
+/// `water/depth.vert`
+pub const WATER_DEPTH_VERT: Shader = Shader {
+    name: "water/depth.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.depth.vert.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "capacity", 0), ("Visible", "visible", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ],
+};
+/// `water/front.comp`
+pub const WATER_FRONT_COMP: Shader = Shader {
+    name: "water/front.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.front.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Cells", "cells", 0), ("Push", "capacity", 0), ("Push", "columns", 4), ("Push", "rows", 8), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("FrontCounts", "front_counts", 0), ("Front", "front", 0), ],
+};
+/// `water/front_cover.comp`
+pub const WATER_FRONT_COVER_COMP: Shader = Shader {
+    name: "water/front_cover.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.front_cover.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Push", "capacity", 0), ("Push", "columns", 4), ("Push", "rows", 8), ("Cells", "cells", 0), ],
+};
+/// `water/reduce.comp`
+pub const WATER_REDUCE_COMP: Shader = Shader {
+    name: "water/reduce.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.reduce.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_IMAGE), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_IMAGE), (4, vk::DescriptorType::STORAGE_IMAGE), (5, vk::DescriptorType::STORAGE_IMAGE), (6, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Tiles", "tile_work", 0), ],
+};
+/// `water/smooth.comp`
+pub const WATER_SMOOTH_COMP: Shader = Shader {
+    name: "water/smooth.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.smooth.comp.spv"))); &CODE.0 },
+    push_size: 8,
+    local_size: [8, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::STORAGE_IMAGE), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Push", "iteration", 0), ("Push", "columns", 4), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+};
+/// `water/smooth.frag`
+pub const WATER_SMOOTH_FRAG: Shader = Shader {
+    name: "water/smooth.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.smooth.frag.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "block", 8), ],
+};
+/// `water/smooth.vert`
+pub const WATER_SMOOTH_VERT: Shader = Shader {
+    name: "water/smooth.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.smooth.vert.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("List", "list", 0), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "block", 8), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Predicates", "predicates", 0), ],
+};
+/// `water/smooth_fused.comp`
+pub const WATER_SMOOTH_FUSED_COMP: Shader = Shader {
+    name: "water/smooth_fused.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.smooth_fused.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [32, 8, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::STORAGE_IMAGE), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "arguments_index", 8), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+};
+/// `water/smooth_gate.comp`
+pub const WATER_SMOOTH_GATE_COMP: Shader = Shader {
+    name: "water/smooth_gate.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.smooth_gate.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [1, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Predicates", "predicates", 0), ("Push", "block", 0), ("Results", "results", 0), ],
+};
+/// `water/thickness.comp`
+pub const WATER_THICKNESS_COMP: Shader = Shader {
+    name: "water/thickness.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Sums", "sums", 0), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Push", "capacity", 0), ],
+};
+/// `water/thickness.frag`
+pub const WATER_THICKNESS_FRAG: Shader = Shader {
+    name: "water/thickness.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness.frag.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ],
+};
+/// `water/thickness.vert`
+pub const WATER_THICKNESS_VERT: Shader = Shader {
+    name: "water/thickness.vert",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness.vert.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "capacity", 0), ("Visible", "visible", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ],
+};
+/// `water/thickness_resolve.comp`
+pub const WATER_THICKNESS_RESOLVE_COMP: Shader = Shader {
+    name: "water/thickness_resolve.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness_resolve.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_IMAGE), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "particle", 384), ("Frame", "density", 400), ("Frame", "smoothing", 416), ("Frame", "medium_a", 432), ("Frame", "medium_b", 448), ("Frame", "fresnel", 464), ("Frame", "surface", 480), ("Frame", "sun_direction", 496), ("Frame", "sun_color", 512), ("Frame", "ambient", 528), ("Sums", "sums", 0), ],
+};
+/// `water/tiles.comp`
+pub const WATER_TILES_COMP: Shader = Shader {
+    name: "water/tiles.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.tiles.comp.spv"))); &CODE.0 },
+    push_size: 8,
+    local_size: [256, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "tiles", 0), ("Push", "most_groups", 4), ("Tiles", "tile_work", 0), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+};
