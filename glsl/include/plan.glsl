@@ -9,7 +9,7 @@ const uint RULE_FIXED = 2u;
 const float SOURCE_STEP = 0.053;  // of r (thesis, demo: 0.05 at particle size 0.9375)
 const float SOURCE_RADIUS = 4.8;  // r_w of r
 const float MOST_KAPPA = 0.25;    // bound of the explicit step's stability
-const float STEADY = 1.0625;      // and how far from it: at the bound a checkerboard stays for good
+const float MORE = 2.0;           // iterations more: at the bound a checkerboard stays for good
 
 uint plan_count(uint plan) {
     return plan & 511u;

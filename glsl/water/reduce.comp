@@ -54,7 +54,7 @@ uint plan_pixel(float z, vec2 slope) {
         // other in y: more, smaller steps keep it stable.
         float shape = frame.texel.z / frame.texel.w;
         float spread = 1.0 + slope.x * slope.x + (1.0 + slope.y * slope.y) * shape * shape;
-        float count = ceil(STEADY * spread * sigma * sigma);
+        float count = sigma > 0.0 ? ceil(spread * sigma * sigma) + MORE : 0.0;
         float kappa = sigma * sigma / (2.0 * max(count, 1.0));
         return plan_pack(uint(min(count, cap)), kappa / MOST_KAPPA);
     }

@@ -16,6 +16,11 @@ const TIMES: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
 /// The claim: the roughest of the views over the smoothest.
 const CLAIM: f64 = 1.15;
 
+/// Iterations planned facing the water for a width of σ pixels: `PER_VARIANCE` σ² + `MORE`, rounded
+/// up (`glsl/water/reduce.comp`).
+const PER_VARIANCE: f32 = 2.0;
+const MORE: f32 = 2.0;
+
 /// A line of the table.
 #[derive(Clone, Debug)]
 struct Row {
@@ -81,7 +86,7 @@ impl Measured {
         let kept = self.views[view].iter().enumerate().filter(|(bed, _)| keep(*bed));
         let (sum, count) =
             kept.fold((0.0, 0.0), |(s, n), (_, found)| (s + found.variance, n + 1.0));
-        (sum / f64::from(count)).sqrt() / f64::from(SPACING)
+        (sum / count).sqrt() / f64::from(SPACING)
     }
 
     /// Roughness in spacings.
@@ -149,8 +154,8 @@ fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
     // World size of a pixel per depth.
     let pixel =
         |level: u32| 2.0 * (1 << level) as f32 / (effort.extent.width as f32 * projection.x_axis.x);
-    // N = ⌈2 (σ_w / (C d))²⌉ at the image's centre.
-    let near = wanted / (pixel(row.placed) * ((row.nearest - 0.5) / 2.0).sqrt());
+    // The distance at which that many are planned at the image's centre.
+    let near = wanted / (pixel(row.placed) * ((row.nearest - MORE - 0.5) / PER_VARIANCE).sqrt());
     // A margin of six spacings all round, however the bed is turned.
     let side = 2.0 * (window.x.hypot(window.y) as f32 / SPACING + 6.0);
     let config = Config {

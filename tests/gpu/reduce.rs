@@ -156,7 +156,7 @@ fn the_plan_is_the_twins() {
                             let s = view.ray(at.0, at.1).truncate();
                             let shape = view.c_x() / view.c_y();
                             let spread = 1.0 + s.x * s.x + (1.0 + s.y * s.y) * shape * shape;
-                            2.0 * want_step * steps * smooth::STEADY * spread
+                            2.0 * want_step * steps * spread
                         }
                         _ if is_surface(reduced.data[i]) => {
                             4.8 * params.radius / (view.c_x() * reduced.data[i])

@@ -51,8 +51,8 @@ impl Params {
     }
 }
 
-/// How far the step stays from the bound of stability, where a checkerboard would never go.
-pub const STEADY: f64 = 1.0625;
+/// Iterations more than the bound of stability asks for: at it a checkerboard would never go.
+pub const MORE: f64 = 2.0;
 
 /// N and the step of each pixel, from the depth before the smoothing: kappa in pixels squared for
 /// `ConstantWidth`, else eps as a length. The cap bounds N and leaves the step as it is: kappa stays
@@ -79,7 +79,8 @@ pub fn plan(
                 let s = view_reduced.ray(x, y).truncate();
                 let shape = c_x / view_reduced.c_y();
                 let spread = 1.0 + s.x * s.x + (1.0 + s.y * s.y) * shape * shape;
-                let n = (STEADY * spread * sigma_px * sigma_px).ceil();
+                let least = (spread * sigma_px * sigma_px).ceil();
+                let n = if sigma_px > 0.0 { least + MORE } else { 0.0 };
                 (n, sigma_px * sigma_px / (2.0 * n.max(1.0)))
             }
         };
@@ -217,7 +218,7 @@ mod tests {
             let sigma = 0.45 / (d * 2.0 / (96.0 * 1.5));
             assert_eq!(
                 (n, uncapped),
-                (uncapped.min(256), (STEADY * (2.0 + s) * sigma * sigma).ceil() as u32)
+                (uncapped.min(256), ((2.0 + s) * sigma * sigma).ceil() as u32 + 2)
             );
             assert!(
                 kappa <= 0.5 / (2.0 + s)
