@@ -667,6 +667,21 @@ fn images_are_taken_from_and_left_in_any_state() {
     }
 }
 
+/// 64 bytes of device memory a particle beside the input is the promise.
+#[test]
+fn ten_million_particles_have_room() {
+    let gpu = Gpu::shared();
+    let count = 10_000_000;
+    let config = Config { max_particles: count, ..config(extent(64, 48)) };
+    // SAFETY: live handles.
+    let renderer = unsafe { whitewater::Renderer::new(&gpu.host(1), &config) }.expect("room");
+    let memory = renderer.memory();
+    // SAFETY: nothing was recorded.
+    unsafe { renderer.destroy() };
+    assert!(memory.buffers > 32 * u64::from(count), "{memory:?} holds no spheres");
+    assert!(memory.buffers < 64 * u64::from(count), "{memory:?}");
+}
+
 /// Every pass has a scope; starts never fall, nothing is negative. Durations are no matter.
 #[test]
 fn timings_name_every_pass() {
