@@ -160,7 +160,11 @@ fn y_up() -> [f32; 3] {
 }
 
 impl Scene {
-    fn parse_json(bytes: &[u8]) -> Result<Self, String> {
+    /// The same as [`from_json`](Self::from_json) from memory.
+    ///
+    /// # Errors
+    /// What was expected and what was found.
+    pub fn parse_json(bytes: &[u8]) -> Result<Self, String> {
         let file: File = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
         let material = |name: &str, of: &str| {
             Material::named(name).ok_or_else(|| {

@@ -1,7 +1,5 @@
 //! `whitewater demo`: the built-in scene.
 
-use std::io::Write;
-
 use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
@@ -13,7 +11,6 @@ use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
-use crate::stage;
 
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
 const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
@@ -35,15 +32,6 @@ fn viewpoint(fov: Option<f32>) -> CameraFile {
     }
 }
 
-/// The library reads scenes from files only.
-fn scene() -> Outcome<Scene> {
-    let path = std::env::temp_dir().join(format!("whitewater-{}.json", std::process::id()));
-    output::write(&path, |to| to.write_all(SCENE))?;
-    let scene = stage::read(&path);
-    let _ = std::fs::remove_file(&path);
-    scene
-}
-
 pub fn run(args: &DemoArgs) -> Outcome<()> {
     let began = std::time::Instant::now();
     let checked = session::check(&args.draw, false)?;
@@ -53,7 +41,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let settings_file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
     let environment = session::environment(&args.draw, Some(SUN))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
-    let mut scene = scene()?;
+    let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
     scene.sun = environment.sun_light();
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
     settings.water.spacing = SPACING;
