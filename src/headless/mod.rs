@@ -4,6 +4,8 @@
 mod device;
 mod readback;
 pub mod scene;
+mod submit;
+mod transfer;
 
 use std::sync::Arc;
 
@@ -13,6 +15,7 @@ use gpu_allocator::MemoryLocation;
 pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
 use scene::{Scene, SceneFrame, SceneRenderer};
+use submit::{Parts, begin, submit};
 
 use crate::contract::{
     Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
@@ -21,7 +24,7 @@ use crate::contract::{
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
-use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
+use crate::gpu::access::{self, COPY_WRITE};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Descriptors;
 use crate::gpu::graveyard::Destroy;
@@ -47,13 +50,6 @@ const DEPTH_REST: Access = Access::new(
             | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
     ),
     vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-);
-
-/// Mapped memory read by the host.
-const HOST_READ: Access = Access::new(
-    vk::PipelineStageFlags2::HOST,
-    vk::AccessFlags2::HOST_READ,
-    vk::ImageLayout::GENERAL,
 );
 
 /// What became of the particles of a frame.
@@ -100,6 +96,7 @@ pub struct Headless {
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
+    active_samples: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
     device: Device,
 }
@@ -145,6 +142,7 @@ impl Headless {
             count: 0,
             layers: Vec::new(),
             counts: None,
+            active_samples: None,
             scene: None,
             device,
         };
@@ -260,49 +258,6 @@ impl Headless {
         staging.destroy(&self.gpu);
         image.destroy(&self.gpu);
         result
-    }
-
-    fn staging(&self, bytes: &[u8]) -> Result<Buffer, Error> {
-        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-        let size = bytes.len() as u64;
-        let mut buffer =
-            Buffer::new(&self.gpu, "headless/staging", size, usage, MemoryLocation::CpuToGpu)?;
-        buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
-        Ok(buffer)
-    }
-
-    /// Copies a staging buffer over a whole image.
-    fn upload(
-        &self,
-        cmd: vk::CommandBuffer,
-        from: &Buffer,
-        to: &Image,
-        before: Access,
-        after: Access,
-    ) {
-        let discarded = before.discarded();
-        self.gpu.barriers(cmd, &[access::image(to, discarded, COPY_WRITE)], &[]);
-        let region = vk::BufferImageCopy::default()
-            .image_subresource(vk::ImageSubresourceLayers {
-                aspect_mask: crate::gpu::image::aspect_of(to.format),
-                mip_level: 0,
-                base_array_layer: 0,
-                layer_count: 1,
-            })
-            .image_extent(to.extent.into());
-        // SAFETY: the image is in TRANSFER_DST_OPTIMAL; the buffer holds all of its texels.
-        unsafe {
-            self.gpu.device.cmd_copy_buffer_to_image(
-                cmd,
-                from.handle,
-                to.handle,
-                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                &[region],
-            );
-        }
-        if after != COPY_WRITE {
-            self.gpu.barriers(cmd, &[access::image(to, COPY_WRITE, after)], &[]);
-        }
     }
 
     /// The scene to stand behind the water, drawn by [`Background::Scene`]; `antialias`: four
@@ -492,6 +447,7 @@ impl Headless {
             let (recorded, last) = result?;
             this.layers = recorded.layers;
             this.counts = recorded.counts;
+            this.active_samples = recorded.active_samples;
             Ok(last)
         });
         if let Some((color, depth)) = staging {
@@ -555,147 +511,9 @@ impl Headless {
         );
     }
 
-    /// What became of the particles of the last frame.
-    ///
-    /// # Errors
-    /// No memory, and what Vulkan reports.
-    pub fn counts(&mut self) -> Result<Counts, Error> {
-        let mut sum = Counts::default();
-        let Some(counts) = self.counts else { return Ok(sum) };
-        for (buffer, front) in [(counts.all, false), (counts.front, true)] {
-            let words = self.read_buffer(buffer, 256 * u64::from(counts.chunks))?;
-            for chunk in words.chunks_exact(64) {
-                let drawn = chunk[0] + chunk[5];
-                if front {
-                    sum.front += drawn;
-                } else {
-                    sum.visible += drawn;
-                    sum.dropped += chunk[18];
-                    sum.spray += chunk[19];
-                }
-            }
-        }
-        Ok(sum)
-    }
-
-    fn read_buffer(&mut self, from: vk::Buffer, size: u64) -> Result<Vec<u32>, Error> {
-        let usage = vk::BufferUsageFlags::TRANSFER_DST;
-        let name = "headless/readback";
-        let buffer = Buffer::new(&self.gpu, name, size, usage, MemoryLocation::GpuToCpu)?;
-        let result = self.run(|this, cmd| {
-            let used = access::COMPUTE_WRITE.and(access::INDIRECT);
-            this.gpu.barriers(cmd, &[], &[access::buffer(from, used, COPY_READ)]);
-            let region = vk::BufferCopy { src_offset: 0, dst_offset: 0, size };
-            // SAFETY: both buffers are large enough.
-            unsafe { this.gpu.device.cmd_copy_buffer(cmd, from, buffer.handle, &[region]) };
-            this.gpu.barriers(
-                cmd,
-                &[],
-                &[
-                    access::buffer(buffer.handle, COPY_WRITE, HOST_READ),
-                    access::buffer(from, COPY_READ, access::COMPUTE_WRITE),
-                ],
-            );
-            Ok(())
-        });
-        let words = buffer.mapped()[..size as usize]
-            .chunks_exact(4)
-            .map(bytemuck::pod_read_unaligned)
-            .collect();
-        buffer.destroy(&self.gpu);
-        result.map(|()| words)
-    }
-
     /// Times of the last frame, pass by pass.
     pub fn timings(&mut self) -> Vec<Timing> {
         self.renderer.timings(Slot(0)).to_vec()
-    }
-
-    /// The output of the last frame: linear RGBA.
-    ///
-    /// # Errors
-    /// No memory, and what Vulkan reports.
-    pub fn color(&mut self) -> Result<Picture<[f32; 4]>, Error> {
-        let texels: Picture<[u16; 4]> =
-            self.read(self.color.handle, COLOR_FORMAT, self.color.extent, COLOR_REST)?;
-        Ok(texels.map(|c| c.map(|v| half::f16::from_bits(v).to_f32())))
-    }
-
-    /// Device depth of the scene.
-    ///
-    /// # Errors
-    /// No memory, and what Vulkan reports.
-    pub fn scene_depth(&mut self) -> Result<Picture<f32>, Error> {
-        self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent, DEPTH_REST)
-    }
-
-    /// A layer of the last frame by its name; `None` when there is none of that name.
-    ///
-    /// # Errors
-    /// No memory, and what Vulkan reports.
-    pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
-        let Some(layer) = self.layers.iter().find(|layer| layer.name == name).copied() else {
-            return Ok(None);
-        };
-        if layer.format == vk::Format::R32_UINT {
-            let plan: Picture<u32> =
-                self.read(layer.image, layer.format, layer.extent, layer.access)?;
-            // Iterations are the low nine bits of the plan.
-            return Ok(Some(plan.map(|p| (p & 511) as f32)));
-        }
-        self.read(layer.image, layer.format, layer.extent, layer.access).map(Some)
-    }
-
-    /// Copies an image to the CPU; it is back in its state afterwards.
-    fn read<T: bytemuck::AnyBitPattern>(
-        &mut self,
-        image: vk::Image,
-        format: vk::Format,
-        extent: vk::Extent2D,
-        state: Access,
-    ) -> Result<Picture<T>, Error> {
-        let texels = u64::from(extent.width) * u64::from(extent.height);
-        let buffer = Buffer::new(
-            &self.gpu,
-            "headless/readback",
-            texels * size_of::<T>() as u64,
-            vk::BufferUsageFlags::TRANSFER_DST,
-            MemoryLocation::GpuToCpu,
-        )?;
-        let aspect = crate::gpu::image::aspect_of(format);
-        let result = self.run(|this, cmd| {
-            let there = access::raw_image(image, aspect, state, COPY_READ);
-            this.gpu.barriers(cmd, &[there], &[]);
-            let region = vk::BufferImageCopy::default()
-                .image_subresource(vk::ImageSubresourceLayers {
-                    aspect_mask: aspect,
-                    mip_level: 0,
-                    base_array_layer: 0,
-                    layer_count: 1,
-                })
-                .image_extent(extent.into());
-            // SAFETY: the image is in TRANSFER_SRC_OPTIMAL; the buffer has room for its texels.
-            unsafe {
-                this.gpu.device.cmd_copy_image_to_buffer(
-                    cmd,
-                    image,
-                    vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-                    buffer.handle,
-                    &[region],
-                );
-            }
-            this.gpu.barriers(
-                cmd,
-                &[access::raw_image(image, aspect, COPY_READ, state)],
-                &[access::buffer(buffer.handle, COPY_WRITE, HOST_READ)],
-            );
-            Ok(())
-        });
-        let bytes = &buffer.mapped()[..texels as usize * size_of::<T>()];
-        let data = bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect();
-        buffer.destroy(&self.gpu);
-        result?;
-        Ok(Picture { width: extent.width as usize, height: extent.height as usize, data })
     }
 
     /// Frees everything and gives the device back.
@@ -724,76 +542,4 @@ impl Headless {
 struct Stage {
     renderer: SceneRenderer,
     descriptors: Descriptors,
-}
-
-fn begin(gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
-    let info =
-        vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-    // SAFETY: the command buffer is in its initial state.
-    unsafe { gpu.device.begin_command_buffer(cmd, &info) }.context(|| "vkBeginCommandBuffer".into())
-}
-
-/// Ends a command buffer, submits it and waits for it.
-fn submit(
-    gpu: &Gpu,
-    queue: vk::Queue,
-    cmd: vk::CommandBuffer,
-    fence: vk::Fence,
-) -> Result<(), Error> {
-    let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
-    let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
-    let fences = [fence];
-    let device = &gpu.device;
-    // SAFETY: the command buffer is recording; the queue and the fence are used by one thread.
-    unsafe {
-        device.end_command_buffer(cmd).context(|| "vkEndCommandBuffer".into())?;
-        device.queue_submit2(queue, &submits, fence).context(|| "vkQueueSubmit2".into())?;
-        device.wait_for_fences(&fences, true, u64::MAX).context(|| "vkWaitForFences".into())?;
-        device.reset_fences(&fences).context(|| "vkResetFences".into())
-    }
-}
-
-/// The parts of a frame between which the host reads queries back.
-struct Parts {
-    gpu: Arc<Gpu>,
-    queue: vk::Queue,
-    fence: vk::Fence,
-    pool: vk::CommandPool,
-    spare: Vec<vk::CommandBuffer>,
-    used: usize,
-}
-
-impl Parts {
-    fn read_back(
-        &mut self,
-        cmd: vk::CommandBuffer,
-        pool: vk::QueryPool,
-        query: u32,
-    ) -> Result<(vk::CommandBuffer, bool), Error> {
-        submit(&self.gpu, self.queue, cmd, self.fence)?;
-        let mut samples = [0u32];
-        // SAFETY: the query was ended in the work that was just waited for.
-        unsafe {
-            self.gpu.device.get_query_pool_results(
-                pool,
-                query,
-                &mut samples,
-                vk::QueryResultFlags::WAIT,
-            )
-        }
-        .context(|| "vkGetQueryPoolResults".into())?;
-        if self.used == self.spare.len() {
-            let info = vk::CommandBufferAllocateInfo::default()
-                .command_pool(self.pool)
-                .command_buffer_count(1);
-            // SAFETY: valid create info on a live device.
-            let more = unsafe { self.gpu.device.allocate_command_buffers(&info) }
-                .context(|| "vkAllocateCommandBuffers".into())?;
-            self.spare.extend(more);
-        }
-        let next = self.spare[self.used];
-        self.used += 1;
-        begin(&self.gpu, next)?;
-        Ok((next, samples[0] > 0))
-    }
 }

@@ -1,0 +1,82 @@
+//! Command buffers: begun, submitted, waited for; one after the other where the host reads queries
+//! back in between.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use crate::error::{Error, VkContext};
+use crate::gpu::Gpu;
+
+/// Begins a command buffer that is submitted once.
+pub fn begin(gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
+    let info =
+        vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+    // SAFETY: the command buffer is in its initial state.
+    unsafe { gpu.device.begin_command_buffer(cmd, &info) }.context(|| "vkBeginCommandBuffer".into())
+}
+
+/// Ends a command buffer, submits it and waits for it.
+pub fn submit(
+    gpu: &Gpu,
+    queue: vk::Queue,
+    cmd: vk::CommandBuffer,
+    fence: vk::Fence,
+) -> Result<(), Error> {
+    let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(cmd)];
+    let submits = [vk::SubmitInfo2::default().command_buffer_infos(&buffers)];
+    let fences = [fence];
+    let device = &gpu.device;
+    // SAFETY: the command buffer is recording; the queue and the fence are used by one thread.
+    unsafe {
+        device.end_command_buffer(cmd).context(|| "vkEndCommandBuffer".into())?;
+        device.queue_submit2(queue, &submits, fence).context(|| "vkQueueSubmit2".into())?;
+        device.wait_for_fences(&fences, true, u64::MAX).context(|| "vkWaitForFences".into())?;
+        device.reset_fences(&fences).context(|| "vkResetFences".into())
+    }
+}
+
+/// The parts of a frame between which the host reads queries back.
+pub struct Parts {
+    pub gpu: Arc<Gpu>,
+    pub queue: vk::Queue,
+    pub fence: vk::Fence,
+    pub pool: vk::CommandPool,
+    pub spare: Vec<vk::CommandBuffer>,
+    pub used: usize,
+}
+
+impl Parts {
+    pub fn read_back(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        pool: vk::QueryPool,
+        query: u32,
+    ) -> Result<(vk::CommandBuffer, bool), Error> {
+        submit(&self.gpu, self.queue, cmd, self.fence)?;
+        let mut samples = [0u32];
+        // SAFETY: the query was ended in the work that was just waited for.
+        unsafe {
+            self.gpu.device.get_query_pool_results(
+                pool,
+                query,
+                &mut samples,
+                vk::QueryResultFlags::WAIT,
+            )
+        }
+        .context(|| "vkGetQueryPoolResults".into())?;
+        if self.used == self.spare.len() {
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(self.pool)
+                .command_buffer_count(1);
+            // SAFETY: valid create info on a live device.
+            let more = unsafe { self.gpu.device.allocate_command_buffers(&info) }
+                .context(|| "vkAllocateCommandBuffers".into())?;
+            self.spare.extend(more);
+        }
+        let next = self.spare[self.used];
+        self.used += 1;
+        begin(&self.gpu, next)?;
+        Ok((next, samples[0] > 0))
+    }
+}

@@ -1,0 +1,214 @@
+//! Data to the device and back: each call waits for its end.
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use super::{COLOR_FORMAT, COLOR_REST, Counts, DEPTH_FORMAT, DEPTH_REST, Headless, Picture};
+use crate::contract::Access;
+use crate::error::Error;
+use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::graveyard::Destroy;
+use crate::gpu::image::{Image, aspect_of};
+
+/// Mapped memory read by the host.
+const HOST_READ: Access = Access::new(
+    vk::PipelineStageFlags2::HOST,
+    vk::AccessFlags2::HOST_READ,
+    vk::ImageLayout::GENERAL,
+);
+
+impl Headless {
+    pub(super) fn staging(&self, bytes: &[u8]) -> Result<Buffer, Error> {
+        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+        let size = bytes.len() as u64;
+        let mut buffer =
+            Buffer::new(&self.gpu, "headless/staging", size, usage, MemoryLocation::CpuToGpu)?;
+        buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+        Ok(buffer)
+    }
+
+    /// Copies a staging buffer over a whole image.
+    pub(super) fn upload(
+        &self,
+        cmd: vk::CommandBuffer,
+        from: &Buffer,
+        to: &Image,
+        before: Access,
+        after: Access,
+    ) {
+        let discarded = before.discarded();
+        self.gpu.barriers(cmd, &[access::image(to, discarded, COPY_WRITE)], &[]);
+        let region = vk::BufferImageCopy::default()
+            .image_subresource(vk::ImageSubresourceLayers {
+                aspect_mask: aspect_of(to.format),
+                mip_level: 0,
+                base_array_layer: 0,
+                layer_count: 1,
+            })
+            .image_extent(to.extent.into());
+        // SAFETY: the image is in TRANSFER_DST_OPTIMAL; the buffer holds all of its texels.
+        unsafe {
+            self.gpu.device.cmd_copy_buffer_to_image(
+                cmd,
+                from.handle,
+                to.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &[region],
+            );
+        }
+        if after != COPY_WRITE {
+            self.gpu.barriers(cmd, &[access::image(to, COPY_WRITE, after)], &[]);
+        }
+    }
+
+    /// What became of the particles of the last frame.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn counts(&mut self) -> Result<Counts, Error> {
+        let mut sum = Counts::default();
+        let Some(counts) = self.counts else { return Ok(sum) };
+        for (buffer, front) in [(counts.all, false), (counts.front, true)] {
+            let words = self.read_buffer(buffer, 256 * u64::from(counts.chunks))?;
+            for chunk in words.chunks_exact(64) {
+                let drawn = chunk[0] + chunk[5];
+                if front {
+                    sum.front += drawn;
+                } else {
+                    sum.visible += drawn;
+                    sum.dropped += chunk[18];
+                    sum.spray += chunk[19];
+                }
+            }
+        }
+        Ok(sum)
+    }
+
+    /// Samples that the smoothing's queries counted in the last frame, in iterations 5, 10, …; none
+    /// for other forms.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn active_samples(&mut self) -> Result<Vec<u32>, Error> {
+        match self.active_samples {
+            Some((buffer, blocks)) => self.read_buffer(buffer, 4 * u64::from(blocks)),
+            None => Ok(Vec::new()),
+        }
+    }
+
+    fn read_buffer(&mut self, from: vk::Buffer, size: u64) -> Result<Vec<u32>, Error> {
+        let usage = vk::BufferUsageFlags::TRANSFER_DST;
+        let name = "headless/readback";
+        let buffer = Buffer::new(&self.gpu, name, size, usage, MemoryLocation::GpuToCpu)?;
+        let result = self.run(|this, cmd| {
+            let used = access::COMPUTE_WRITE.and(access::INDIRECT).and(COPY_WRITE);
+            this.gpu.barriers(cmd, &[], &[access::buffer(from, used, COPY_READ)]);
+            let region = vk::BufferCopy { src_offset: 0, dst_offset: 0, size };
+            // SAFETY: both buffers are large enough.
+            unsafe { this.gpu.device.cmd_copy_buffer(cmd, from, buffer.handle, &[region]) };
+            this.gpu.barriers(
+                cmd,
+                &[],
+                &[
+                    access::buffer(buffer.handle, COPY_WRITE, HOST_READ),
+                    access::buffer(from, COPY_READ, access::COMPUTE_WRITE),
+                ],
+            );
+            Ok(())
+        });
+        let words = buffer.mapped()[..size as usize]
+            .chunks_exact(4)
+            .map(bytemuck::pod_read_unaligned)
+            .collect();
+        buffer.destroy(&self.gpu);
+        result.map(|()| words)
+    }
+
+    /// The output of the last frame: linear RGBA.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn color(&mut self) -> Result<Picture<[f32; 4]>, Error> {
+        let texels: Picture<[u16; 4]> =
+            self.read(self.color.handle, COLOR_FORMAT, self.color.extent, COLOR_REST)?;
+        Ok(texels.map(|c| c.map(|v| half::f16::from_bits(v).to_f32())))
+    }
+
+    /// Device depth of the scene.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn scene_depth(&mut self) -> Result<Picture<f32>, Error> {
+        self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent, DEPTH_REST)
+    }
+
+    /// A layer of the last frame by its name; `None` when there is none of that name.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
+        let Some(layer) = self.layers.iter().find(|layer| layer.name == name).copied() else {
+            return Ok(None);
+        };
+        if layer.format == vk::Format::R32_UINT {
+            let plan: Picture<u32> =
+                self.read(layer.image, layer.format, layer.extent, layer.access)?;
+            // Iterations are the low nine bits of the plan.
+            return Ok(Some(plan.map(|p| (p & 511) as f32)));
+        }
+        self.read(layer.image, layer.format, layer.extent, layer.access).map(Some)
+    }
+
+    /// Copies an image to the CPU; it is back in its state afterwards.
+    fn read<T: bytemuck::AnyBitPattern>(
+        &mut self,
+        image: vk::Image,
+        format: vk::Format,
+        extent: vk::Extent2D,
+        state: Access,
+    ) -> Result<Picture<T>, Error> {
+        let texels = u64::from(extent.width) * u64::from(extent.height);
+        let buffer = Buffer::new(
+            &self.gpu,
+            "headless/readback",
+            texels * size_of::<T>() as u64,
+            vk::BufferUsageFlags::TRANSFER_DST,
+            MemoryLocation::GpuToCpu,
+        )?;
+        let aspect = aspect_of(format);
+        let result = self.run(|this, cmd| {
+            let there = access::raw_image(image, aspect, state, COPY_READ);
+            this.gpu.barriers(cmd, &[there], &[]);
+            let region = vk::BufferImageCopy::default()
+                .image_subresource(vk::ImageSubresourceLayers {
+                    aspect_mask: aspect,
+                    mip_level: 0,
+                    base_array_layer: 0,
+                    layer_count: 1,
+                })
+                .image_extent(extent.into());
+            // SAFETY: the image is in TRANSFER_SRC_OPTIMAL; the buffer has room for its texels.
+            unsafe {
+                this.gpu.device.cmd_copy_image_to_buffer(
+                    cmd,
+                    image,
+                    vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+                    buffer.handle,
+                    &[region],
+                );
+            }
+            this.gpu.barriers(
+                cmd,
+                &[access::raw_image(image, aspect, COPY_READ, state)],
+                &[access::buffer(buffer.handle, COPY_WRITE, HOST_READ)],
+            );
+            Ok(())
+        });
+        let bytes = &buffer.mapped()[..texels as usize * size_of::<T>()];
+        let data = bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect();
+        buffer.destroy(&self.gpu);
+        result?;
+        Ok(Picture { width: extent.width as usize, height: extent.height as usize, data })
+    }
+}
