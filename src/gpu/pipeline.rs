@@ -64,6 +64,16 @@ pub fn blend(op: vk::BlendOp) -> vk::PipelineColorBlendAttachmentState {
         .alpha_blend_op(op)
 }
 
+/// A module for as long as its pipeline is made.
+struct Module<'a>(vk::ShaderModule, &'a Gpu);
+
+impl Drop for Module<'_> {
+    fn drop(&mut self) {
+        // SAFETY: no pipeline is being made from it any more; the GPU never uses modules.
+        unsafe { self.1.device.destroy_shader_module(self.0, None) };
+    }
+}
+
 struct Specialization {
     entries: Vec<vk::SpecializationMapEntry>,
     data: Vec<u8>,
@@ -105,7 +115,7 @@ impl Pipeline {
             .stage(
                 vk::PipelineShaderStageCreateInfo::default()
                     .stage(vk::ShaderStageFlags::COMPUTE)
-                    .module(module)
+                    .module(module.0)
                     .name(c"main")
                     .specialization_info(&special),
             )
@@ -113,8 +123,6 @@ impl Pipeline {
         // SAFETY: the module and the layout were made from the same shader.
         let made =
             unsafe { gpu.device.create_compute_pipelines(gpu.pipeline_cache, &[info], None) };
-        // SAFETY: the module is not needed any more.
-        unsafe { gpu.device.destroy_shader_module(module, None) };
         pipeline.handle = pipeline.finish(gpu, made, "vkCreateComputePipelines")?;
         Ok(pipeline)
     }
@@ -132,7 +140,7 @@ impl Pipeline {
         let infos = [0, 1].map(|i| {
             vk::PipelineShaderStageCreateInfo::default()
                 .stage(stages[i].1)
-                .module(modules[i])
+                .module(modules[i].0)
                 .name(c"main")
                 .specialization_info(&special)
         });
@@ -163,10 +171,6 @@ impl Pipeline {
         // SAFETY: modules, layout and pass were made to fit each other.
         let made =
             unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
-        for module in modules {
-            // SAFETY: the module is not needed any more.
-            unsafe { gpu.device.destroy_shader_module(module, None) };
-        }
         pipeline.handle = pipeline.finish(gpu, made, "vkCreateGraphicsPipelines")?;
         Ok(pipeline)
     }
@@ -189,10 +193,10 @@ impl Pipeline {
         let infos: Vec<_> = stages
             .iter()
             .zip(&modules)
-            .map(|((_, stage), &module)| {
+            .map(|((_, stage), module)| {
                 vk::PipelineShaderStageCreateInfo::default()
                     .stage(*stage)
-                    .module(module)
+                    .module(module.0)
                     .name(c"main")
                     .specialization_info(&special)
             })
@@ -201,10 +205,6 @@ impl Pipeline {
         // SAFETY: modules and layout were made to fit each other; the rest is the caller's.
         let made =
             unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
-        for module in modules {
-            // SAFETY: the module is not needed any more.
-            unsafe { gpu.device.destroy_shader_module(module, None) };
-        }
         pipeline.handle = pipeline.finish(gpu, made, "vkCreateGraphicsPipelines")?;
         Ok(pipeline)
     }
@@ -316,12 +316,13 @@ impl Drop for Pipeline {
 }
 
 impl Gpu {
-    fn module(&self, shader: &Shader) -> Result<vk::ShaderModule, Error> {
+    fn module(&self, shader: &Shader) -> Result<Module<'_>, Error> {
         let words: &[u32] = bytemuck::cast_slice(shader.code);
         let info = vk::ShaderModuleCreateInfo::default().code(words);
         // SAFETY: SPIR-V from our own build.
-        unsafe { self.device.create_shader_module(&info, None) }
-            .context(|| format!("vkCreateShaderModule {}", shader.name))
+        let module = unsafe { self.device.create_shader_module(&info, None) }
+            .context(|| format!("vkCreateShaderModule {}", shader.name))?;
+        Ok(Module(module, self))
     }
 
     /// A render pass of one colour attachment that is in COLOR_ATTACHMENT_OPTIMAL before, in and
