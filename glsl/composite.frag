@@ -140,7 +140,9 @@ void main() {
     float sky = smoothstep(-0.3, 0.0, reflected.y);
     c = mix(c, textureLod(environment, reflected, 0.0).rgb, w * sky * fresnel(dot(n, v)));
     vec3 h = normalize(v + frame.sun_direction.xyz);
-    float shine = pow(max(dot(n, h), 0.0), frame.surface.z);
+    // pow() by hand: of tiny bases some drivers make NaN.
+    float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
+    float shine = exp2(max(lobe, -100.0));
     c += w * frame.surface.y * shine * frame.sun_color.rgb;
     color = vec4(c, 1.0);
 }

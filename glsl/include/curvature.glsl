@@ -74,6 +74,11 @@ float flow_step(Stencil s, vec2 slope, vec2 g, float falloff, float kappa) {
     precise float mixed = z.xy - bend * z.x * z.y;
     precise float m = z.has_xy ? mixed : 0.0;
     precise float n = z.yy - bend * z.y * z.y;
-    precise float moved = s.z + kappa * gx * gx * (h * l - 2.0 * f * m + e * n) / (e * h - f * f);
+    // e h - f f, as the squared length of the normal: a sum of squares, that never cancels to 0.
+    precise float nx = gy * z.x;
+    precise float ny = gx * z.y;
+    precise float nz = gx * gy + gx * slope.y * z.y + gy * slope.x * z.x;
+    precise float area = nx * nx + ny * ny + nz * nz;
+    precise float moved = s.z + kappa * gx * gx * (h * l - 2.0 * f * m + e * n) / area;
     return moved;
 }
