@@ -1,7 +1,7 @@
 //! Claims of the documentation, measured on a Vulkan device (`docs/smoothing.md`).
 //!
 //! `WHITEWATER_SLOW=1`: the whole table too, printed as Markdown (with `--nocapture`).
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used)] // a test may
 
 #[path = "claims/bed.rs"]
 mod bed;

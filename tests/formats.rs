@@ -1,7 +1,7 @@
 //! The particle-cache readers and writers: every format and encoding, bad input, sequences, spacing.
 //!
 //! Samples are made here byte by byte. With `WHITEWATER_DATA` set to a folder of published caches, those are read too.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used)] // a test may
 
 #[path = "formats/allocation.rs"]
 mod allocation;

@@ -3,7 +3,7 @@
 //!
 //! `WHITEWATER_EXPECT_ADAPTER`: part of the adapter's name, asserted. `WHITEWATER_REQUIRE_VALIDATION=1`:
 //! fails without the validation layer. `WHITEWATER_SLOW=1`: the long tests too.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used)] // a test may
 
 mod reference;
 mod support;

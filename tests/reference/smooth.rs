@@ -315,7 +315,7 @@ mod tests {
     }
 
     /// The same round a slope off the axis, with C_y / C_x an aspect of the pixels.
-    #[allow(clippy::too_many_arguments)]
+    #[allow(clippy::too_many_arguments)] // each is one thing of the wave
     fn remains_at(
         middle: DVec2,
         aspect: f64,

@@ -69,7 +69,7 @@ macro_rules! spied {
         mod stand_in {
             use super::*;
             $(
-                #[allow(non_snake_case)]
+                #[allow(non_snake_case)] // named as Vulkan names them
                 pub unsafe extern "system" fn $id($($arg: $type),*) -> vk::Result {
                     if let Some(result) = super::$id.called() {
                         return result;
@@ -132,7 +132,7 @@ macro_rules! spied_void {
         mod stand_in_void {
             use super::*;
             $(
-                #[allow(non_snake_case)]
+                #[allow(non_snake_case)] // named as Vulkan names them
                 pub unsafe extern "system" fn $id($($arg: $type),*) {
                     super::$id.called();
                     $(

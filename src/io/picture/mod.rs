@@ -204,7 +204,7 @@ pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Res
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a test may
 mod tests {
     use super::*;
 
