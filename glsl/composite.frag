@@ -2,14 +2,18 @@
 // Pass `composite`: the only one that writes the output (thesis Sec. 3.3 and 4.10, Listing A.20).
 // Layers so far: water over the scene. Refraction in screen space, Beer's law along the ray,
 // Fresnel reflection of the environment, the sun's highlight.
-// Reads: smoothed, depth, thickness, scene colour and depth, environment. Writes: output.
+// Reads: smoothed, levels, depth, thickness, scene colour and depth, environment. Writes: output.
 
 #include "frame.glsl"
+#include "level.glsl"
 #include "surface.glsl"
 
-// Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 coarser.
+// Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
 layout(constant_id = 1) const uint SCHLICK = 1;
+// 1: the surface is smoothed at the configured level alone. A pipeline each, not a branch: a CPU
+// would run both sides.
+layout(constant_id = 2) const uint CONFIGURED = 1;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -19,7 +23,7 @@ layout(set = 0, binding = 6) uniform samplerCube environment;
 
 layout(location = 0) out vec4 color;
 
-// Derivatives of the unsmoothed depth, per reduced pixel; never steep.
+// Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
     vec2 texel = 1.0 / frame.extent.xy;
     vec4 before = textureGather(depth, vec2(pixel) * texel);
@@ -30,28 +34,29 @@ vec2 drop_slope(ivec2 pixel, float front, float threshold) {
     bvec4 whole = bvec4(true);
     vec2 dz = differences(low.xyxy, vec4(front), high.xyxy, threshold, whole).xy;
     vec2 steepest = frame.texel.xy * front * RIM_SLOPE;
-    return clamp(dz, -steepest, steepest) * frame.thick_extent.w;
+    return clamp(dz, -steepest, steepest);
 }
 
 // Upsampled with the weights of texels on the same surface.
-float thickness_at(Surface s, vec2 pixel, float threshold) {
+float thickness_at(Surface s, Level level, vec2 pixel, float threshold) {
     if (THICKNESS == 0u) {
         return texelFetch(thickness, ivec2(pixel), 0).x;
     }
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     ivec2 base = s.base;
     vec4 weights = s.weights;
-    if (THICKNESS == 2u) {
+    if (THICKNESS == 2u || (CONFIGURED == 0u && level.texel.z != frame.thick_extent.z)) {
         vec2 h = pixel / frame.thick_extent.z - 0.5;
         base = ivec2(floor(h));
         vec2 f = h - vec2(base);
         weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
         // The surface at the middle of each coarse texel.
         vec4 same;
-        float ratio = frame.thick_extent.z / frame.thick_extent.w;
+        float ratio = frame.thick_extent.z / level.texel.z;
         for (int i = 0; i < 4; ++i) {
             vec2 middle = (vec2(base + ivec2(i & 1, i >> 1)) + 0.5) * ratio;
-            float z = texelFetch(smoothed, clamp(ivec2(middle), ivec2(0), ivec2(frame.extent.zw) - 1), 0).x;
+            ivec2 at = clamp(ivec2(middle), ivec2(0), level.rect.zw - 1);
+            float z = texelFetch(smoothed, level.rect.xy + at, 0).x;
             same[i] = abs(z - s.z) <= threshold ? weights[i] : 0.0;
         }
         float sum = same.x + same.y + same.z + same.w;
@@ -115,15 +120,23 @@ void main() {
         discard;
     }
     float threshold = frame.surface.w;
-    Surface surface = surface_at(gl_FragCoord.xy, front, threshold);
-    float t = thickness_at(surface, gl_FragCoord.xy, threshold);
+    uint finer = CONFIGURED == 1u ? 0u : finer_level();
+    Level level = levels.level[finer];
+    Surface surface = surface_at(level, gl_FragCoord.xy, front, threshold);
+    float t = thickness_at(surface, level, gl_FragCoord.xy, threshold);
+    Level coarser = levels.level[1u - finer];
+    if (CONFIGURED == 0u && coarser.texel.w > 0.0) {
+        Surface other = surface_at(coarser, gl_FragCoord.xy, front, threshold);
+        surface.z = mix(surface.z, other.z, coarser.texel.w);
+        surface.dz = mix(surface.dz, other.dz, coarser.texel.w);
+    }
     // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(pixel, front, threshold), drop);
     vec2 slope = ray_slope(gl_FragCoord.xy, frame.slope);
     vec3 position;
     vec3 n;
-    surface_frame(surface, slope, frame.reduced_slope.xy, position, n);
+    surface_frame(surface, slope, position, n);
 
     float away = length(position);
     vec3 v = -position / away;

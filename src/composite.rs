@@ -13,7 +13,7 @@ use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
 use crate::water::settings::Fresnel;
-use crate::water::{Recording, WaterLayers};
+use crate::water::{COMPOSITE_DRAWS, Recording, WaterLayers};
 
 /// What the pass takes beside the layers.
 pub struct Surroundings {
@@ -32,8 +32,8 @@ pub struct Surroundings {
 /// The pass.
 pub struct Composite {
     pass: Owned<vk::RenderPass>,
-    /// [Fresnel::Schlick, Fresnel::Source].
-    pipelines: [Pipeline; 2],
+    /// [Fresnel::Schlick, Fresnel::Source]: of the configured level, of any other.
+    pipelines: [[Pipeline; 2]; 2],
 }
 
 impl Composite {
@@ -44,7 +44,7 @@ impl Composite {
             level if level == config.smoothing_level => 1,
             _ => 2,
         };
-        let make = |schlick| {
+        let make = |schlick, configured| {
             Pipeline::graphics(
                 gpu,
                 &Graphics {
@@ -53,11 +53,11 @@ impl Composite {
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                     pass: pass.handle,
                     blend: no_blend(),
-                    constants: &[(0, thickness), (1, schlick)],
+                    constants: &[(0, thickness), (1, schlick), (2, configured)],
                 },
             )
         };
-        let pipelines = [make(1)?, make(0)?];
+        let pipelines = [[make(1, 1)?, make(1, 0)?], [make(0, 1)?, make(0, 0)?]];
         Ok(Self { pass, pipelines })
     }
 
@@ -80,33 +80,37 @@ impl Composite {
     ) -> Result<(), Error> {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let pipeline = match around.fresnel {
+        let pipelines = match around.fresnel {
             Fresnel::Schlick { .. } => &self.pipelines[0],
             Fresnel::Source { .. } => &self.pipelines[1],
         };
         gpu.begin_pass(cmd, self.pass.handle, around.target, around.extent.into(), [0.0; 4]);
         let nearest = gpu.samplers.nearest;
-        r.descriptors.bind(
-            gpu,
-            cmd,
-            pipeline,
-            &[
-                (0, r.uniforms),
-                (1, Resource::Sampled(layers.smoothed.view, nearest)),
-                (2, Resource::Sampled(layers.depth.view, nearest)),
-                (3, Resource::Sampled(layers.thickness.view, nearest)),
-                (4, around.scene_color),
-                (5, r.scene_depth),
-                (6, around.environment),
-                (9, Resource::buffer(&layers.tiles.list)),
-            ],
-        )?;
-        pipeline.push(gpu, cmd, &layers.tiles.columns);
-        // SAFETY: inside the render pass; the arguments are visible since `tiles`.
-        unsafe {
-            gpu.device.cmd_draw_indirect(cmd, layers.tiles.arguments.handle, 0, 1, 16);
-            gpu.device.cmd_end_render_pass(cmd);
+        // Their bindings are the same; one of the draws is empty.
+        for (pipeline, draw) in pipelines.iter().zip(COMPOSITE_DRAWS) {
+            r.descriptors.bind(
+                gpu,
+                cmd,
+                pipeline,
+                &[
+                    (0, r.uniforms),
+                    (1, Resource::Sampled(layers.smoothed.view, nearest)),
+                    (2, Resource::Sampled(layers.depth.view, nearest)),
+                    (3, Resource::Sampled(layers.thickness.view, nearest)),
+                    (4, around.scene_color),
+                    (5, r.scene_depth),
+                    (6, around.environment),
+                    (7, layers.level.resource()),
+                    (9, Resource::buffer(&layers.tiles.list)),
+                ],
+            )?;
+            pipeline.push(gpu, cmd, &layers.tiles.atlas.columns);
+            let arguments = layers.tiles.arguments.handle;
+            // SAFETY: inside the render pass; the arguments are visible since `tiles`.
+            unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
         }
+        // SAFETY: a pass was begun.
+        unsafe { gpu.device.cmd_end_render_pass(cmd) };
         r.end(scope);
         Ok(())
     }

@@ -3,6 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use ash::vk;
+use bytemuck::{Pod, Zeroable};
 use glam::Mat4;
 use gpu_allocator::vulkan::Allocator;
 
@@ -75,6 +76,12 @@ pub struct Config {
     pub rule: Rule,
     /// Most iterations of the smoothing, 1 to 256 (default 256, as the source).
     pub max_iterations: u32,
+    /// Levels coarser than [`smoothing_level`](Self::smoothing_level) that the smoothing may go in
+    /// near views, where more than a sixteenth of the picture would pass the most iterations: 0 to
+    /// 3 (default 3: water is smooth to an eighth of the distance). The GPU decides, frame by
+    /// frame, and fades. For [`Rule::ConstantWidth`] alone; 0 saves a third of the memory of the
+    /// smoothing.
+    pub coarsening: u32,
     /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// The output is the scene's colour image itself (default): it is copied before it is written
@@ -99,6 +106,7 @@ impl Config {
             smoothing: None,
             rule: Rule::ConstantWidth,
             max_iterations: 256,
+            coarsening: 3,
             environment_size: 256,
             in_place: true,
             keep_layers: false,
@@ -265,7 +273,8 @@ pub struct Layer {
     pub view: vk::ImageView,
     /// Its format.
     pub format: vk::Format,
-    /// Its size; may be a reduced one.
+    /// Its size; may be a reduced one. `water.surface` and `water.iterations`: of the configured
+    /// level; where the frame was smoothed coarser, [`Recorded::levels`] says what lies where.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
     pub access: Access,
@@ -282,6 +291,41 @@ pub struct Recorded {
     pub active_samples: Option<(vk::Buffer, u32)>,
     /// What became of the particles.
     pub counts: Option<ParticleCounts>,
+    /// A buffer with one [`SmoothingLevels`]: at which resolutions the frame was smoothed. Transfer
+    /// source; last written by a compute shader, read as a uniform buffer.
+    pub levels: Option<vk::Buffer>,
+}
+
+/// Where two levels of the smoothing lie in the images `water.surface` and `water.iterations`.
+/// One has weight 1, or both have a part while the coarser one fades in.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct SmoothingLevels {
+    /// One above the other.
+    pub level: [SmoothingLevel; 2],
+    /// Size of the images, tiles a row, first row of the second level.
+    pub atlas: [i32; 4],
+}
+
+/// One of them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub struct SmoothingLevel {
+    /// First texel (x, y) and size, in texels.
+    pub rect: [i32; 4],
+    /// From a point of the level (texel centres at +0.5) to the slope of its ray: scale, offset.
+    pub slope: [f32; 4],
+    /// World size of a texel per depth in x and y; its edge in pixels of the output; weight in the
+    /// picture, 0 to 1.
+    pub texel: [f32; 4],
+}
+
+impl SmoothingLevels {
+    /// The finer level of those in use.
+    pub fn finer(&self) -> &SmoothingLevel {
+        let [a, b] = &self.level;
+        if b.texel[3] > 0.0 && (a.texel[3] == 0.0 || b.texel[2] < a.texel[2]) { b } else { a }
+    }
 }
 
 /// Buffers that say what became of the particles, 256 bytes for each of `chunks`: word 0 and 5 are

@@ -65,6 +65,7 @@
 //! |---|---|---|---|
 //! | depth | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | smoothing, two images, and the plan, at half resolution | 3 w h | 2.6 MiB | 5.9 MiB |
+//! | the same a level coarser, for near views (`coarsening`) | 1½ w h | 1.3 MiB | 3.0 MiB |
 //! | thickness and its sums at quarter resolution | ½ w h | 0.4 MiB | 1.0 MiB |
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
@@ -80,6 +81,8 @@
 //! - The smoothing is mean curvature flow of the perspective surface itself
 //!   ([`Rule::ConstantWidth`](water::Rule)); the thesis' formula leaves the ray's slope out and
 //!   is right on the optical axis only. Its form is there as [`Rule::Source`](water::Rule).
+//! - Where the cap of iterations would leave near water rough, the whole image is smoothed a level
+//!   coarser, chosen on the GPU.
 //! - Iterations are planned per pixel before the first, so that all forms do the same work; the
 //!   occlusion query's decision stays on the GPU.
 //! - Thickness is in metres of water: the integral of a sprite is the particle's volume.

@@ -226,6 +226,7 @@ impl Renderer {
             },
             active_samples: self.water.query_results(),
             counts: Some(self.water.counts()),
+            levels: Some(self.water.levels()),
         };
         Ok((recorded, cmd))
     }
@@ -533,6 +534,9 @@ fn check_config(config: &Config) -> Result<(), Error> {
     if !(1..=256).contains(&config.max_iterations) {
         return bad("Config.max_iterations", format!("{} of 1 to 256", config.max_iterations));
     }
+    if config.coarsening > crate::water::MOST_COARSENING {
+        return bad("Config.coarsening", format!("{} of 0 to 3", config.coarsening));
+    }
     let size = config.environment_size;
     if !size.is_power_of_two() || !(16..=2048).contains(&size) {
         return bad(
@@ -590,7 +594,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        68 + 8 * crate::water::chunks(&gpu.limits, config).1
+        70 + 8 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

@@ -18,6 +18,8 @@ mod depth;
 mod harness;
 #[path = "gpu/invariants.rs"]
 mod invariants;
+#[path = "gpu/level.rs"]
+mod level;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/reduce.rs"]

@@ -1,12 +1,13 @@
 // The arithmetic of one pixel and iteration, shared by every form of the smoothing.
-// Needs frame.glsl, plan.glsl, curvature.glsl and the constant RULE.
+// Needs frame.glsl, plan.glsl, level.glsl, curvature.glsl and the constant RULE.
 
-float smooth_pixel(Stencil s, ivec2 pixel, uint planned) {
+// pixel: from the corner of its level.
+float smooth_pixel(Stencil s, Level level, ivec2 pixel, uint planned) {
     float share = plan_step(planned);
     if (RULE == RULE_CONSTANT_WIDTH) {
-        vec2 slope = ray_slope(vec2(pixel) + 0.5, frame.reduced_slope);
-        return flow_step(s, slope, frame.reduced_slope.xy, frame.smoothing.y, MOST_KAPPA * share);
+        vec2 slope = ray_slope(vec2(pixel) + 0.5, level.slope);
+        return flow_step(s, slope, level.slope.xy, frame.smoothing.y, MOST_KAPPA * share);
     }
     float epsilon = SOURCE_STEP * frame.particle.x * share;
-    return source_step(s, frame.texel.zw, frame.smoothing.y, epsilon);
+    return source_step(s, level.texel.xy, frame.smoothing.y, epsilon);
 }

@@ -3,12 +3,13 @@
 // Listings A.16-A.18). Where the source shades four neighbours at a border and blends their
 // colours, we blend the derivatives of those on the same surface and shade once: the colour of
 // another surface never bleeds in, which shows as dark seams.
+// Needs frame.glsl, level.glsl.
 
 struct Surface {
     float z;
-    vec2 dz;        // per reduced pixel
+    vec2 dz;        // per full-resolution pixel
     vec4 weights;   // of the four texels, sum 1
-    ivec2 base;     // the first of them
+    ivec2 base;     // the first of them, from the corner of the level
 };
 
 layout(set = 0, binding = 1) uniform sampler2D smoothed;
@@ -33,21 +34,22 @@ const float RIM = 1.0 / 64.0;
 // Steepest slope of a surface that is all rim, a drop: depth per width.
 const float RIM_SLOPE = 1.5;
 
-Surface surface_at(vec2 pixel, float front, float threshold) {
+Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
-    vec2 h = pixel / frame.thick_extent.w - 0.5;
+    vec2 h = pixel / level.texel.z - 0.5;
     ivec2 base = ivec2(floor(h));
     vec2 f = h - vec2(base);
-    ivec2 last = ivec2(frame.extent.zw) - 1;
+    ivec2 last = level.rect.zw - 1;
     s.base = base;
 
     // The four texels in order left-up, right-up, left-down, right-down, with the neighbours of
     // each on one side. Vectors, not an array: that would live in memory.
-    vec2 texel = 1.0 / vec2(last + 1);
-    vec4 upper_left = textureGather(smoothed, vec2(base) * texel);
-    vec4 upper_right = textureGather(smoothed, vec2(base + ivec2(2, 0)) * texel);
-    vec4 lower_left = textureGather(smoothed, vec2(base + ivec2(0, 2)) * texel);
-    vec4 lower_right = textureGather(smoothed, vec2(base + 2) * texel);
+    vec2 texel = 1.0 / vec2(levels.atlas.xy);
+    ivec2 corner = level.rect.xy + base;
+    vec4 upper_left = textureGather(smoothed, vec2(corner) * texel);
+    vec4 upper_right = textureGather(smoothed, vec2(corner + ivec2(2, 0)) * texel);
+    vec4 lower_left = textureGather(smoothed, vec2(corner + ivec2(0, 2)) * texel);
+    vec4 lower_right = textureGather(smoothed, vec2(corner + 2) * texel);
     bool first_x = base.x < 1;
     bool last_x = base.x + 2 > last.x;
     bool first_y = base.y < 1;
@@ -92,14 +94,16 @@ Surface surface_at(vec2 pixel, float front, float threshold) {
     s.z = lost ? front : dot(s.weights, z);
     vec4 slopes = s.weights * trust;
     float trusted = slopes.x + slopes.y + slopes.z + slopes.w;
-    s.dz = lost ? vec2(0.0) : vec2(dot(slopes, dx), dot(slopes, dy)) / trusted;
-    vec2 steepest = frame.texel.zw * s.z * RIM_SLOPE;
+    // An edge is a power of two: this rounds nothing.
+    s.dz = lost ? vec2(0.0) : vec2(dot(slopes, dx), dot(slopes, dy)) / (trusted * level.texel.z);
+    vec2 steepest = frame.texel.xy * s.z * RIM_SLOPE;
     s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
     return s;
 }
 
 // Eye-space position and normal (towards the eye).
-void surface_frame(Surface s, vec2 slope, vec2 slope_step, out vec3 position, out vec3 normal) {
+void surface_frame(Surface s, vec2 slope, out vec3 position, out vec3 normal) {
+    vec2 slope_step = frame.slope.xy;
     position = vec3(slope, -1.0) * s.z;
     vec3 px = vec3(slope_step.x * s.z + slope.x * s.dz.x, slope.y * s.dz.x, -s.dz.x);
     vec3 py = vec3(slope.x * s.dz.y, slope_step.y * s.z + slope.y * s.dz.y, -s.dz.y);

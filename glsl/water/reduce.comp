@@ -2,7 +2,7 @@
 // Pass `reduce`: hides water behind the scene, takes the nearest surface of each block of pixels
 // and plans its smoothing: iterations and step, fixed from here on (spec: Sec. 3.1, Listing A.12).
 // Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan,
-// work of every tile (its most iterations + 1; 0 without water).
+// work of every tile (its most iterations + 1; 0 without water), how many pixels pass the cap.
 
 #include "frame.glsl"
 #include "plan.glsl"
@@ -17,8 +17,13 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
+// Pixels that pass the cap until the smoothing is one, two, three, more levels coarser.
+layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
+
+#include "reduction.glsl"
 
 shared uint most;
+shared uint tile_over[4];
 
 // Nearest surface of the block in front of the scene.
 float nearest(ivec2 block) {
@@ -45,34 +50,18 @@ float nearest(ivec2 block) {
     return best;
 }
 
-uint plan_pixel(float z, vec2 slope) {
-    float width = frame.texel.z * z; // of the pixel in the world
-    float cap = frame.smoothing.z;
-    if (RULE == RULE_CONSTANT_WIDTH) {
-        float sigma = frame.smoothing.x / width;
-        // Off the axis a pixel sees the surface foreshortened, flat pixels are nearer to each
-        // other in y: more, smaller steps keep it stable.
-        float shape = frame.texel.z / frame.texel.w;
-        float spread = 1.0 + slope.x * slope.x + (1.0 + slope.y * slope.y) * shape * shape;
-        float count = sigma > 0.0 ? ceil(spread * sigma * sigma) + MORE : 0.0;
-        float kappa = sigma * sigma / (2.0 * max(count, 1.0));
-        return plan_pack(uint(min(count, cap)), kappa / MOST_KAPPA);
-    }
-    float r = frame.particle.x;
-    float count = RULE == RULE_FIXED ? frame.smoothing.w : floor(SOURCE_RADIUS * r / width) + 1.0;
-    float share = min(1.0, 0.25 * width / (SOURCE_STEP * r));
-    return plan_pack(uint(min(count, cap)), share);
-}
-
 void main() {
-    if (gl_LocalInvocationIndex == 0u) {
+    if (gl_LocalInvocationIndex < 4u) {
+        tile_over[gl_LocalInvocationIndex] = 0u;
         most = 0u;
     }
     barrier();
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(block, ivec2(frame.extent.zw)))) {
         float z = nearest(block);
-        uint planned = z < EMPTY ? plan_pixel(z, ray_slope(vec2(block) + 0.5, frame.reduced_slope)) : 0u;
+        float count;
+        vec2 slope = ray_slope(vec2(block) + 0.5, frame.reduced_slope);
+        uint planned = plan_pixel(z, slope, frame.texel.zw, count);
         imageStore(smooth_a, block, vec4(z));
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
@@ -80,9 +69,18 @@ void main() {
         if (z < EMPTY) {
             atomicMax(most, plan_count(planned) + 1u);
         }
+        float cap = frame.smoothing.z;
+        if (count > cap) {
+            // Each level coarser divides the iterations by four.
+            float excess = (count - MORE) / max(cap - MORE, 1.0);
+            atomicAdd(tile_over[uint(clamp(ceil(0.5 * log2(excess)), 1.0, 4.0)) - 1u], 1u);
+        }
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
         tile_work[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = most;
+    }
+    if (gl_LocalInvocationIndex < 4u && tile_over[gl_LocalInvocationIndex] > 0u) {
+        atomicAdd(over[gl_LocalInvocationIndex], tile_over[gl_LocalInvocationIndex]);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "plan.glsl"
+#include "level.glsl"
 #include "curvature.glsl"
 
 // An invocation smooths ROWS rows of two columns: a gather brings four texels, and the rows it
@@ -25,46 +26,47 @@ layout(push_constant, std430) uniform Push {
 
 #include "smoothing.glsl"
 
-// Texels x - 1 to x + 2 of the rows y and y + 1; EMPTY outside the image.
-void fetch_rows(ivec2 p, ivec2 last, out vec4 row0, out vec4 row1) {
-    vec2 texel = 1.0 / vec2(last + 1);
+// Texels x - 1 to x + 2 of the rows y and y + 1; EMPTY outside the level.
+void fetch_rows(ivec2 p, ivec2 first, ivec2 last, out vec4 row0, out vec4 row1) {
+    vec2 texel = 1.0 / vec2(levels.atlas.xy);
     vec4 g0 = textureGather(source, vec2(p.x, p.y + 1) * texel);
     vec4 g1 = textureGather(source, vec2(p.x + 2, p.y + 1) * texel);
     row0 = vec4(g0.wz, g1.wz);
     row1 = vec4(g0.xy, g1.xy);
-    bvec4 outside = bvec4(p.x < 1, false, p.x + 1 > last.x, p.x + 2 > last.x);
+    bvec4 outside = bvec4(p.x < first.x + 1, false, p.x + 1 > last.x, p.x + 2 > last.x);
     row0 = mix(row0, vec4(EMPTY), outside);
     row1 = mix(row1, vec4(EMPTY), outside);
-    row0 = p.y < 0 || p.y > last.y ? vec4(EMPTY) : row0;
+    row0 = p.y < first.y || p.y > last.y ? vec4(EMPTY) : row0;
     row1 = p.y + 1 > last.y ? vec4(EMPTY) : row1;
 }
 
-void smooth_at(ivec2 p, ivec2 last, uint planned, vec3 above, vec3 here, vec3 below) {
+void smooth_at(Level level, ivec2 p, ivec2 last, uint planned, vec3 above, vec3 here, vec3 below) {
     Stencil s;
     s.z = here.y;
     s.axis = vec4(here.x, here.z, above.y, below.y);
     s.corner = vec4(above.x, above.z, below.x, below.z);
-    float moved = smooth_pixel(s, p, planned);
+    float moved = smooth_pixel(s, level, p - level.rect.xy, planned);
     float z = plan_count(planned) >= push.iteration ? moved : here.y;
     if (p.x <= last.x && p.y <= last.y) {
         imageStore(target, p, vec4(z));
     }
 }
 
-void smooth_columns(ivec2 p, ivec2 last) {
-    vec2 texel = 1.0 / vec2(last + 1);
+void smooth_columns(Level level, ivec2 p, ivec2 last) {
+    vec2 texel = 1.0 / vec2(levels.atlas.xy);
+    ivec2 first = level.rect.xy;
     vec4 a;
     vec4 b;
-    fetch_rows(p - ivec2(0, 1), last, a, b);
+    fetch_rows(p - ivec2(0, 1), first, last, a, b);
     for (int k = 0; k < ROWS && p.y <= last.y; k += 2) {
         vec4 c;
         vec4 d;
-        fetch_rows(p + ivec2(0, 1), last, c, d);
+        fetch_rows(p + ivec2(0, 1), first, last, c, d);
         uvec4 planned = textureGather(plan, vec2(p + 1) * texel);
-        smooth_at(p, last, planned.w, a.xyz, b.xyz, c.xyz);
-        smooth_at(p + ivec2(1, 0), last, planned.z, a.yzw, b.yzw, c.yzw);
-        smooth_at(p + ivec2(0, 1), last, planned.x, b.xyz, c.xyz, d.xyz);
-        smooth_at(p + ivec2(1, 1), last, planned.y, b.yzw, c.yzw, d.yzw);
+        smooth_at(level, p, last, planned.w, a.xyz, b.xyz, c.xyz);
+        smooth_at(level, p + ivec2(1, 0), last, planned.z, a.yzw, b.yzw, c.yzw);
+        smooth_at(level, p + ivec2(0, 1), last, planned.x, b.xyz, c.xyz, d.xyz);
+        smooth_at(level, p + ivec2(1, 1), last, planned.y, b.yzw, c.yzw, d.yzw);
         a = c;
         b = d;
         p.y += 2;
@@ -73,13 +75,14 @@ void smooth_columns(ivec2 p, ivec2 last) {
 
 void main() {
     uint tiles = arguments[push.iteration].w;
-    ivec2 last = ivec2(frame.extent.zw) - 1;
     for (uint i = gl_WorkGroupID.x; i < tiles; i += gl_NumWorkGroups.x) {
         uint tile = list[i];
-        ivec2 p = ivec2(tile % push.columns, tile / push.columns) * 16
-                + ivec2(gl_LocalInvocationID.xy) * ivec2(2, ROWS);
+        ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
+        Level level = levels.level[level_of(corner.y)];
+        ivec2 last = level.rect.xy + level.rect.zw - 1;
+        ivec2 p = corner + ivec2(gl_LocalInvocationID.xy) * ivec2(2, ROWS);
         if (p.x <= last.x && p.y <= last.y) {
-            smooth_columns(p, last);
+            smooth_columns(level, p, last);
         }
     }
 }

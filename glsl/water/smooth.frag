@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "plan.glsl"
+#include "level.glsl"
 #include "curvature.glsl"
 
 layout(constant_id = 1) const uint RULE = 1;
@@ -23,9 +24,9 @@ layout(location = 0) out float moved;
 
 #include "smoothing.glsl"
 
-float fetch(ivec2 p) {
-    ivec2 last = ivec2(frame.extent.zw) - 1;
-    bool outside = p.x < 0 || p.y < 0 || p.x > last.x || p.y > last.y;
+float fetch(ivec2 p, ivec4 rect) {
+    ivec2 q = p - rect.xy;
+    bool outside = q.x < 0 || q.y < 0 || q.x >= rect.z || q.y >= rect.w;
     return outside ? EMPTY : texelFetch(source, p, 0).x;
 }
 
@@ -45,12 +46,14 @@ void main() {
         return;
     }
     if (active_here) {
+        Level level = levels.level[level_of(p.y)];
+        ivec4 rect = level.rect;
         Stencil s;
         s.z = moved;
-        s.axis = vec4(fetch(p + ivec2(-1, 0)), fetch(p + ivec2(1, 0)),
-                      fetch(p + ivec2(0, -1)), fetch(p + ivec2(0, 1)));
-        s.corner = vec4(fetch(p + ivec2(-1, -1)), fetch(p + ivec2(1, -1)),
-                        fetch(p + ivec2(-1, 1)), fetch(p + ivec2(1, 1)));
-        moved = smooth_pixel(s, p, planned);
+        s.axis = vec4(fetch(p + ivec2(-1, 0), rect), fetch(p + ivec2(1, 0), rect),
+                      fetch(p + ivec2(0, -1), rect), fetch(p + ivec2(0, 1), rect));
+        s.corner = vec4(fetch(p + ivec2(-1, -1), rect), fetch(p + ivec2(1, -1), rect),
+                        fetch(p + ivec2(-1, 1), rect), fetch(p + ivec2(1, 1), rect));
+        moved = smooth_pixel(s, level, p - rect.xy, planned);
     }
 }

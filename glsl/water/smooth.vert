@@ -2,7 +2,7 @@
 // Pass `smooth`, form Query: one quad a tile that holds water, gated by the block's predicate.
 // Reads: tile list, predicates.
 
-#include "frame.glsl"
+#include "level.glsl"
 
 // 1: the vertex shader is the gate.
 layout(constant_id = 0) const uint CULL = 0;
@@ -18,9 +18,10 @@ layout(push_constant, std430) uniform Push {
 
 void main() {
     uint tile = list[gl_InstanceIndex];
-    vec2 corner = vec2(tile % push.columns, tile / push.columns) + vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
-    vec2 pixel = min(corner * 16.0, frame.extent.zw);
-    gl_Position = vec4(pixel / frame.extent.zw * 2.0 - 1.0, 0.5, 1.0);
+    ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
+    ivec4 rect = levels.level[level_of(corner.y)].rect;
+    ivec2 pixel = min(corner + 16 * ivec2(gl_VertexIndex & 1, gl_VertexIndex >> 1), rect.xy + rect.zw);
+    gl_Position = vec4(vec2(pixel) / vec2(levels.atlas.xy) * 2.0 - 1.0, 0.5, 1.0);
     // 256 bytes a predicate.
     if (CULL == 1u && predicates[push.block * 64u] == 0u) {
         gl_Position = vec4(2.0, 2.0, 0.5, 1.0);

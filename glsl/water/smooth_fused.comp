@@ -6,6 +6,7 @@
 
 #include "frame.glsl"
 #include "plan.glsl"
+#include "level.glsl"
 #include "curvature.glsl"
 
 const int STEPS = 8;
@@ -31,15 +32,18 @@ layout(push_constant, std430) uniform Push {
 shared float window[2][SIDE * SIDE];
 
 void smooth_tile(uint tile) {
-    ivec2 last = ivec2(frame.extent.zw) - 1;
-    ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16 - STEPS;
+    ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
+    Level level = levels.level[level_of(corner.y)];
+    ivec2 first = level.rect.xy;
+    ivec2 last = first + level.rect.zw - 1;
+    corner -= STEPS;
     ivec2 lane = ivec2(gl_LocalInvocationID.xy);
     uint planned[4];
     for (int k = 0; k < 4; ++k) {
         ivec2 at = lane + ivec2(0, 8 * k);
         ivec2 p = corner + at;
-        bool inside = all(greaterThanEqual(p, ivec2(0))) && all(lessThanEqual(p, last));
-        ivec2 q = clamp(p, ivec2(0), last);
+        bool inside = all(greaterThanEqual(p, first)) && all(lessThanEqual(p, last));
+        ivec2 q = clamp(p, first, last);
         window[0][at.y * SIDE + at.x] = inside ? texelFetch(source, q, 0).x : EMPTY;
         window[1][at.y * SIDE + at.x] = EMPTY;
         planned[k] = inside ? texelFetch(plan, q, 0).x : 0u;
@@ -59,7 +63,7 @@ void smooth_tile(uint tile) {
                               window[from][i - SIDE], window[from][i + SIDE]);
                 s.corner = vec4(window[from][i - SIDE - 1], window[from][i - SIDE + 1],
                                 window[from][i + SIDE - 1], window[from][i + SIDE + 1]);
-                z = smooth_pixel(s, corner + at, planned[k]);
+                z = smooth_pixel(s, level, corner + at - first, planned[k]);
             }
             window[1 - from][i] = z;
         }

@@ -2,19 +2,31 @@
 // Pass `tiles`: sorts the tiles that hold water by their iterations, most first, so that the
 // tiles with work left in iteration i are a prefix of the list; writes the arguments of every
 // iteration's dispatch. A counting sort by one workgroup.
-// Reads: work of every tile (most iterations + 1). Writes: list, arguments.
+// Reads: work of every tile (most iterations + 1), levels. Writes: list, arguments.
+
+#include "frame.glsl"
+#include "level.glsl"
 
 layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
-// [0] all tiles with water: draw (4, n, 0, 0), then dispatches {x, 1, 1, n}: one an iteration.
+// [0] all tiles with water: draw (4, n, 0, 0), then dispatches {x, 1, 1, n}: one an iteration; at
+// last draws of all tiles for the composite: [258] of the configured level, [259] of any other.
 layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
     uint tiles;
     uint most_groups;
 } push;
+
+// Work of a tile; 0 of those that no level in use covers.
+uint work_of(uint tile) {
+    ivec2 corner = ivec2(int(tile) % levels.atlas.z, int(tile) / levels.atlas.z) * 16;
+    Level level = levels.level[level_of(corner.y)];
+    bool used = level.texel.w > 0.0 && all(lessThan(corner, level.rect.xy + level.rect.zw));
+    return used ? tile_work[tile] : 0u;
+}
 
 shared uint histogram[512];
 shared uint first[512];
@@ -25,7 +37,7 @@ void main() {
     histogram[lane + 256u] = 0u;
     barrier();
     for (uint i = lane; i < push.tiles; i += 256u) {
-        uint n = tile_work[i];
+        uint n = work_of(i);
         if (n > 0u) {
             atomicAdd(histogram[n], 1u);
         }
@@ -38,6 +50,10 @@ void main() {
             sum += histogram[n];
         }
         arguments[0] = uvec4(4u, sum, 0u, 0u);
+        Level level = levels.level[0];
+        bool configured = level.texel.w == 1.0 && level.texel.z == frame.thick_extent.w;
+        arguments[258] = uvec4(4u, configured ? sum : 0u, 0u, 0u);
+        arguments[259] = uvec4(4u, configured ? 0u : sum, 0u, 0u);
     }
     barrier();
     // Iteration i runs the tiles with at least i - 1: one more than they need, in which all their
@@ -49,7 +65,7 @@ void main() {
     }
     barrier();
     for (uint i = lane; i < push.tiles; i += 256u) {
-        uint n = tile_work[i];
+        uint n = work_of(i);
         if (n > 0u) {
             list[atomicAdd(first[n], 1u)] = i;
         }

@@ -65,6 +65,16 @@ pub const COMPUTE_READ_WRITE: Access = COMPUTE_READ.and(COMPUTE_WRITE);
 /// Vertex shader: storage buffer, read.
 pub const VERTEX_READ: Access =
     Access::new(Stage::VERTEX_SHADER, Mask::SHADER_STORAGE_READ, Layout::GENERAL);
+/// Any shader: uniform buffer, read.
+pub const UNIFORM: Access = Access::new(
+    Stage::from_raw(
+        Stage::COMPUTE_SHADER.as_raw()
+            | Stage::VERTEX_SHADER.as_raw()
+            | Stage::FRAGMENT_SHADER.as_raw(),
+    ),
+    Mask::UNIFORM_READ,
+    Layout::GENERAL,
+);
 /// Indirect draw or dispatch arguments, or a draw count.
 pub const INDIRECT: Access =
     Access::new(Stage::DRAW_INDIRECT, Mask::INDIRECT_COMMAND_READ, Layout::GENERAL);

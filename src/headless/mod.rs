@@ -96,6 +96,7 @@ pub struct Headless {
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
+    levels: Option<vk::Buffer>,
     active_samples: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
     device: Device,
@@ -142,6 +143,7 @@ impl Headless {
             count: 0,
             layers: Vec::new(),
             counts: None,
+            levels: None,
             active_samples: None,
             scene: None,
             device,
@@ -447,6 +449,7 @@ impl Headless {
             let (recorded, last) = result?;
             this.layers = recorded.layers;
             this.counts = recorded.counts;
+            this.levels = recorded.levels;
             this.active_samples = recorded.active_samples;
             Ok(last)
         });

@@ -4,7 +4,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::{COLOR_FORMAT, COLOR_REST, Counts, DEPTH_FORMAT, DEPTH_REST, Headless, Picture};
-use crate::contract::Access;
+use crate::contract::{Access, SmoothingLevels};
 use crate::error::Error;
 use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
 use crate::gpu::buffer::Buffer;
@@ -131,7 +131,7 @@ impl Headless {
     /// No memory, and what Vulkan reports.
     pub fn color(&mut self) -> Result<Picture<[f32; 4]>, Error> {
         let texels: Picture<[u16; 4]> =
-            self.read(self.color.handle, COLOR_FORMAT, self.color.extent, COLOR_REST)?;
+            self.read(self.color.handle, COLOR_FORMAT, self.color.extent.into(), COLOR_REST)?;
         Ok(texels.map(|c| c.map(|v| half::f16::from_bits(v).to_f32())))
     }
 
@@ -140,10 +140,21 @@ impl Headless {
     /// # Errors
     /// No memory, and what Vulkan reports.
     pub fn scene_depth(&mut self) -> Result<Picture<f32>, Error> {
-        self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent, DEPTH_REST)
+        self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent.into(), DEPTH_REST)
     }
 
-    /// A layer of the last frame by its name; `None` when there is none of that name.
+    /// At which resolutions the last frame was smoothed.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn levels(&mut self) -> Result<Option<SmoothingLevels>, Error> {
+        let Some(buffer) = self.levels else { return Ok(None) };
+        let words = self.read_buffer(buffer, size_of::<SmoothingLevels>() as u64)?;
+        Ok(Some(bytemuck::pod_read_unaligned(bytemuck::cast_slice(&words))))
+    }
+
+    /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
+    /// smoothing come at the finest resolution in use.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
@@ -151,23 +162,31 @@ impl Headless {
         let Some(layer) = self.layers.iter().find(|layer| layer.name == name).copied() else {
             return Ok(None);
         };
+        let mut area = vk::Rect2D::from(layer.extent);
+        if ["water.surface", "water.iterations"].contains(&name)
+            && let Some(levels) = self.levels()?
+        {
+            let [x, y, width, height] = levels.finer().rect;
+            area.offset = vk::Offset2D { x, y };
+            area.extent = vk::Extent2D { width: width as u32, height: height as u32 };
+        }
         if layer.format == vk::Format::R32_UINT {
-            let plan: Picture<u32> =
-                self.read(layer.image, layer.format, layer.extent, layer.access)?;
+            let plan: Picture<u32> = self.read(layer.image, layer.format, area, layer.access)?;
             // Iterations are the low nine bits of the plan.
             return Ok(Some(plan.map(|p| (p & 511) as f32)));
         }
-        self.read(layer.image, layer.format, layer.extent, layer.access).map(Some)
+        self.read(layer.image, layer.format, area, layer.access).map(Some)
     }
 
-    /// Copies an image to the CPU; it is back in its state afterwards.
+    /// Copies a part of an image to the CPU; it is back in its state afterwards.
     fn read<T: bytemuck::AnyBitPattern>(
         &mut self,
         image: vk::Image,
         format: vk::Format,
-        extent: vk::Extent2D,
+        area: vk::Rect2D,
         state: Access,
     ) -> Result<Picture<T>, Error> {
+        let extent = area.extent;
         let texels = u64::from(extent.width) * u64::from(extent.height);
         let buffer = Buffer::new(
             &self.gpu,
@@ -187,6 +206,7 @@ impl Headless {
                     base_array_layer: 0,
                     layer_count: 1,
                 })
+                .image_offset(vk::Offset3D { x: area.offset.x, y: area.offset.y, z: 0 })
                 .image_extent(extent.into());
             // SAFETY: the image is in TRANSFER_SRC_OPTIMAL; the buffer has room for its texels.
             unsafe {

@@ -4,6 +4,7 @@
 mod cull;
 mod depth;
 mod front;
+mod level;
 mod reduce;
 pub mod settings;
 mod smooth;
@@ -23,7 +24,9 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 
 pub(crate) use cull::chunks;
+pub(crate) use level::MOST_COARSENING;
 pub use settings::{Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
+pub(crate) use tiles::COMPOSITE_DRAWS;
 
 /// What every pass records with.
 pub(crate) struct Recording<'a> {
@@ -70,6 +73,7 @@ pub(crate) struct WaterLayers<'a> {
     pub depth: &'a Image,
     pub thickness: &'a Image,
     pub tiles: &'a tiles::Tiles,
+    pub level: &'a level::Level,
 }
 
 /// The technique: its passes in the order of the frame.
@@ -78,6 +82,7 @@ pub(crate) struct Water {
     front: front::Front,
     depth: depth::Depth,
     reduce: reduce::Reduce,
+    level: level::Level,
     tiles: tiles::Tiles,
     smooth: smooth::Smooth,
     thickness: thickness::Thickness,
@@ -90,6 +95,7 @@ impl Water {
             front: front::Front::new(gpu, config)?,
             depth: depth::Depth::new(gpu, config)?,
             reduce: reduce::Reduce::new(gpu, config)?,
+            level: level::Level::new(gpu, config)?,
             tiles: tiles::Tiles::new(gpu, config)?,
             smooth: smooth::Smooth::new(gpu, config)?,
             thickness: thickness::Thickness::new(gpu, config)?,
@@ -116,9 +122,11 @@ impl Water {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         self.front.record(r, &self.cull)?;
         self.depth.record(r, &self.front.list)?;
-        self.reduce.record(r, &self.depth.image, &self.smooth, &self.tiles)?;
-        self.tiles.record(r)?;
-        self.smooth.record(r, &self.reduce, &self.tiles)?;
+        self.reduce.record(r, &self.depth.image, &self.smooth, &self.tiles, &self.level)?;
+        self.level.record(r, &self.depth.image, &self.reduce, &self.smooth, &self.tiles)?;
+        self.tiles.record(r, &self.level)?;
+        let (plan, tiles, level) = (&self.reduce.plan, &self.tiles, &self.level);
+        self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
         self.thickness.record(r, &self.cull.list)
     }
 
@@ -129,6 +137,7 @@ impl Water {
             depth: &self.depth.image,
             thickness: &self.thickness.image,
             tiles: &self.tiles,
+            level: &self.level,
         }
     }
 
@@ -139,6 +148,11 @@ impl Water {
             front: self.front.list.counts.handle,
             chunks: self.cull.list.chunks,
         }
+    }
+
+    /// The resolutions of the smoothing.
+    pub fn levels(&self) -> vk::Buffer {
+        self.level.levels.handle
     }
 
     /// Samples counted by the smoothing's queries, when it has them.
@@ -156,10 +170,11 @@ impl Water {
             extent: image.extent,
             access,
         };
+        let configured = |layer: Layer| Layer { extent: self.reduce.extent, ..layer };
         vec![
             layer("water.depth", &self.depth.image, access),
-            layer("water.surface", &self.smooth.a, access),
-            layer("water.iterations", &self.reduce.plan, reduce::PLAN_AFTER),
+            configured(layer("water.surface", &self.smooth.a, access)),
+            configured(layer("water.iterations", &self.reduce.plan, reduce::PLAN_AFTER)),
             layer("water.thickness.front", &self.thickness.image, access),
         ]
     }
@@ -176,6 +191,7 @@ impl Water {
             images: images.iter().map(|image| image.size).sum(),
             buffers: self.cull.list.memory()
                 + self.front.memory()
+                + self.level.memory()
                 + self.tiles.memory()
                 + self.smooth.memory()
                 + self.thickness.memory(),

@@ -3,11 +3,12 @@
 //! pixel's iterations and step from the depth before any smoothing.
 //!
 //! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
-//! plan, each tile's work.
+//! plan, each tile's work, how many pixels pass the cap.
 
 use ash::vk;
 
 use super::Recording;
+use super::level::{Atlas, Level};
 use super::smooth::Smooth;
 use super::tiles::Tiles;
 use crate::contract::Config;
@@ -16,7 +17,7 @@ use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-    FRAGMENT_SAMPLED, buffer,
+    COPY_WRITE, FRAGMENT_SAMPLED, buffer,
 };
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
@@ -33,6 +34,8 @@ pub struct Reduce {
     pipeline: Pipeline,
     /// Iterations (9 bits) and step (23 bits) of each reduced pixel.
     pub plan: Image,
+    /// Size of the configured level.
+    pub extent: vk::Extent2D,
 }
 
 /// Number of a rule in the shaders.
@@ -50,6 +53,7 @@ impl Reduce {
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
             plan: Self::plan(gpu, config)?,
+            extent: reduced(config.extent, config.smoothing_level),
         })
     }
 
@@ -58,7 +62,7 @@ impl Reduce {
             gpu,
             &ImageDesc::new(
                 "water/reduce/plan",
-                reduced(config.extent, config.smoothing_level),
+                Atlas::new(config).extent,
                 vk::Format::R32_UINT,
                 vk::ImageUsageFlags::STORAGE
                     | vk::ImageUsageFlags::SAMPLED
@@ -75,18 +79,25 @@ impl Reduce {
     ) -> Result<(), Error> {
         let plan = Self::plan(gpu, config)?;
         retired.retire(std::mem::replace(&mut self.plan, plan));
+        self.extent = reduced(config.extent, config.smoothing_level);
         Ok(())
     }
 
+    /// `level` hands on what is written here.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         depth: &Image,
         smooth: &Smooth,
         tiles: &Tiles,
+        level: &Level,
     ) -> Result<(), Error> {
         let scope = r.begin(c"reduce");
         let (gpu, cmd) = (r.gpu, r.cmd);
+        let over = level.over.handle;
+        gpu.barriers(cmd, &[], &[buffer(over, COMPUTE_READ, COPY_WRITE)]);
+        // SAFETY: outside a render pass; the frame before has read it (barrier).
+        unsafe { gpu.device.cmd_fill_buffer(cmd, over, 0, vk::WHOLE_SIZE, 0) };
         let smooth_before = super::smooth::BEFORE.discarded();
         let plan_before = PLAN_AFTER.and(COPY_READ).discarded();
         gpu.barriers(
@@ -96,7 +107,10 @@ impl Reduce {
                 access::image(&smooth.b, smooth_before, COMPUTE_WRITE),
                 access::image(&self.plan, plan_before, COMPUTE_WRITE),
             ],
-            &[buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE)],
+            &[
+                buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE),
+                buffer(over, COPY_WRITE, COMPUTE_READ_WRITE),
+            ],
         );
         r.descriptors.bind(
             gpu,
@@ -110,17 +124,10 @@ impl Reduce {
                 (4, Resource::storage(&smooth.b)),
                 (5, Resource::storage(&self.plan)),
                 (6, Resource::buffer(&tiles.work)),
+                (8, Resource::buffer(&level.over)),
             ],
         )?;
-        r.dispatch_over(self.plan.extent, self.pipeline.local_size);
-        gpu.barriers(
-            cmd,
-            &[
-                access::image(depth, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
-                access::image(&self.plan, COMPUTE_WRITE, PLAN_AFTER),
-            ],
-            &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ)],
-        );
+        r.dispatch_over(self.extent, self.pipeline.local_size);
         r.end(scope);
         Ok(())
     }

@@ -9,12 +9,12 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
 use super::Recording;
-use super::reduce::{Reduce, rule_constant};
+use super::level::{Atlas, Level};
+use super::reduce::rule_constant;
 use super::smooth_query::Query;
 use super::tiles::Tiles;
 use crate::contract::Config;
 use crate::error::Error;
-use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED,
@@ -53,6 +53,14 @@ struct FusedPush {
     iteration: u32,
     columns: u32,
     arguments_index: u32,
+}
+
+/// What is to be done.
+pub struct Work<'a> {
+    /// Iterations and step of each pixel.
+    pub plan: &'a Image,
+    pub tiles: &'a Tiles,
+    pub level: &'a Level,
 }
 
 enum Form {
@@ -102,7 +110,7 @@ impl Smooth {
                 gpu,
                 &ImageDesc::new(
                     name,
-                    reduced(config.extent, config.smoothing_level),
+                    Atlas::new(config).extent,
                     vk::Format::R32_SFLOAT,
                     vk::ImageUsageFlags::STORAGE
                         | vk::ImageUsageFlags::SAMPLED
@@ -130,17 +138,12 @@ impl Smooth {
     }
 
     /// Both images come as `reduce` left them, in GENERAL; `a` leaves sampled by fragments.
-    pub fn record(
-        &self,
-        r: &mut Recording<'_>,
-        reduce: &Reduce,
-        tiles: &Tiles,
-    ) -> Result<(), Error> {
+    pub fn record(&self, r: &mut Recording<'_>, work: &Work<'_>) -> Result<(), Error> {
         let scope = r.begin(c"smooth");
         match &self.form {
-            Form::Tiles(pipeline) => self.record_tiles(r, pipeline, reduce, tiles)?,
-            Form::Fused(pipeline) => self.record_fused(r, pipeline, reduce, tiles)?,
-            Form::Query(query) => query.record(r, [&self.a, &self.b], &reduce.plan, tiles)?,
+            Form::Tiles(pipeline) => self.record_tiles(r, pipeline, work)?,
+            Form::Fused(pipeline) => self.record_fused(r, pipeline, work)?,
+            Form::Query(query) => query.record(r, [&self.a, &self.b], work)?,
         }
         r.end(scope);
         Ok(())
@@ -153,13 +156,12 @@ impl Smooth {
         &self,
         r: &mut Recording<'_>,
         pipeline: &Pipeline,
-        reduce: &Reduce,
-        tiles: &Tiles,
+        work: &Work<'_>,
     ) -> Result<(), Error> {
         // One more than the most, for the copies; made even, so that the roles end as they began.
         let dispatches = (self.iterations + 1).next_multiple_of(2).min(256);
-        self.record_dispatches(r, pipeline, reduce, tiles, dispatches, |r, index| {
-            let push = TilesPush { iteration: index + 1, columns: tiles.columns };
+        self.record_dispatches(r, pipeline, work, dispatches, |r, index| {
+            let push = TilesPush { iteration: index + 1, columns: work.tiles.atlas.columns };
             pipeline.push(r.gpu, r.cmd, &push);
             index + 1
         })
@@ -170,16 +172,15 @@ impl Smooth {
         &self,
         r: &mut Recording<'_>,
         pipeline: &Pipeline,
-        reduce: &Reduce,
-        tiles: &Tiles,
+        work: &Work<'_>,
     ) -> Result<(), Error> {
         let dispatches = self.iterations.div_ceil(FUSED_STEPS) + 1;
-        self.record_dispatches(r, pipeline, reduce, tiles, dispatches, |r, index| {
+        self.record_dispatches(r, pipeline, work, dispatches, |r, index| {
             let iteration = FUSED_STEPS * index + 1;
             // Arguments [i] hold the tiles with at least i - 1 iterations.
             let arguments_index =
                 if index == 0 { 1 } else { (iteration + 1 - FUSED_STEPS).min(257) };
-            let push = FusedPush { iteration, columns: tiles.columns, arguments_index };
+            let push = FusedPush { iteration, columns: work.tiles.atlas.columns, arguments_index };
             pipeline.push(r.gpu, r.cmd, &push);
             arguments_index
         })
@@ -191,8 +192,7 @@ impl Smooth {
         &self,
         r: &mut Recording<'_>,
         pipeline: &Pipeline,
-        reduce: &Reduce,
-        tiles: &Tiles,
+        work: &Work<'_>,
         dispatches: u32,
         push: impl Fn(&Recording<'_>, u32) -> u32,
     ) -> Result<(), Error> {
@@ -206,9 +206,10 @@ impl Smooth {
                     (0, r.uniforms),
                     (1, Resource::SampledIn(from.view, nearest, vk::ImageLayout::GENERAL)),
                     (2, Resource::storage(to)),
-                    (3, Resource::Sampled(reduce.plan.view, nearest)),
-                    (4, Resource::buffer(&tiles.list)),
-                    (5, Resource::buffer(&tiles.arguments)),
+                    (3, Resource::Sampled(work.plan.view, nearest)),
+                    (4, Resource::buffer(&work.tiles.list)),
+                    (5, Resource::buffer(&work.tiles.arguments)),
+                    (7, work.level.resource()),
                 ],
             )
         };
@@ -231,7 +232,7 @@ impl Smooth {
             unsafe {
                 gpu.device.cmd_dispatch_indirect(
                     cmd,
-                    tiles.arguments.handle,
+                    work.tiles.arguments.handle,
                     16 * u64::from(arguments),
                 );
             }

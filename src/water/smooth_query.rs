@@ -13,6 +13,7 @@ use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::reduce::rule_constant;
+use super::smooth::Work;
 use super::tiles::Tiles;
 use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
@@ -188,9 +189,9 @@ impl Query {
         &self,
         r: &mut Recording<'_>,
         images: [&Image; 2],
-        plan: &Image,
-        tiles: &Tiles,
+        work: &Work<'_>,
     ) -> Result<(), Error> {
+        let Work { plan, tiles, level } = work;
         let (gpu, cmd) = (r.gpu, r.cmd);
         let by_host = r.read_back.is_some();
         // Bindings of all three pipelines are the same; so are their push constants.
@@ -210,6 +211,7 @@ impl Query {
                     (2, Resource::Sampled(plan.view, nearest)),
                     (3, Resource::buffer(&tiles.list)),
                     (4, shader_predicates),
+                    (7, level.resource()),
                 ],
             )
         };
@@ -251,7 +253,7 @@ impl Query {
                 let (from, to) = ((k % 2) as usize, (1 - k % 2) as usize);
                 let push = Push {
                     iteration: BLOCK * block + k + 1,
-                    columns: tiles.columns,
+                    columns: tiles.atlas.columns,
                     block: gate_of(block),
                 };
                 self.begin(r, images[to], to);
@@ -261,7 +263,7 @@ impl Query {
                 }
                 self.end(r, images[to]);
             }
-            let push = Push { iteration: 0, columns: tiles.columns, block: gate_of(block) };
+            let push = Push { iteration: 0, columns: tiles.atlas.columns, block: gate_of(block) };
             self.begin(r, images[0], 0);
             self.draw(r, &self.copy, copy, &push, tiles);
             self.end(r, images[0]);

@@ -1,18 +1,18 @@
-//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels) that hold water, sorted by their
-//! iterations, and the arguments of every draw and dispatch over them.
+//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels, of the levels in use) that hold water,
+//! sorted by their iterations, and the arguments of every draw and dispatch over them.
 //!
 //! Not in the source, which runs full-screen quads: with the iterations planned, the tiles that
 //! still work in iteration i are a prefix of the list, so that one counting sort writes all gates.
-//! Reads: each tile's work. Writes: list, arguments.
+//! Reads: each tile's work, levels. Writes: list, arguments.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
+use super::level::{Atlas, Level};
 use crate::contract::Config;
 use crate::error::Error;
-use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{COMPUTE_READ, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer};
 use crate::gpu::buffer::Buffer;
@@ -25,8 +25,11 @@ use crate::gpu::shader;
 pub const TILE: u32 = 16;
 /// Workgroups of a dispatch over tiles; more tiles share them.
 const MOST_GROUPS: u32 = 65_535;
-/// Arguments: the draw of all tiles, then 257 dispatches of 16 bytes.
-const ARGUMENTS: u64 = 16 * 258;
+/// Arguments: the draw of all tiles, then 257 dispatches of 16 bytes, then two draws.
+const ARGUMENTS: u64 = 16 * 260;
+/// Offsets of the draws for `composite`: where the frame was smoothed at the configured level
+/// alone, and where it was not. One of them is empty.
+pub const COMPOSITE_DRAWS: [u64; 2] = [16 * 258, 16 * 259];
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -45,15 +48,14 @@ pub struct Tiles {
     /// `[0]` a draw of all of them (strip of four, one instance each); `[i]` the dispatch of
     /// iteration i, with the number of tiles in its fourth word.
     pub arguments: Buffer,
-    /// Tiles a row.
-    pub columns: u32,
-    count: u32,
+    /// How they lie.
+    pub atlas: Atlas,
 }
 
 impl Tiles {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let (columns, count) = grid(config);
-        let (work, list) = Self::sized(gpu, count)?;
+        let atlas = Atlas::new(config);
+        let (work, list) = Self::sized(gpu, &atlas)?;
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_TILES_COMP, &[])?,
             work,
@@ -65,15 +67,14 @@ impl Tiles {
                 vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER,
                 MemoryLocation::GpuOnly,
             )?,
-            columns,
-            count,
+            atlas,
         })
     }
 
-    fn sized(gpu: &Gpu, count: u32) -> Result<(Buffer, Buffer), Error> {
+    fn sized(gpu: &Gpu, atlas: &Atlas) -> Result<(Buffer, Buffer), Error> {
         let make = |name| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-            Buffer::new(gpu, name, 4 * u64::from(count), usage, MemoryLocation::GpuOnly)
+            Buffer::new(gpu, name, 4 * u64::from(atlas.tiles()), usage, MemoryLocation::GpuOnly)
         };
         Ok((make("water/tiles/work")?, make("water/tiles/list")?))
     }
@@ -84,15 +85,15 @@ impl Tiles {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let (columns, count) = grid(config);
-        let (work, list) = Self::sized(gpu, count)?;
+        let atlas = Atlas::new(config);
+        let (work, list) = Self::sized(gpu, &atlas)?;
         retired.retire(std::mem::replace(&mut self.work, work));
         retired.retire(std::mem::replace(&mut self.list, list));
-        (self.columns, self.count) = (columns, count);
+        self.atlas = atlas;
         Ok(())
     }
 
-    pub fn record(&self, r: &mut Recording<'_>) -> Result<(), Error> {
+    pub fn record(&self, r: &mut Recording<'_>, level: &Level) -> Result<(), Error> {
         let scope = r.begin(c"tiles");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let readers = COMPUTE_READ.and(VERTEX_READ);
@@ -109,12 +110,14 @@ impl Tiles {
             cmd,
             &self.pipeline,
             &[
+                (0, r.uniforms),
                 (1, Resource::buffer(&self.work)),
                 (2, Resource::buffer(&self.list)),
                 (3, Resource::buffer(&self.arguments)),
+                (7, level.resource()),
             ],
         )?;
-        self.pipeline.push(gpu, cmd, &Push { tiles: self.count, most_groups: MOST_GROUPS });
+        self.pipeline.push(gpu, cmd, &Push { tiles: self.atlas.tiles(), most_groups: MOST_GROUPS });
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, 1, 1, 1) };
         gpu.barriers(
@@ -132,10 +135,4 @@ impl Tiles {
     pub fn memory(&self) -> u64 {
         self.work.size + self.list.size + self.arguments.size
     }
-}
-
-fn grid(config: &Config) -> (u32, u32) {
-    let extent = reduced(config.extent, config.smoothing_level);
-    let columns = extent.width.div_ceil(TILE);
-    (columns, columns * extent.height.div_ceil(TILE))
 }

@@ -240,6 +240,7 @@ fn the_picture_is_the_twins() {
                 smoothing_level: level,
                 thickness_level,
                 environment_size: CUBE as u32,
+                coarsening: 0,
                 ..config(size)
             };
             let mut rig = Rig::new(&gpu, &config);

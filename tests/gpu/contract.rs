@@ -556,6 +556,7 @@ fn bad_configurations_are_errors() {
         ("Config.thickness_level", Config { thickness_level: 4, ..good }),
         ("Config.max_iterations", Config { max_iterations: 0, ..good }),
         ("Config.max_iterations", Config { max_iterations: 257, ..good }),
+        ("Config.coarsening", Config { coarsening: 4, ..good }),
         ("Config.environment_size", Config { environment_size: 8, ..good }),
         ("Config.environment_size", Config { environment_size: 100, ..good }),
         ("Config.environment_size", Config { environment_size: 4096, ..good }),

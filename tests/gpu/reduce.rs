@@ -133,6 +133,7 @@ fn the_plan_is_the_twins() {
                 thickness_level: level,
                 rule,
                 max_iterations: cap,
+                coarsening: 0,
                 ..config(size)
             };
             let mut rig = Rig::new(&gpu, &config);

@@ -363,7 +363,7 @@ impl Stub {
                     staging.buffer,
                     texture.image,
                     COPIED_TO.layout,
-                    &[region(texture.aspect, texture.extent)],
+                    &[region(texture.aspect, texture.extent.into())],
                 );
             }
             self.barrier(cmd, texture.image, texture.aspect, COPIED_TO, after);
@@ -391,12 +391,12 @@ impl Stub {
         image: vk::Image,
         format: vk::Format,
         aspect: vk::ImageAspectFlags,
-        extent: vk::Extent2D,
+        area: vk::Rect2D,
         state: Access,
     ) -> Vec<u8> {
-        let texels = u64::from(extent.width) * u64::from(extent.height);
+        let texels = u64::from(area.extent.width) * u64::from(area.extent.height);
         let back = self.sized(texels * texel_size(format), vk::BufferUsageFlags::TRANSFER_DST);
-        self.run(|cmd| self.record_download(cmd, image, aspect, extent, state, &back));
+        self.run(|cmd| self.record_download(cmd, image, aspect, area, state, &back));
         back.bytes().to_vec()
     }
 
@@ -406,7 +406,7 @@ impl Stub {
         cmd: vk::CommandBuffer,
         image: vk::Image,
         aspect: vk::ImageAspectFlags,
-        extent: vk::Extent2D,
+        area: vk::Rect2D,
         state: Access,
         back: &Data,
     ) {
@@ -427,7 +427,7 @@ impl Stub {
                 image,
                 COPIED_FROM.layout,
                 back.buffer,
-                &[region(aspect, extent)],
+                &[region(aspect, area)],
             );
             let info = vk::DependencyInfo::default().buffer_memory_barriers(&to_host);
             self.device.cmd_pipeline_barrier2(cmd, &info);
@@ -495,7 +495,7 @@ fn range(aspect: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
     }
 }
 
-fn region(aspect: vk::ImageAspectFlags, extent: vk::Extent2D) -> vk::BufferImageCopy {
+fn region(aspect: vk::ImageAspectFlags, area: vk::Rect2D) -> vk::BufferImageCopy {
     vk::BufferImageCopy::default()
         .image_subresource(vk::ImageSubresourceLayers {
             aspect_mask: copy_aspect(aspect),
@@ -503,5 +503,6 @@ fn region(aspect: vk::ImageAspectFlags, extent: vk::Extent2D) -> vk::BufferImage
             base_array_layer: 0,
             layer_count: 1,
         })
-        .image_extent(extent.into())
+        .image_offset(vk::Offset3D { x: area.offset.x, y: area.offset.y, z: 0 })
+        .image_extent(area.extent.into())
 }

@@ -4,7 +4,7 @@ use ash::vk;
 use whitewater::water::Splat;
 use whitewater::{
     Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
-    Particles, Recorded, Renderer, Settings, Slot, Stream,
+    Layer, Particles, Recorded, Renderer, Settings, Slot, SmoothingLevel, SmoothingLevels, Stream,
 };
 
 use super::device::Gpu;
@@ -139,8 +139,12 @@ pub fn gradient(size: vk::Extent2D) -> Vec<[f32; 4]> {
 pub struct Drawn {
     pub output: Image<[f32; 4]>,
     pub depth: Image<f32>,
+    /// Of the finest level in use.
     pub surface: Image<f32>,
     pub plan: Image<u32>,
+    /// Of the coarser level, while it fades in.
+    pub coarser: Option<(Image<f32>, Image<u32>)>,
+    pub levels: SmoothingLevels,
     pub thickness: Image<f32>,
     /// Particles dropped for their positions, and set aside as spray.
     pub dropped: u32,
@@ -299,15 +303,18 @@ impl<'g> Rig<'g> {
             output.image,
             output.format,
             output.aspect,
-            output.extent,
+            output.extent.into(),
             output.after,
         );
+        let levels = self.levels(recorded);
         let empty = || Image::new(0, 0, 0.0);
         let mut drawn = Drawn {
             output: picture(output.format, output.extent, &bytes),
             depth: empty(),
             surface: empty(),
             plan: Image::new(0, 0, 0),
+            coarser: None,
+            levels,
             thickness: empty(),
             dropped: 0,
             spray: 0,
@@ -322,25 +329,53 @@ impl<'g> Rig<'g> {
                 drawn.spray += words[19];
             }
         }
+        let fading = levels.level.iter().all(|level| level.texel[3] > 0.0);
+        let coarser = levels.level.iter().max_by(|a, b| a.texel[2].total_cmp(&b.texel[2])).unwrap();
+        let mut second = (empty(), Image::new(0, 0, 0));
         for layer in &recorded.layers {
-            let color = vk::ImageAspectFlags::COLOR;
-            let bytes =
-                self.stub.download(layer.image, layer.format, color, layer.extent, layer.access);
-            let (width, height) = (layer.extent.width as usize, layer.extent.height as usize);
-            let floats =
-                || Image { width, height, data: words(&bytes).map(f32::from_bits).collect() };
+            let whole = layer.extent.into();
             match layer.name {
-                "water.depth" => drawn.depth = floats(),
-                "water.surface" => drawn.surface = floats(),
-                "water.thickness.front" => drawn.thickness = floats(),
+                "water.depth" => drawn.depth = self.floats(layer, whole),
+                "water.thickness.front" => drawn.thickness = self.floats(layer, whole),
+                "water.surface" => {
+                    drawn.surface = self.floats(layer, area(levels.finer()));
+                    if fading {
+                        second.0 = self.floats(layer, area(coarser));
+                    }
+                }
                 "water.iterations" => {
                     assert_eq!(layer.format, vk::Format::R32_UINT);
-                    drawn.plan = Image { width, height, data: words(&bytes).collect() };
+                    drawn.plan = self.texels(layer, area(levels.finer()));
+                    if fading {
+                        second.1 = self.texels(layer, area(coarser));
+                    }
                 }
                 other => panic!("an unknown layer {other}"),
             }
         }
+        drawn.coarser = fading.then_some(second);
         drawn
+    }
+
+    /// At which resolutions the frame was smoothed.
+    fn levels(&self, recorded: &Recorded) -> SmoothingLevels {
+        let size = size_of::<SmoothingLevels>();
+        let back = self.stub.sized(size as u64, vk::BufferUsageFlags::TRANSFER_DST);
+        // Of no frame: none in use.
+        let Some(levels) = recorded.levels else { return bytemuck::Zeroable::zeroed() };
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, levels, &back));
+        bytemuck::pod_read_unaligned(&back.bytes()[..size])
+    }
+
+    fn texels(&self, layer: &Layer, area: vk::Rect2D) -> Image<u32> {
+        let color = vk::ImageAspectFlags::COLOR;
+        let bytes = self.stub.download(layer.image, layer.format, color, area, layer.access);
+        let (width, height) = (area.extent.width as usize, area.extent.height as usize);
+        Image { width, height, data: words(&bytes).collect() }
+    }
+
+    fn floats(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {
+        self.texels(layer, area).map(|bits| f32::from_bits(*bits))
     }
 }
 
@@ -421,4 +456,11 @@ fn picture(format: vk::Format, extent: vk::Extent2D, bytes: &[u8]) -> Image<[f32
             .collect(),
     };
     Image { width: extent.width as usize, height: extent.height as usize, data }
+}
+
+/// Where a level lies.
+fn area(level: &SmoothingLevel) -> vk::Rect2D {
+    let [x, y, width, height] = level.rect;
+    let extent = vk::Extent2D { width: width as u32, height: height as u32 };
+    vk::Rect2D { offset: vk::Offset2D { x, y }, extent }
 }

@@ -103,9 +103,9 @@ pub struct DrawArgs {
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
     pub smoothing_level: u32,
-    /// Resolution of the thickness: 0 full, or as the smoothing [default: as the smoothing]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=2))]
-    pub thickness_level: Option<u32>,
+    /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
+    pub thickness_level: u32,
     /// How particles become pixels [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,

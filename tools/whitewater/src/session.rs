@@ -51,12 +51,6 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target>, Vec<&'sta
     if let Some(path) = &args.trace {
         Times::check(path, true)?;
     }
-    if args.thickness_level.is_some_and(|l| l != 0 && l != args.smoothing_level) {
-        return Err(Failure::usage(format!(
-            "--thickness-level: expected 0 or the smoothing's level {}, found another; change one",
-            args.smoothing_level
-        )));
-    }
     Ok((targets, wanted))
 }
 
@@ -124,7 +118,7 @@ impl<'a> Session<'a> {
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
         config.smoothing_level = args.smoothing_level;
-        config.thickness_level = args.thickness_level.unwrap_or(args.smoothing_level);
+        config.thickness_level = args.thickness_level;
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;

@@ -23,6 +23,8 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "depth" => 4 * full + 16 * front + 4 * drawn.covered,
         // Depth in, scene depth of covered pixels in, two surfaces and the plan out.
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
+        // Three small buffers; a coarser reduction, where there is one, is not counted.
+        "level" => 256,
         "tiles" => 8 * reduced / 256,
         // Each active pixel of each iteration: surface and plan in, surface out.
         "smooth" => 12 * drawn.iterations,
