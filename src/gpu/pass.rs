@@ -166,4 +166,17 @@ impl Gpu {
             self.device.cmd_set_scissor(cmd, 0, &[area]);
         }
     }
+
+    /// Ends the pass begun last.
+    #[cfg(feature = "headless")]
+    pub fn end_pass(&self, cmd: vk::CommandBuffer) {
+        // SAFETY: cmd is recording inside a render pass.
+        unsafe { self.device.cmd_end_render_pass(cmd) };
+    }
+}
+
+/// The clear value of a depth attachment.
+#[cfg(feature = "headless")]
+pub fn clear_depth(depth: f32) -> vk::ClearValue {
+    vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } }
 }

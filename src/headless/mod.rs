@@ -16,6 +16,7 @@ pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
 use scene::{Scene, SceneFrame, SceneRenderer};
 use submit::{Parts, begin, submit};
+use transfer::staging;
 
 use crate::contract::{
     Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
@@ -23,6 +24,7 @@ use crate::contract::{
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
+use crate::frame::Lens;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_WRITE};
 use crate::gpu::buffer::Buffer;
@@ -40,17 +42,14 @@ pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 /// The scene's colour image between its own passes.
 const COLOR_REST: Access = access::COLOR_ATTACHMENT;
 /// The scene's depth image between its own passes.
-const DEPTH_REST: Access = Access::new(
-    vk::PipelineStageFlags2::from_raw(
-        vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
-            | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS.as_raw(),
-    ),
-    vk::AccessFlags2::from_raw(
-        vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
-            | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
-    ),
-    vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-);
+const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
+
+/// Device depth of nothing: the end of the range that is farther away.
+fn depth_of_nothing(lens: &Lens) -> f32 {
+    // Eye depth of device depth 1: the near plane's where depth is reversed.
+    let eye = lens.linear.0 / (1.0 + lens.linear.1);
+    if eye > 0.0 && eye < 1.001 * lens.near { 0.0 } else { 1.0 }
+}
 
 /// What became of the particles of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -238,7 +237,7 @@ impl Headless {
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let image =
             Image::new(&self.gpu, &ImageDesc::new("headless/equirect", extent, format, usage))?;
-        let staging = self.staging(bytemuck::cast_slice(pixels))?;
+        let staging = staging(&self.gpu, bytemuck::cast_slice(pixels))?;
         let result = self.run(|this, cmd| {
             this.upload(cmd, &staging, &image, access::NOTHING, COPY_WRITE);
             let host = HostImage {
@@ -405,8 +404,8 @@ impl Headless {
                 let half: Vec<[u16; 4]> =
                     color.iter().map(|c| c.map(|v| half::f16::from_f32(v).to_bits())).collect();
                 Some((
-                    self.staging(bytemuck::cast_slice(&half))?,
-                    self.staging(bytemuck::cast_slice(depth))?,
+                    staging(&self.gpu, bytemuck::cast_slice(&half))?,
+                    staging(&self.gpu, bytemuck::cast_slice(depth))?,
                 ))
             }
             Background::Color(_) | Background::Scene => None,
@@ -455,20 +454,12 @@ impl Headless {
             depth.destroy(&self.gpu);
         }
         self.renderer.collect(Slot(0));
+        self.gpu.bury();
         result
     }
 
     fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
-        // The far plane's depth, whichever the convention: that which is farther from the near.
-        let far = match crate::frame::Lens::new(camera) {
-            Ok(lens)
-                if lens.linear.0 / (1.0 + lens.linear.1) < 2.0 * lens.near
-                    && lens.linear.0 / (1.0 + lens.linear.1) > 0.0 =>
-            {
-                0.0
-            }
-            _ => 1.0,
-        };
+        let far = Lens::new(camera).map_or(1.0, |lens| depth_of_nothing(&lens));
         let range = |image: &Image| vk::ImageSubresourceRange {
             aspect_mask: crate::gpu::image::aspect_of(image.format),
             level_count: 1,
