@@ -15,7 +15,7 @@ use gpu_allocator::MemoryLocation;
 pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
 use scene::{Scene, SceneFrame, SceneRenderer};
-use submit::{Parts, begin, submit};
+use submit::{Commands, Parts, begin, submit};
 use transfer::staging;
 
 use crate::contract::{
@@ -85,9 +85,7 @@ pub struct Headless {
     renderer: Renderer,
     color: Image,
     depth: Image,
-    pool: vk::CommandPool,
-    cmd: vk::CommandBuffer,
-    fence: vk::Fence,
+    commands: Commands,
     /// Command buffers for the parts of a frame that the host reads back in between.
     parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
@@ -110,31 +108,24 @@ impl Headless {
             Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };
         let host = device.host(1);
         let gpu = Gpu::new(&host)?;
-        // SAFETY: the device is ours and outlives the renderer (field order, `drop`).
-        let renderer = unsafe { Renderer::new(&host, &config) }?;
-        let pool = vk::CommandPoolCreateInfo::default()
-            .queue_family_index(device.queue_family)
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-        // SAFETY: valid create infos on a live device, here and below.
-        let pool = unsafe { gpu.device.create_command_pool(&pool, None) }
-            .context(|| "vkCreateCommandPool".into())?;
-        let info =
-            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        // SAFETY: as above.
-        let cmd = unsafe { gpu.device.allocate_command_buffers(&info) }
-            .context(|| "vkAllocateCommandBuffers".into())?[0];
-        // SAFETY: as above.
-        let fence = unsafe { gpu.device.create_fence(&vk::FenceCreateInfo::default(), None) }
-            .context(|| "vkCreateFence".into())?;
-        let (color, depth) = Self::images(&gpu, config.extent)?;
+        let made = Self::own(&gpu, &device, config.extent).and_then(|own| {
+            // SAFETY: the device is ours and outlives the renderer (field order, `finish`).
+            Ok((own, unsafe { Renderer::new(&host, &config) }?))
+        });
+        let ((commands, color, depth), renderer) = match made {
+            Ok(made) => made,
+            Err(error) => {
+                // Nothing was submitted with what was made before the failure.
+                gpu.destroy();
+                return Err(error);
+            }
+        };
         let mut headless = Self {
             gpu,
             renderer,
             color,
             depth,
-            pool,
-            cmd,
-            fence,
+            commands,
             parts: Vec::new(),
             positions: None,
             densities: None,
@@ -145,7 +136,16 @@ impl Headless {
             scene: None,
             device,
         };
-        headless.run(|this, cmd| {
+        if let Err(error) = headless.first_contents() {
+            drop(headless.finish());
+            return Err(error);
+        }
+        Ok(headless)
+    }
+
+    /// Brings the images to where frames find them, under the built-in sky.
+    fn first_contents(&mut self) -> Result<(), Error> {
+        self.run(|this, cmd| {
             // SAFETY: cmd is recording and submitted before any record.
             unsafe { this.renderer.record_setup(cmd) };
             this.gpu.barriers(
@@ -158,17 +158,22 @@ impl Headless {
             );
             Ok(())
         })?;
-        headless.sky(&Sky::default())?;
-        Ok(headless)
+        self.sky(&Sky::default())
     }
 
-    fn images(gpu: &Gpu, extent: vk::Extent2D) -> Result<(Image, Image), Error> {
+    /// What is ours beside the renderer.
+    fn own(
+        gpu: &Gpu,
+        device: &Device,
+        extent: vk::Extent2D,
+    ) -> Result<(Commands, Image, Image), Error> {
         let usage = vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
         let depth = usage | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
         Ok((
+            Commands::new(gpu, device.queue_family)?,
             Image::new(gpu, &ImageDesc::new("headless/color", extent, COLOR_FORMAT, color))?,
             Image::new(gpu, &ImageDesc::new("headless/depth", extent, DEPTH_FORMAT, depth))?,
         ))
@@ -194,12 +199,13 @@ impl Headless {
         unsafe {
             self.gpu
                 .device
-                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
+                .reset_command_pool(self.commands.pool.handle, vk::CommandPoolResetFlags::empty())
                 .context(|| "vkResetCommandPool".into())?;
         }
-        begin(&self.gpu, self.cmd)?;
-        let last = record(self, self.cmd)?;
-        submit(&self.gpu, self.device.queue, last, self.fence)
+        let cmd = self.commands.buffer;
+        begin(&self.gpu, cmd)?;
+        let last = record(self, cmd)?;
+        submit(&self.gpu, self.device.queue, last, self.commands.fence.handle)
     }
 
     /// The same for one command buffer.
@@ -268,18 +274,21 @@ impl Headless {
         if let Some(old) = self.scene.take() {
             old.renderer.destroy(&self.gpu);
         }
-        let renderer = SceneRenderer::new(&self.gpu, scene, COLOR_FORMAT, DEPTH_FORMAT, antialias)?;
-        let descriptors = Descriptors::new(&self.gpu, renderer.sets())?;
-        self.scene = Some(Stage { renderer, descriptors });
+        let gpu = &self.gpu;
+        let made = SceneRenderer::new(gpu, scene, COLOR_FORMAT, DEPTH_FORMAT, antialias).and_then(
+            |renderer| Ok(Stage { descriptors: Descriptors::new(gpu, renderer.sets())?, renderer }),
+        );
+        if made.is_err() {
+            // Nothing was submitted with what was made before the failure.
+            gpu.bury();
+        }
+        let mut stage = made?;
         self.run(|this, cmd| {
-            if let Some(stage) = &this.scene {
-                stage.renderer.record_setup(&this.gpu, cmd);
-            }
+            stage.renderer.record_setup(&this.gpu, cmd);
             Ok(())
         })?;
-        if let Some(stage) = &mut self.scene {
-            stage.renderer.finish_setup(&self.gpu);
-        }
+        stage.renderer.finish_setup(&self.gpu);
+        self.scene = Some(stage);
         Ok(())
     }
 
@@ -432,8 +441,8 @@ impl Headless {
             let mut parts = Parts {
                 gpu: this.gpu.clone(),
                 queue: this.device.queue,
-                fence: this.fence,
-                pool: this.pool,
+                fence: this.commands.fence.handle,
+                pool: this.commands.pool.handle,
                 spare: std::mem::take(&mut this.parts),
                 used: 0,
             };
@@ -513,19 +522,13 @@ impl Headless {
     /// Device loss.
     pub fn finish(self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
-        let Self { gpu, renderer, color, depth, pool, fence, positions, densities, .. } = self;
+        let Self { gpu, renderer, device, .. } = self;
+        // Freed with the shared objects.
+        drop((self.commands, self.color, self.depth, self.positions, self.densities, self.scene));
         // SAFETY: the device is idle, or lost.
-        unsafe {
-            gpu.device.destroy_fence(fence, None);
-            gpu.device.destroy_command_pool(pool, None);
-            renderer.destroy();
-        }
-        drop((color, depth, positions, densities));
-        if let Some(scene) = self.scene {
-            scene.renderer.destroy(&gpu);
-        }
+        unsafe { renderer.destroy() };
         gpu.destroy();
-        idle.map(|()| self.device)
+        idle.map(|()| device)
     }
 }
 

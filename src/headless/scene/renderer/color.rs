@@ -73,12 +73,13 @@ impl Color {
     /// `depth`: the frame's, drawn before.
     pub fn record(&self, r: &Recording<'_>, targets: &Targets, depth: &Image) -> Result<(), Error> {
         match &targets.samples {
-            // Cleared each time; the frame before may still be at them.
+            // Cleared each time: what the slot's frame before left there is of no use.
             Some(Samples { color, depth }) => {
                 let color = access::image(color, COLOR_ATTACHMENT.discarded(), COLOR_ATTACHMENT);
                 let depth = access::image(depth, DEPTH_ATTACHMENT.discarded(), DEPTH_ATTACHMENT);
                 r.gpu.barriers(r.cmd, &[color, depth], &[]);
             }
+            // Tested against the depth of the pass before.
             None => {
                 let depth = access::image(depth, DEPTH_ATTACHMENT, DEPTH_ATTACHMENT);
                 r.gpu.barriers(r.cmd, &[depth], &[]);

@@ -112,7 +112,8 @@ impl Recording<'_> {
 impl SceneRenderer {
     /// Bakes the scene's light, makes pipelines, images and buffers. The depth convention is not
     /// fixed here: each record takes it from its camera. `antialias` smooths the edges; it costs
-    /// little on a GPU, and on a software device several times the pass.
+    /// little on a GPU, and on a software device several times the pass. What a failure leaves is
+    /// freed by the next [`Gpu::bury`].
     ///
     /// # Errors
     /// A sun without direction; no memory; what Vulkan reports.
@@ -124,15 +125,6 @@ impl SceneRenderer {
         antialias: bool,
     ) -> Result<Self, Error> {
         let formats = Formats { color: color_format, depth: depth_format };
-        let made = Self::make(gpu, scene, formats, antialias);
-        if made.is_err() {
-            // Nothing was submitted with what was made before the failure.
-            gpu.bury();
-        }
-        made
-    }
-
-    fn make(gpu: &Gpu, scene: &Scene, formats: Formats, antialias: bool) -> Result<Self, Error> {
         let surroundings = Surroundings::new(scene)?;
         let baked = bake::bake(scene);
         let mut textures = Textures::new(gpu)?;
