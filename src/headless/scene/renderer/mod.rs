@@ -113,7 +113,7 @@ impl SceneRenderer {
     /// Bakes the scene's light, makes pipelines, images and buffers. The depth convention is not
     /// fixed here: each record takes it from its camera. `antialias` smooths the edges; it costs
     /// little on a GPU, and on a software device several times the pass. What a failure leaves is
-    /// freed by the next [`Gpu::bury`].
+    /// freed by the next `Gpu::bury`.
     ///
     /// # Errors
     /// A sun without direction; no memory; what Vulkan reports.
@@ -170,7 +170,7 @@ impl SceneRenderer {
     }
 
     /// Draws the scene: clears colour and depth and fills both. Drops what the slot's earlier
-    /// record drew to, for the next [`Gpu::bury`].
+    /// record drew to, for the next `Gpu::bury`.
     ///
     /// # Errors
     /// A camera that cannot be drawn, no memory, what Vulkan reports.
