@@ -16,6 +16,8 @@ mod contract;
 mod depth;
 #[path = "gpu/harness.rs"]
 mod harness;
+#[path = "gpu/headless.rs"]
+mod headless;
 #[path = "gpu/invariants.rs"]
 mod invariants;
 #[path = "gpu/level.rs"]

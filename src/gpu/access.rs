@@ -75,6 +75,17 @@ pub const UNIFORM: Access = Access::new(
     Mask::UNIFORM_READ,
     Layout::GENERAL,
 );
+/// Fragment shader: storage buffer, read.
+#[cfg(feature = "headless")]
+pub const FRAGMENT_READ: Access =
+    Access::new(Stage::FRAGMENT_SHADER, Mask::SHADER_STORAGE_READ, Layout::GENERAL);
+/// Vertices and indices.
+#[cfg(feature = "headless")]
+pub const VERTEX_INPUT: Access = Access::new(
+    Stage::from_raw(Stage::VERTEX_ATTRIBUTE_INPUT.as_raw() | Stage::INDEX_INPUT.as_raw()),
+    Mask::from_raw(Mask::VERTEX_ATTRIBUTE_READ.as_raw() | Mask::INDEX_READ.as_raw()),
+    Layout::GENERAL,
+);
 /// Indirect draw or dispatch arguments, or a draw count.
 pub const INDIRECT: Access =
     Access::new(Stage::DRAW_INDIRECT, Mask::INDIRECT_COMMAND_READ, Layout::GENERAL);
@@ -89,6 +100,16 @@ pub const COLOR_ATTACHMENT: Access = Access::new(
     Stage::COLOR_ATTACHMENT_OUTPUT,
     Mask::from_raw(Mask::COLOR_ATTACHMENT_READ.as_raw() | Mask::COLOR_ATTACHMENT_WRITE.as_raw()),
     Layout::COLOR_ATTACHMENT_OPTIMAL,
+);
+/// Depth attachment, tested and written.
+#[cfg(feature = "headless")]
+pub const DEPTH_ATTACHMENT: Access = Access::new(
+    Stage::from_raw(Stage::EARLY_FRAGMENT_TESTS.as_raw() | Stage::LATE_FRAGMENT_TESTS.as_raw()),
+    Mask::from_raw(
+        Mask::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
+            | Mask::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
+    ),
+    Layout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
 );
 /// Written by a clear or fill. ALL_TRANSFER, not CLEAR: layers before 1.3.240 book fills as copies.
 pub const CLEAR: Access =

@@ -30,6 +30,12 @@ pub enum Grave {
     DescriptorPool(vk::DescriptorPool),
     /// A sampler.
     Sampler(vk::Sampler),
+    /// A command pool.
+    #[cfg(feature = "headless")]
+    CommandPool(vk::CommandPool),
+    /// A fence.
+    #[cfg(feature = "headless")]
+    Fence(vk::Fence),
 }
 
 /// The shared list.
@@ -82,8 +88,6 @@ pub trait Destroy: Sized {
 impl Destroy for super::image::Image {}
 #[cfg(feature = "headless")]
 impl Destroy for super::buffer::Buffer {}
-#[cfg(feature = "headless")]
-impl Destroy for super::pipeline::Pipeline {}
 
 impl Gpu {
     /// Takes a handle into ownership.
@@ -127,6 +131,10 @@ impl Gpu {
                     Grave::QueryPool(handle) => device.destroy_query_pool(handle, None),
                     Grave::DescriptorPool(handle) => device.destroy_descriptor_pool(handle, None),
                     Grave::Sampler(handle) => device.destroy_sampler(handle, None),
+                    #[cfg(feature = "headless")]
+                    Grave::CommandPool(handle) => device.destroy_command_pool(handle, None),
+                    #[cfg(feature = "headless")]
+                    Grave::Fence(handle) => device.destroy_fence(handle, None),
                 }
             }
         }

@@ -24,17 +24,20 @@ pub struct ImageDesc<'a> {
     pub mips: u32,
     /// Array layers; 6 makes a cube.
     pub layers: u32,
+    /// Samples a texel.
+    pub samples: vk::SampleCountFlags,
 }
 
 impl<'a> ImageDesc<'a> {
-    /// A plain 2D image.
+    /// A plain 2D image: one mip, one layer, one sample.
     pub fn new(
         name: &'a str,
         extent: vk::Extent2D,
         format: vk::Format,
         usage: vk::ImageUsageFlags,
     ) -> Self {
-        Self { name, extent, format, alias: None, usage, mips: 1, layers: 1 }
+        let samples = vk::SampleCountFlags::TYPE_1;
+        Self { name, extent, format, alias: None, usage, mips: 1, layers: 1, samples }
     }
 }
 
@@ -74,7 +77,7 @@ impl Image {
             .extent(desc.extent.into())
             .mip_levels(desc.mips)
             .array_layers(desc.layers)
-            .samples(vk::SampleCountFlags::TYPE_1)
+            .samples(desc.samples)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(desc.usage)
             .initial_layout(vk::ImageLayout::UNDEFINED);

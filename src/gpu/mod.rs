@@ -1,11 +1,12 @@
 //! What every pass stands on: the host's device with what it enabled, barriers, images, buffers,
-//! pipelines, descriptor sets, queries, labels and the retire list. No state of a frame.
+//! render passes, pipelines, descriptor sets, queries, labels and the retire list. No state of a frame.
 
 pub mod access;
 pub mod buffer;
 pub mod descriptors;
 pub mod graveyard;
 pub mod image;
+pub mod pass;
 pub mod pipeline;
 pub mod requirements;
 pub mod retire;
@@ -117,7 +118,7 @@ impl Gpu {
     }
 
     fn make_samplers(&mut self) -> Result<(), Error> {
-        let mut make = |filter, mip, max_lod| -> Result<vk::Sampler, Error> {
+        let mut make = |name, filter, mip, max_lod| -> Result<vk::Sampler, Error> {
             let info = vk::SamplerCreateInfo::default()
                 .mag_filter(filter)
                 .min_filter(filter)
@@ -126,17 +127,30 @@ impl Gpu {
                 .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
                 .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
                 .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
-            // SAFETY: valid create info.
-            let handle = unsafe { self.device.create_sampler(&info, None) }
-                .context(|| "vkCreateSampler".into())?;
-            self.own_samplers.push(Owned::new(handle, Grave::Sampler, &self.graveyard));
+            let sampler = self.sampler(name, &info)?;
+            let handle = sampler.handle;
+            self.own_samplers.push(sampler);
             Ok(handle)
         };
+        let (nearest, linear) = (vk::Filter::NEAREST, vk::Filter::LINEAR);
         self.samplers = Samplers {
-            nearest: make(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?,
-            linear: make(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
+            nearest: make("nearest", nearest, vk::SamplerMipmapMode::NEAREST, 0.0)?,
+            linear: make("linear", linear, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
         };
         Ok(())
+    }
+
+    /// A sampler.
+    pub fn sampler(
+        &self,
+        name: &str,
+        info: &vk::SamplerCreateInfo<'_>,
+    ) -> Result<Owned<vk::Sampler>, Error> {
+        // SAFETY: valid create info.
+        let sampler = unsafe { self.device.create_sampler(info, None) }
+            .context(|| format!("vkCreateSampler {name}"))?;
+        self.name(sampler, name);
+        Ok(self.own(sampler, Grave::Sampler))
     }
 
     /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is

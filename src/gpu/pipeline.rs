@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ash::vk;
 
 use super::Gpu;
-use super::graveyard::{Grave, Graveyard, Owned};
+use super::graveyard::{Grave, Graveyard};
 use super::shader::Shader;
 use crate::error::{Error, VkContext};
 
@@ -133,17 +133,6 @@ impl Pipeline {
             (desc.vertex, vk::ShaderStageFlags::VERTEX),
             (desc.fragment, vk::ShaderStageFlags::FRAGMENT),
         ];
-        let mut pipeline = Self::layouts(gpu, &stages, vk::PipelineBindPoint::GRAPHICS)?;
-        let modules = [gpu.module(&desc.vertex)?, gpu.module(&desc.fragment)?];
-        let specialization = Specialization::new(desc.constants);
-        let special = specialization.info();
-        let infos = [0, 1].map(|i| {
-            vk::PipelineShaderStageCreateInfo::default()
-                .stage(stages[i].1)
-                .module(modules[i].0)
-                .name(c"main")
-                .specialization_info(&special)
-        });
         let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
         let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(desc.topology);
         let viewport =
@@ -157,8 +146,7 @@ impl Pipeline {
         let color = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
-        let info = vk::GraphicsPipelineCreateInfo::default()
-            .stages(&infos)
+        let state = vk::GraphicsPipelineCreateInfo::default()
             .vertex_input_state(&vertex_input)
             .input_assembly_state(&assembly)
             .viewport_state(&viewport)
@@ -166,30 +154,22 @@ impl Pipeline {
             .multisample_state(&multisample)
             .color_blend_state(&color)
             .dynamic_state(&dynamic)
-            .layout(pipeline.layout)
             .render_pass(desc.pass);
-        // SAFETY: modules, layout and pass were made to fit each other.
-        let made =
-            unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
-        pipeline.handle = pipeline.finish(gpu, made, "vkCreateGraphicsPipelines")?;
-        Ok(pipeline)
+        Self::from_state(gpu, &stages, desc.constants, state)
     }
 
-    /// A graphics pipeline whose state is the caller's own; stages and layout are filled in.
-    #[cfg(feature = "headless")]
+    /// A graphics pipeline of any state; its stages and layout are filled in here.
     pub fn from_state(
         gpu: &Gpu,
         stages: &[(Shader, vk::ShaderStageFlags)],
         constants: &[(u32, u32)],
-        info: vk::GraphicsPipelineCreateInfo<'_>,
+        state: vk::GraphicsPipelineCreateInfo<'_>,
     ) -> Result<Self, Error> {
         let mut pipeline = Self::layouts(gpu, stages, vk::PipelineBindPoint::GRAPHICS)?;
+        let modules: Vec<Module<'_>> =
+            stages.iter().map(|(shader, _)| gpu.module(shader)).collect::<Result<_, _>>()?;
         let specialization = Specialization::new(constants);
         let special = specialization.info();
-        let mut modules = Vec::with_capacity(stages.len());
-        for (shader, _) in stages {
-            modules.push(gpu.module(shader)?);
-        }
         let infos: Vec<_> = stages
             .iter()
             .zip(&modules)
@@ -201,7 +181,7 @@ impl Pipeline {
                     .specialization_info(&special)
             })
             .collect();
-        let info = info.stages(&infos).layout(pipeline.layout);
+        let info = state.stages(&infos).layout(pipeline.layout);
         // SAFETY: modules and layout were made to fit each other; the rest is the caller's.
         let made =
             unsafe { gpu.device.create_graphics_pipelines(gpu.pipeline_cache, &[info], None) };
@@ -323,89 +303,5 @@ impl Gpu {
         let module = unsafe { self.device.create_shader_module(&info, None) }
             .context(|| format!("vkCreateShaderModule {}", shader.name))?;
         Ok(Module(module, self))
-    }
-
-    /// A render pass of one colour attachment that is in COLOR_ATTACHMENT_OPTIMAL before, in and
-    /// after it: layout transitions happen only where they are written.
-    pub fn color_pass(
-        &self,
-        name: &str,
-        format: vk::Format,
-        load: vk::AttachmentLoadOp,
-    ) -> Result<Owned<vk::RenderPass>, Error> {
-        let layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
-        let attachments = [vk::AttachmentDescription::default()
-            .format(format)
-            .samples(vk::SampleCountFlags::TYPE_1)
-            .load_op(load)
-            .store_op(vk::AttachmentStoreOp::STORE)
-            .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
-            .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
-            .initial_layout(layout)
-            .final_layout(layout)];
-        let reference = [vk::AttachmentReference { attachment: 0, layout }];
-        let subpasses = [vk::SubpassDescription::default()
-            .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
-            .color_attachments(&reference)];
-        let info =
-            vk::RenderPassCreateInfo::default().attachments(&attachments).subpasses(&subpasses);
-        // SAFETY: valid create info.
-        let pass = unsafe { self.device.create_render_pass(&info, None) }
-            .context(|| format!("vkCreateRenderPass {name}"))?;
-        self.name(pass, name);
-        Ok(self.own(pass, Grave::RenderPass))
-    }
-
-    /// A framebuffer of one view.
-    pub fn framebuffer(
-        &self,
-        name: &str,
-        pass: vk::RenderPass,
-        view: vk::ImageView,
-        extent: vk::Extent2D,
-    ) -> Result<Owned<vk::Framebuffer>, Error> {
-        let views = [view];
-        let info = vk::FramebufferCreateInfo::default()
-            .render_pass(pass)
-            .attachments(&views)
-            .width(extent.width)
-            .height(extent.height)
-            .layers(1);
-        // SAFETY: pass and view fit each other (checked formats).
-        let framebuffer = unsafe { self.device.create_framebuffer(&info, None) }
-            .context(|| format!("vkCreateFramebuffer {name}"))?;
-        self.name(framebuffer, name);
-        Ok(self.own(framebuffer, Grave::Framebuffer))
-    }
-
-    /// Begins a colour pass over an area, with viewport and scissor set to it.
-    pub fn begin_pass(
-        &self,
-        cmd: vk::CommandBuffer,
-        pass: vk::RenderPass,
-        framebuffer: vk::Framebuffer,
-        area: vk::Rect2D,
-        clear: [f32; 4],
-    ) {
-        let clears = [vk::ClearValue { color: vk::ClearColorValue { float32: clear } }];
-        let info = vk::RenderPassBeginInfo::default()
-            .render_pass(pass)
-            .framebuffer(framebuffer)
-            .render_area(area)
-            .clear_values(&clears);
-        let viewport = vk::Viewport {
-            x: area.offset.x as f32,
-            y: area.offset.y as f32,
-            width: area.extent.width as f32,
-            height: area.extent.height as f32,
-            min_depth: 0.0,
-            max_depth: 1.0,
-        };
-        // SAFETY: cmd is recording outside a render pass; the objects are alive.
-        unsafe {
-            self.device.cmd_begin_render_pass(cmd, &info, vk::SubpassContents::INLINE);
-            self.device.cmd_set_viewport(cmd, 0, &[viewport]);
-            self.device.cmd_set_scissor(cmd, 0, &[area]);
-        }
     }
 }

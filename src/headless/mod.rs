@@ -15,7 +15,8 @@ use gpu_allocator::MemoryLocation;
 pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
 use scene::{Scene, SceneFrame, SceneRenderer};
-use submit::{Parts, begin, submit};
+use submit::{Commands, Parts, begin, submit};
+use transfer::staging;
 
 use crate::contract::{
     Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
@@ -23,6 +24,7 @@ use crate::contract::{
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
+use crate::frame::Lens;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_WRITE};
 use crate::gpu::buffer::Buffer;
@@ -40,17 +42,14 @@ pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 /// The scene's colour image between its own passes.
 const COLOR_REST: Access = access::COLOR_ATTACHMENT;
 /// The scene's depth image between its own passes.
-const DEPTH_REST: Access = Access::new(
-    vk::PipelineStageFlags2::from_raw(
-        vk::PipelineStageFlags2::EARLY_FRAGMENT_TESTS.as_raw()
-            | vk::PipelineStageFlags2::LATE_FRAGMENT_TESTS.as_raw(),
-    ),
-    vk::AccessFlags2::from_raw(
-        vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_READ.as_raw()
-            | vk::AccessFlags2::DEPTH_STENCIL_ATTACHMENT_WRITE.as_raw(),
-    ),
-    vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-);
+const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
+
+/// Device depth of nothing: the end of the range that is farther away.
+fn depth_of_nothing(lens: &Lens) -> f32 {
+    // Eye depth of device depth 1: the near plane's where depth is reversed.
+    let eye = lens.linear.0 / (1.0 + lens.linear.1);
+    if eye > 0.0 && eye < 1.001 * lens.near { 0.0 } else { 1.0 }
+}
 
 /// What became of the particles of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -86,9 +85,7 @@ pub struct Headless {
     renderer: Renderer,
     color: Image,
     depth: Image,
-    pool: vk::CommandPool,
-    cmd: vk::CommandBuffer,
-    fence: vk::Fence,
+    commands: Commands,
     /// Command buffers for the parts of a frame that the host reads back in between.
     parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
@@ -112,31 +109,24 @@ impl Headless {
             Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };
         let host = device.host(1);
         let gpu = Gpu::new(&host)?;
-        // SAFETY: the device is ours and outlives the renderer (field order, `drop`).
-        let renderer = unsafe { Renderer::new(&host, &config) }?;
-        let pool = vk::CommandPoolCreateInfo::default()
-            .queue_family_index(device.queue_family)
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
-        // SAFETY: valid create infos on a live device, here and below.
-        let pool = unsafe { gpu.device.create_command_pool(&pool, None) }
-            .context(|| "vkCreateCommandPool".into())?;
-        let info =
-            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
-        // SAFETY: as above.
-        let cmd = unsafe { gpu.device.allocate_command_buffers(&info) }
-            .context(|| "vkAllocateCommandBuffers".into())?[0];
-        // SAFETY: as above.
-        let fence = unsafe { gpu.device.create_fence(&vk::FenceCreateInfo::default(), None) }
-            .context(|| "vkCreateFence".into())?;
-        let (color, depth) = Self::images(&gpu, config.extent)?;
+        let made = Self::own(&gpu, &device, config.extent).and_then(|own| {
+            // SAFETY: the device is ours and outlives the renderer (field order, `finish`).
+            Ok((own, unsafe { Renderer::new(&host, &config) }?))
+        });
+        let ((commands, color, depth), renderer) = match made {
+            Ok(made) => made,
+            Err(error) => {
+                // Nothing was submitted with what was made before the failure.
+                gpu.destroy();
+                return Err(error);
+            }
+        };
         let mut headless = Self {
             gpu,
             renderer,
             color,
             depth,
-            pool,
-            cmd,
-            fence,
+            commands,
             parts: Vec::new(),
             positions: None,
             densities: None,
@@ -148,7 +138,16 @@ impl Headless {
             scene: None,
             device,
         };
-        headless.run(|this, cmd| {
+        if let Err(error) = headless.first_contents() {
+            drop(headless.finish());
+            return Err(error);
+        }
+        Ok(headless)
+    }
+
+    /// Brings the images to where frames find them, under the built-in sky.
+    fn first_contents(&mut self) -> Result<(), Error> {
+        self.run(|this, cmd| {
             // SAFETY: cmd is recording and submitted before any record.
             unsafe { this.renderer.record_setup(cmd) };
             this.gpu.barriers(
@@ -161,17 +160,22 @@ impl Headless {
             );
             Ok(())
         })?;
-        headless.sky(&Sky::default())?;
-        Ok(headless)
+        self.sky(&Sky::default())
     }
 
-    fn images(gpu: &Gpu, extent: vk::Extent2D) -> Result<(Image, Image), Error> {
+    /// What is ours beside the renderer.
+    fn own(
+        gpu: &Gpu,
+        device: &Device,
+        extent: vk::Extent2D,
+    ) -> Result<(Commands, Image, Image), Error> {
         let usage = vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
         let depth = usage | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
         Ok((
+            Commands::new(gpu, device.queue_family)?,
             Image::new(gpu, &ImageDesc::new("headless/color", extent, COLOR_FORMAT, color))?,
             Image::new(gpu, &ImageDesc::new("headless/depth", extent, DEPTH_FORMAT, depth))?,
         ))
@@ -197,12 +201,13 @@ impl Headless {
         unsafe {
             self.gpu
                 .device
-                .reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty())
+                .reset_command_pool(self.commands.pool.handle, vk::CommandPoolResetFlags::empty())
                 .context(|| "vkResetCommandPool".into())?;
         }
-        begin(&self.gpu, self.cmd)?;
-        let last = record(self, self.cmd)?;
-        submit(&self.gpu, self.device.queue, last, self.fence)
+        let cmd = self.commands.buffer;
+        begin(&self.gpu, cmd)?;
+        let last = record(self, cmd)?;
+        submit(&self.gpu, self.device.queue, last, self.commands.fence.handle)
     }
 
     /// The same for one command buffer.
@@ -240,7 +245,7 @@ impl Headless {
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let image =
             Image::new(&self.gpu, &ImageDesc::new("headless/equirect", extent, format, usage))?;
-        let staging = self.staging(bytemuck::cast_slice(pixels))?;
+        let staging = staging(&self.gpu, bytemuck::cast_slice(pixels))?;
         let result = self.run(|this, cmd| {
             this.upload(cmd, &staging, &image, access::NOTHING, COPY_WRITE);
             let host = HostImage {
@@ -271,18 +276,21 @@ impl Headless {
         if let Some(old) = self.scene.take() {
             old.renderer.destroy(&self.gpu);
         }
-        let renderer = SceneRenderer::new(&self.gpu, scene, COLOR_FORMAT, DEPTH_FORMAT, antialias)?;
-        let descriptors = Descriptors::new(&self.gpu, renderer.sets())?;
-        self.scene = Some(Stage { renderer, descriptors });
+        let gpu = &self.gpu;
+        let made = SceneRenderer::new(gpu, scene, COLOR_FORMAT, DEPTH_FORMAT, antialias).and_then(
+            |renderer| Ok(Stage { descriptors: Descriptors::new(gpu, renderer.sets())?, renderer }),
+        );
+        if made.is_err() {
+            // Nothing was submitted with what was made before the failure.
+            gpu.bury();
+        }
+        let mut stage = made?;
         self.run(|this, cmd| {
-            if let Some(stage) = &this.scene {
-                stage.renderer.record_setup(&this.gpu, cmd);
-            }
+            stage.renderer.record_setup(&this.gpu, cmd);
             Ok(())
         })?;
-        if let Some(stage) = &mut self.scene {
-            stage.renderer.finish_setup(&self.gpu);
-        }
+        stage.renderer.finish_setup(&self.gpu);
+        self.scene = Some(stage);
         Ok(())
     }
 
@@ -407,8 +415,8 @@ impl Headless {
                 let half: Vec<[u16; 4]> =
                     color.iter().map(|c| c.map(|v| half::f16::from_f32(v).to_bits())).collect();
                 Some((
-                    self.staging(bytemuck::cast_slice(&half))?,
-                    self.staging(bytemuck::cast_slice(depth))?,
+                    staging(&self.gpu, bytemuck::cast_slice(&half))?,
+                    staging(&self.gpu, bytemuck::cast_slice(depth))?,
                 ))
             }
             Background::Color(_) | Background::Scene => None,
@@ -435,8 +443,8 @@ impl Headless {
             let mut parts = Parts {
                 gpu: this.gpu.clone(),
                 queue: this.device.queue,
-                fence: this.fence,
-                pool: this.pool,
+                fence: this.commands.fence.handle,
+                pool: this.commands.pool.handle,
                 spare: std::mem::take(&mut this.parts),
                 used: 0,
             };
@@ -458,20 +466,12 @@ impl Headless {
             depth.destroy(&self.gpu);
         }
         self.renderer.collect(Slot(0));
+        self.gpu.bury();
         result
     }
 
     fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
-        // The far plane's depth, whichever the convention: that which is farther from the near.
-        let far = match crate::frame::Lens::new(camera) {
-            Ok(lens)
-                if lens.linear.0 / (1.0 + lens.linear.1) < 2.0 * lens.near
-                    && lens.linear.0 / (1.0 + lens.linear.1) > 0.0 =>
-            {
-                0.0
-            }
-            _ => 1.0,
-        };
+        let far = Lens::new(camera).map_or(1.0, |lens| depth_of_nothing(&lens));
         let range = |image: &Image| vk::ImageSubresourceRange {
             aspect_mask: crate::gpu::image::aspect_of(image.format),
             level_count: 1,
@@ -525,19 +525,13 @@ impl Headless {
     /// Device loss.
     pub fn finish(self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
-        let Self { gpu, renderer, color, depth, pool, fence, positions, densities, .. } = self;
+        let Self { gpu, renderer, device, .. } = self;
+        // Freed with the shared objects.
+        drop((self.commands, self.color, self.depth, self.positions, self.densities, self.scene));
         // SAFETY: the device is idle, or lost.
-        unsafe {
-            gpu.device.destroy_fence(fence, None);
-            gpu.device.destroy_command_pool(pool, None);
-            renderer.destroy();
-        }
-        drop((color, depth, positions, densities));
-        if let Some(scene) = self.scene {
-            scene.renderer.destroy(&gpu);
-        }
+        unsafe { renderer.destroy() };
         gpu.destroy();
-        idle.map(|()| self.device)
+        idle.map(|()| device)
     }
 }
 

@@ -7,6 +7,36 @@ use ash::vk;
 
 use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
+use crate::gpu::graveyard::{Grave, Owned};
+
+/// A command pool with its first buffer, and the fence to wait by.
+pub struct Commands {
+    pub pool: Owned<vk::CommandPool>,
+    pub buffer: vk::CommandBuffer,
+    pub fence: Owned<vk::Fence>,
+}
+
+impl Commands {
+    pub fn new(gpu: &Gpu, queue_family: u32) -> Result<Self, Error> {
+        let info = vk::CommandPoolCreateInfo::default()
+            .queue_family_index(queue_family)
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT);
+        // SAFETY: valid create infos on a live device, here and below.
+        let pool = unsafe { gpu.device.create_command_pool(&info, None) }
+            .context(|| "vkCreateCommandPool".into())?;
+        let pool = gpu.own(pool, Grave::CommandPool);
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(pool.handle)
+            .command_buffer_count(1);
+        // SAFETY: as above.
+        let buffer = unsafe { gpu.device.allocate_command_buffers(&info) }
+            .context(|| "vkAllocateCommandBuffers".into())?[0];
+        // SAFETY: as above.
+        let fence = unsafe { gpu.device.create_fence(&vk::FenceCreateInfo::default(), None) }
+            .context(|| "vkCreateFence".into())?;
+        Ok(Self { pool, buffer, fence: gpu.own(fence, Grave::Fence) })
+    }
+}
 
 /// Begins a command buffer that is submitted once.
 pub fn begin(gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {

@@ -6,6 +6,7 @@ use gpu_allocator::MemoryLocation;
 use super::{COLOR_FORMAT, COLOR_REST, Counts, DEPTH_FORMAT, DEPTH_REST, Headless, Picture};
 use crate::contract::{Access, SmoothingLevels};
 use crate::error::Error;
+use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::graveyard::Destroy;
@@ -18,16 +19,16 @@ const HOST_READ: Access = Access::new(
     vk::ImageLayout::GENERAL,
 );
 
-impl Headless {
-    pub(super) fn staging(&self, bytes: &[u8]) -> Result<Buffer, Error> {
-        let usage = vk::BufferUsageFlags::TRANSFER_SRC;
-        let size = bytes.len() as u64;
-        let mut buffer =
-            Buffer::new(&self.gpu, "headless/staging", size, usage, MemoryLocation::CpuToGpu)?;
-        buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
-        Ok(buffer)
-    }
+/// A mapped buffer to copy the bytes from.
+pub fn staging(gpu: &Gpu, bytes: &[u8]) -> Result<Buffer, Error> {
+    let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+    let size = bytes.len() as u64;
+    let mut buffer = Buffer::new(gpu, "headless/staging", size, usage, MemoryLocation::CpuToGpu)?;
+    buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+    Ok(buffer)
+}
 
+impl Headless {
     /// Copies a staging buffer over a whole image.
     pub(super) fn upload(
         &self,

@@ -114,6 +114,9 @@ spied! {
     CREATE_PIPELINE_LAYOUT c"vkCreatePipelineLayout" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_RENDER_PASS c"vkCreateRenderPass" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_FRAMEBUFFER c"vkCreateFramebuffer" (d: vk::Device, i: P, a: P, o: P) made 1;
+    CREATE_COMMAND_POOL c"vkCreateCommandPool" (d: vk::Device, i: P, a: P, o: P) made 1;
+    ALLOCATE_COMMAND_BUFFERS c"vkAllocateCommandBuffers" (d: vk::Device, i: P, o: P) made 0;
+    CREATE_FENCE c"vkCreateFence" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_QUERY_POOL c"vkCreateQueryPool" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_GRAPHICS_PIPELINES c"vkCreateGraphicsPipelines"
         (d: vk::Device, c: u64, n: u32, i: P, a: P, o: P) made n as i32;
@@ -181,6 +184,9 @@ spied_void! {
         undoes CREATE_RENDER_PASS if h;
     DESTROY_FRAMEBUFFER c"vkDestroyFramebuffer" (d: vk::Device, h: u64, a: P)
         undoes CREATE_FRAMEBUFFER if h;
+    DESTROY_COMMAND_POOL c"vkDestroyCommandPool" (d: vk::Device, h: u64, a: P)
+        undoes CREATE_COMMAND_POOL if h;
+    DESTROY_FENCE c"vkDestroyFence" (d: vk::Device, h: u64, a: P) undoes CREATE_FENCE if h;
     DESTROY_QUERY_POOL c"vkDestroyQueryPool" (d: vk::Device, h: u64, a: P)
         undoes CREATE_QUERY_POOL if h;
     // Compute pipelines are booked with the graphics ones.
@@ -205,7 +211,7 @@ pub static NOT_IN_A_RECORD: [&Function; 12] = [
 ];
 
 /// Everything that makes something and can fail.
-pub static MAKERS: [&Function; 15] = [
+pub static MAKERS: [&Function; 19] = [
     &ALLOCATE_MEMORY,
     &BIND_BUFFER_MEMORY,
     &BIND_IMAGE_MEMORY,
@@ -218,6 +224,10 @@ pub static MAKERS: [&Function; 15] = [
     &CREATE_SET_LAYOUT,
     &CREATE_PIPELINE_LAYOUT,
     &CREATE_RENDER_PASS,
+    &CREATE_FRAMEBUFFER,
+    &CREATE_COMMAND_POOL,
+    &ALLOCATE_COMMAND_BUFFERS,
+    &CREATE_FENCE,
     &CREATE_QUERY_POOL,
     &CREATE_GRAPHICS_PIPELINES,
     &CREATE_COMPUTE_PIPELINES,

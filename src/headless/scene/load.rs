@@ -61,7 +61,7 @@ impl Scene {
     pub fn load_obj(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
-        Self::parse_obj(&bytes).map_err(|why| at(path, why))
+        super::obj::parse(&bytes).map_err(|why| at(path, why))
     }
 
     /// Reads the project's own format: boxes, upright cylinders, spheres, a ground, a camera.
@@ -261,104 +261,6 @@ impl Scene {
         }
         Ok(scene)
     }
-
-    fn parse_obj(bytes: &[u8]) -> Result<Self, String> {
-        let text = String::from_utf8_lossy(bytes);
-        let (mut points, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
-        let mut mesh = Mesh { name: "obj".into(), ..Mesh::default() };
-        let mut known: HashMap<[usize; 3], u32> = HashMap::new();
-        let mut lacks_normals = false;
-        for (number, line) in text.lines().enumerate() {
-            let number = number + 1;
-            let mut words = line.split('#').next().unwrap_or_default().split_whitespace();
-            match words.next() {
-                Some("v") => points.push(numbers::<3>(words, number)?),
-                Some("vn") => normals.push(numbers::<3>(words, number)?),
-                Some("vt") => uvs.push(numbers::<2>(words, number)?),
-                Some("f") => {
-                    let mut corners = Vec::new();
-                    for word in words {
-                        let key = corner(word, [points.len(), uvs.len(), normals.len()])
-                            .map_err(|why| format!("line {number}: {why}"))?;
-                        lacks_normals |= key[2] == 0;
-                        let next = mesh.positions.len() as u32;
-                        corners.push(*known.entry(key).or_insert_with(|| {
-                            // Indices begin at 1; 0 says there is none.
-                            mesh.positions.push(points[key[0] - 1]);
-                            let uv: [f32; 2] = if key[1] > 0 { uvs[key[1] - 1] } else { [0.0; 2] };
-                            mesh.uvs.push([uv[0], 1.0 - uv[1]]);
-                            mesh.normals.push(if key[2] > 0 {
-                                let n: [f32; 3] = normals[key[2] - 1];
-                                Vec3::from(n).normalize_or_zero().to_array()
-                            } else {
-                                [0.0; 3]
-                            });
-                            next
-                        }));
-                    }
-                    if corners.len() < 3 {
-                        return Err(format!(
-                            "line {number}: expected a face of 3 or more corners, found {}",
-                            corners.len()
-                        ));
-                    }
-                    for pair in corners[1..].windows(2) {
-                        mesh.indices.extend([corners[0], pair[0], pair[1]]);
-                    }
-                }
-                // Groups, materials, lines and what else there may be are not drawn.
-                _ => {}
-            }
-            if mesh.indices.len() > 3 * MOST || points.len() > MOST {
-                return Err(format!("line {number}: more than {MOST} vertices or triangles"));
-            }
-        }
-        if mesh.indices.is_empty() {
-            return Err("expected faces (lines that begin with 'f'), found none".into());
-        }
-        if lacks_normals {
-            make_normals(&mut mesh);
-        }
-        Ok(Self { meshes: vec![mesh], ..Self::default() })
-    }
-}
-
-fn numbers<'a, const N: usize>(
-    mut words: impl Iterator<Item = &'a str>,
-    line: usize,
-) -> Result<[f32; N], String> {
-    let mut out = [0.0; N];
-    for value in &mut out {
-        let word = words.next().unwrap_or_default();
-        *value = word
-            .parse()
-            .ok()
-            .filter(|v: &f32| v.is_finite())
-            .ok_or_else(|| format!("line {line}: expected {N} numbers, found '{word}'"))?;
-    }
-    Ok(out)
-}
-
-/// `p`, `p/t`, `p//n` or `p/t/n`, from 1, or backwards from −1; as indices from 1, 0 for none.
-fn corner(word: &str, counts: [usize; 3]) -> Result<[usize; 3], String> {
-    let mut key = [0; 3];
-    for (k, part) in word.split('/').enumerate() {
-        let Some(slot) = key.get_mut(k) else {
-            return Err(format!("expected a corner like 1/2/3, found '{word}'"));
-        };
-        if part.is_empty() && k > 0 {
-            continue;
-        }
-        let count = counts[k] as i64;
-        let index: i64 =
-            part.parse().map_err(|_| format!("expected a corner like 1/2/3, found '{word}'"))?;
-        let index = if index < 0 { count.saturating_add(index).saturating_add(1) } else { index };
-        if index < 1 || index > count {
-            return Err(format!("expected an index from 1 to {count}, found '{word}'"));
-        }
-        *slot = index as usize;
-    }
-    Ok(key)
 }
 
 /// Normals for a mesh without: smooth over edges of less than 40 degrees, sharp elsewhere.
@@ -436,35 +338,5 @@ mod tests {
             let why = Scene::parse_json(JSON.replacen(from, to, 1).as_bytes()).expect_err(from);
             assert!(why.contains(says), "{why}");
         }
-    }
-
-    #[test]
-    fn obj_reads_all_kinds_of_corners() {
-        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n\
-                   f 1/1/1 2/1/1 3//1 -1//-1 # a quad\n";
-        let scene = Scene::parse_obj(obj.as_bytes()).expect("good");
-        assert_eq!(scene.meshes[0].indices, [0, 1, 2, 0, 2, 3]);
-        assert!(scene.meshes[0].normals.iter().all(|n| *n == [0.0, 0.0, 1.0]));
-        let bare = Scene::parse_obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3").expect("good");
-        assert!(bare.meshes[0].normals.iter().all(|n| *n == [0.0, 0.0, 1.0]));
-    }
-
-    #[test]
-    fn bad_obj_says_which_line() {
-        for bad in [
-            "v 0 0\n",
-            "v 0 0 nan\n",
-            "v 0 0 0\nf 1 1 2\n",
-            "v 0 0 0\nf 0 1 1\n",
-            "v 0 0 0\nf 1 1 -2\n",
-            "v 0 0 0\nf 1 1 1/\u{fe}\n",
-            "v 0 0 0\nf 1/1/1/1 1 1\n",
-            "v 0 0 0\nf 1 1\n",
-            "v 0 0 0\nf -9223372036854775808 1 1\n",
-        ] {
-            let why = Scene::parse_obj(bad.as_bytes()).expect_err(bad);
-            assert!(why.starts_with("line "), "{why}");
-        }
-        assert!(Scene::parse_obj(b"\xff\xfe\x00").is_err());
     }
 }

@@ -5,8 +5,10 @@
 mod bake;
 mod gltf;
 mod load;
+mod obj;
 mod renderer;
 mod shapes;
+mod tracer;
 
 use std::sync::Arc;
 

@@ -242,6 +242,12 @@ fn sky_radiance(direction: Vec3, sun: Vec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
+    use glam::Mat4;
+    use whitewater::ash::vk;
+    use whitewater::headless::scene::Scene;
+    use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
+    use whitewater::{Camera, Config, Settings};
+
     use super::*;
 
     #[test]
@@ -262,5 +268,98 @@ mod tests {
         assert!(light.z > 1.2 * light.x && light.x > 0.0, "{light}");
         assert!(sky.exposure().abs() < 6.0);
         assert!(Environment::sky(Some([0.0; 3])).is_err());
+    }
+
+    /// Texels along an edge of the cube, and pixels along an edge of its pictures.
+    const SIZE: u32 = 64;
+
+    /// World direction of a pixel and its steps to the next one right and below, for a camera of
+    /// 90 degrees: the pixels of a face are the texels of the cube.
+    fn ray(view: Mat4, pixel: usize) -> [Vec3; 3] {
+        let size = SIZE as usize;
+        let at = |i: usize| (2.0 * i as f32 + 1.0) / size as f32 - 1.0;
+        let step = 2.0 / size as f32;
+        let eye = Vec3::new(at(pixel % size), -at(pixel / size), -1.0);
+        [eye, step * Vec3::X, step * Vec3::NEG_Y].map(|v| view.inverse().transform_vector3(v))
+    }
+
+    /// How far two computations of the sky in single precision may lie apart, as a part of it.
+    ///
+    /// Altitude is a difference of numbers near 6400 km, whose ulp is 2^-11 km: their squares take
+    /// three roundings of half an ulp of 4 (as much as 3 * 2 / (2 * 6400) km), the root half an
+    /// ulp on the CPU and 5 on a device (Vulkan: 2 of the inverse root and 2.5 of the division).
+    /// The density of the thinner layer, Mie's, changes by that over its scale height. In-scattered
+    /// light follows it, and falls by its share in the optical depth: a mean of 1 along the view
+    /// where that is thick (of a depth with density exp(-x)), and the depth towards the sun, whose
+    /// altitudes begin with the error of those along the view.
+    fn precision(sun: Vec3) -> f32 {
+        let ulp = 2.0_f32.powi(-11);
+        let altitude = 2.0 * 6.0 / (2.0 * EARTH) + (0.5 + 5.0) * ulp;
+        let depth = -transmittance(optical_depth(EARTH + 0.05, sun.y)).min_element().ln();
+        altitude / SCALE_HEIGHTS.y * (1.0 + 1.0 + 2.0 * depth)
+    }
+
+    /// The sky here is the one that is drawn: the cube's faces, photographed texel by texel in a
+    /// scene of nothing, against it.
+    #[test]
+    fn the_sky_is_the_one_that_is_drawn() {
+        let validation =
+            std::env::var_os("WHITEWATER_REQUIRE_VALIDATION").is_some_and(|v| v == "1");
+        let options = DeviceOptions { validation, ..DeviceOptions::default() };
+        let device = Device::new(&options).unwrap();
+        let extent = vk::Extent2D { width: SIZE, height: SIZE };
+        let config = Config { environment_size: SIZE, ..Config::new(extent, COLOR_FORMAT, 1024) };
+        let mut headless = Headless::new(device, &config).unwrap();
+        // A sun without light has neither disc nor glow.
+        let dark = SunLight { color: [0.0; 3], ..SunLight::default() };
+        headless.scene(&Scene { sun: dark, ..Scene::default() }, false).unwrap();
+        headless.particles(&[[0.0; 3]], None).unwrap();
+        let projection = Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0))
+            * Mat4::perspective_rh(PI / 2.0, 1.0, 1.0, 10.0);
+        for sun in [SUN, [0.0, 1.0, 0.0], [0.9, 0.1, 0.3]] {
+            let sun = Vec3::from(sun).normalize();
+            let sky = Sky { sun: sun.to_array(), ..Sky::default() };
+            headless.sky(&sky).unwrap();
+            let precision = precision(sun);
+            assert!(precision < 0.03, "{sun}: {precision}");
+            let here = |d: Vec3| sky.intensity * sky_radiance(d.normalize(), sun);
+            let mut compared = 0;
+            for (axis, up) in [
+                (Vec3::X, Vec3::Y),
+                (Vec3::NEG_X, Vec3::Y),
+                (Vec3::Y, Vec3::Z),
+                (Vec3::Z, Vec3::Y),
+                (Vec3::NEG_Z, Vec3::Y),
+            ] {
+                // The one particle, at the origin, is behind.
+                let view = Mat4::look_to_rh(100.0 * (axis + Vec3::Y), axis, up);
+                let camera = Camera { view, projection };
+                headless.render(&camera, &Settings::default(), &Background::Scene).unwrap();
+                let drawn = headless.color().unwrap();
+                for (i, &[r, g, b, _]) in drawn.data.iter().enumerate() {
+                    let [d, right, down] = ray(view, i);
+                    let around = [d + right, d - right, d + down, d - down];
+                    // Below the horizon there is ground in the cube.
+                    if d.y < 0.0 || around.iter().any(|d| d.y < 0.0) {
+                        continue;
+                    }
+                    let expected = here(d);
+                    // Filter weights have 8 bits; cube and picture are of half floats.
+                    let filter: Vec3 = around.iter().map(|&d| (here(d) - expected).abs()).sum();
+                    let bound = expected * (precision + 2.0_f32.powi(-10)) + filter / 256.0;
+                    let off = (Vec3::new(r, g, b) - expected).abs();
+                    assert!(
+                        off.cmple(bound).all(),
+                        "sun {sun}, towards {}: {r} {g} {b}, not {expected} within {bound}",
+                        d.normalize()
+                    );
+                    compared += 1;
+                }
+            }
+            // All of the face above and nearly half of four others.
+            assert!(compared > 2 * (SIZE * SIZE), "{compared}");
+        }
+        let messages = headless.finish().unwrap().take_messages();
+        assert!(messages.is_empty(), "{messages:?}");
     }
 }

@@ -1,0 +1,182 @@
+//! Render passes of one subpass, and their framebuffers. Every attachment is in one layout before,
+//! in and after its pass: layout transitions happen only where they are written.
+
+use ash::vk;
+
+use super::Gpu;
+use super::graveyard::{Grave, Owned};
+use crate::error::{Error, VkContext};
+
+/// One attachment.
+#[derive(Clone, Copy)]
+pub struct Attachment {
+    /// Format.
+    pub format: vk::Format,
+    /// Samples a texel.
+    pub samples: vk::SampleCountFlags,
+    /// What becomes of the contents when the pass begins.
+    pub load: vk::AttachmentLoadOp,
+    /// And when it ends.
+    pub store: vk::AttachmentStoreOp,
+}
+
+/// What a pass draws to. Views and clear values come in the same order, without those left out.
+#[derive(Clone, Copy, Default)]
+pub struct Attachments {
+    /// In COLOR_ATTACHMENT_OPTIMAL.
+    pub color: Option<Attachment>,
+    /// In DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
+    pub depth: Option<Attachment>,
+    /// What the samples of `color` are averaged into; in COLOR_ATTACHMENT_OPTIMAL.
+    pub resolve: Option<Attachment>,
+}
+
+impl Gpu {
+    /// A render pass.
+    pub fn render_pass(
+        &self,
+        name: &str,
+        attachments: &Attachments,
+    ) -> Result<Owned<vk::RenderPass>, Error> {
+        let color = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+        let depth = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+        let mut descriptions = Vec::with_capacity(3);
+        let mut add = |attachment: &Option<Attachment>, layout| {
+            attachment.map(|attachment| {
+                descriptions.push(
+                    vk::AttachmentDescription::default()
+                        .format(attachment.format)
+                        .samples(attachment.samples)
+                        .load_op(attachment.load)
+                        .store_op(attachment.store)
+                        .stencil_load_op(vk::AttachmentLoadOp::DONT_CARE)
+                        .stencil_store_op(vk::AttachmentStoreOp::DONT_CARE)
+                        .initial_layout(layout)
+                        .final_layout(layout),
+                );
+                vk::AttachmentReference { attachment: descriptions.len() as u32 - 1, layout }
+            })
+        };
+        let color_reference = add(&attachments.color, color);
+        let depth_reference = add(&attachments.depth, depth);
+        let resolve_reference = add(&attachments.resolve, color);
+        let mut subpass = vk::SubpassDescription::default()
+            .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
+            .color_attachments(color_reference.as_slice());
+        if let Some(reference) = &depth_reference {
+            subpass = subpass.depth_stencil_attachment(reference);
+        }
+        if resolve_reference.is_some() {
+            subpass = subpass.resolve_attachments(resolve_reference.as_slice());
+        }
+        let subpasses = [subpass];
+        let info =
+            vk::RenderPassCreateInfo::default().attachments(&descriptions).subpasses(&subpasses);
+        // SAFETY: valid create info.
+        let pass = unsafe { self.device.create_render_pass(&info, None) }
+            .context(|| format!("vkCreateRenderPass {name}"))?;
+        self.name(pass, name);
+        Ok(self.own(pass, Grave::RenderPass))
+    }
+
+    /// A render pass of one colour attachment, which is kept.
+    pub fn color_pass(
+        &self,
+        name: &str,
+        format: vk::Format,
+        load: vk::AttachmentLoadOp,
+    ) -> Result<Owned<vk::RenderPass>, Error> {
+        let samples = vk::SampleCountFlags::TYPE_1;
+        let store = vk::AttachmentStoreOp::STORE;
+        let color = Some(Attachment { format, samples, load, store });
+        self.render_pass(name, &Attachments { color, ..Attachments::default() })
+    }
+
+    /// A framebuffer of one view.
+    pub fn framebuffer(
+        &self,
+        name: &str,
+        pass: vk::RenderPass,
+        view: vk::ImageView,
+        extent: vk::Extent2D,
+    ) -> Result<Owned<vk::Framebuffer>, Error> {
+        self.framebuffer_of(name, pass, &[view], extent)
+    }
+
+    /// A framebuffer of the views of a pass.
+    pub fn framebuffer_of(
+        &self,
+        name: &str,
+        pass: vk::RenderPass,
+        views: &[vk::ImageView],
+        extent: vk::Extent2D,
+    ) -> Result<Owned<vk::Framebuffer>, Error> {
+        let info = vk::FramebufferCreateInfo::default()
+            .render_pass(pass)
+            .attachments(views)
+            .width(extent.width)
+            .height(extent.height)
+            .layers(1);
+        // SAFETY: pass and views fit each other (checked formats).
+        let framebuffer = unsafe { self.device.create_framebuffer(&info, None) }
+            .context(|| format!("vkCreateFramebuffer {name}"))?;
+        self.name(framebuffer, name);
+        Ok(self.own(framebuffer, Grave::Framebuffer))
+    }
+
+    /// Begins a colour pass over an area, with viewport and scissor set to it.
+    pub fn begin_pass(
+        &self,
+        cmd: vk::CommandBuffer,
+        pass: vk::RenderPass,
+        framebuffer: vk::Framebuffer,
+        area: vk::Rect2D,
+        clear: [f32; 4],
+    ) {
+        let clear = vk::ClearValue { color: vk::ClearColorValue { float32: clear } };
+        self.begin_pass_with(cmd, pass, framebuffer, area, &[clear]);
+    }
+
+    /// The same for any pass.
+    pub fn begin_pass_with(
+        &self,
+        cmd: vk::CommandBuffer,
+        pass: vk::RenderPass,
+        framebuffer: vk::Framebuffer,
+        area: vk::Rect2D,
+        clears: &[vk::ClearValue],
+    ) {
+        let info = vk::RenderPassBeginInfo::default()
+            .render_pass(pass)
+            .framebuffer(framebuffer)
+            .render_area(area)
+            .clear_values(clears);
+        let viewport = vk::Viewport {
+            x: area.offset.x as f32,
+            y: area.offset.y as f32,
+            width: area.extent.width as f32,
+            height: area.extent.height as f32,
+            min_depth: 0.0,
+            max_depth: 1.0,
+        };
+        // SAFETY: cmd is recording outside a render pass; the objects are alive.
+        unsafe {
+            self.device.cmd_begin_render_pass(cmd, &info, vk::SubpassContents::INLINE);
+            self.device.cmd_set_viewport(cmd, 0, &[viewport]);
+            self.device.cmd_set_scissor(cmd, 0, &[area]);
+        }
+    }
+
+    /// Ends the pass begun last.
+    #[cfg(feature = "headless")]
+    pub fn end_pass(&self, cmd: vk::CommandBuffer) {
+        // SAFETY: cmd is recording inside a render pass.
+        unsafe { self.device.cmd_end_render_pass(cmd) };
+    }
+}
+
+/// The clear value of a depth attachment.
+#[cfg(feature = "headless")]
+pub fn clear_depth(depth: f32) -> vk::ClearValue {
+    vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } }
+}

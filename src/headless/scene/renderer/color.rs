@@ -1,0 +1,118 @@
+//! Colour: meshes, then the sky where none is. With several samples a pixel it has a depth of its
+//! own and is resolved; with one it goes on from the depth pass.
+//! Reads: vertices, shadow map, environment, irradiance, textures. Writes: scene colour, all of it.
+
+use ash::vk;
+
+use super::super::Scene;
+use super::super::bake::Batch;
+use super::meshes::Meshes;
+use super::opaque::DepthOnly;
+use super::sky::Sky;
+use super::targets::{Samples, Targets};
+use super::textures::Textures;
+use super::{Formats, Recording, SceneFrame};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, COLOR_ATTACHMENT, DEPTH_ATTACHMENT};
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::Image;
+use crate::gpu::pass::{Attachment, Attachments, clear_depth};
+
+/// Samples of a pixel where edges are smoothed and the device has them.
+const MANY: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_4;
+const ONE: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_1;
+
+pub struct Color {
+    /// Samples of a pixel.
+    pub samples: vk::SampleCountFlags,
+    pass: Owned<vk::RenderPass>,
+    /// Depth of the samples, before their colour.
+    first: Option<DepthOnly>,
+    /// The opaque meshes and the ground.
+    pub meshes: Meshes,
+    sky: Sky,
+}
+
+impl Color {
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        batches: &[Batch],
+        textures: &mut Textures,
+        formats: Formats,
+        antialias: bool,
+    ) -> Result<Self, Error> {
+        let counts =
+            gpu.limits.framebuffer_color_sample_counts & gpu.limits.framebuffer_depth_sample_counts;
+        let samples = if antialias && counts.contains(MANY) { MANY } else { ONE };
+        let pass = gpu.render_pass("scene/color", &attachments(formats, samples))?;
+        let first = match samples {
+            ONE => None,
+            _ => Some(DepthOnly::colored(gpu, pass.handle, samples)?),
+        };
+        let meshes = Meshes::new(gpu, scene, batches, textures, pass.handle, samples)?;
+        let sky = Sky::new(gpu, pass.handle, samples)?;
+        Ok(Self { samples, pass, first, meshes, sky })
+    }
+
+    /// `samples`: where there are several.
+    pub fn framebuffer(
+        &self,
+        gpu: &Gpu,
+        frame: &SceneFrame<'_>,
+        samples: Option<&Samples>,
+    ) -> Result<Owned<vk::Framebuffer>, Error> {
+        let views = match samples {
+            Some(samples) => vec![samples.color.view, samples.depth.view, frame.color.view],
+            None => vec![frame.color.view, frame.depth.view],
+        };
+        gpu.framebuffer_of("scene/color", self.pass.handle, &views, frame.color.extent)
+    }
+
+    /// `depth`: the frame's, drawn before.
+    pub fn record(&self, r: &Recording<'_>, targets: &Targets, depth: &Image) -> Result<(), Error> {
+        match &targets.samples {
+            // Cleared each time: what the slot's frame before left there is of no use.
+            Some(Samples { color, depth }) => {
+                let color = access::image(color, COLOR_ATTACHMENT.discarded(), COLOR_ATTACHMENT);
+                let depth = access::image(depth, DEPTH_ATTACHMENT.discarded(), DEPTH_ATTACHMENT);
+                r.gpu.barriers(r.cmd, &[color, depth], &[]);
+            }
+            // Tested against the depth of the pass before.
+            None => {
+                let depth = access::image(depth, DEPTH_ATTACHMENT, DEPTH_ATTACHMENT);
+                r.gpu.barriers(r.cmd, &[depth], &[]);
+            }
+        }
+        // The sky covers whatever the colour is cleared to.
+        let clears = [vk::ClearValue::default(), clear_depth(r.view.far)];
+        r.gpu.begin_pass_with(r.cmd, self.pass.handle, targets.color.handle, r.area, &clears);
+        if let Some(first) = &self.first {
+            // The shading is dear: only what is seen is shaded.
+            first.draw(r.gpu, r.cmd, r.geometry, r.view, r.geometry.count);
+        }
+        let drawn = self.meshes.draw(r).and_then(|()| self.sky.draw(r));
+        r.gpu.end_pass(r.cmd);
+        drawn
+    }
+}
+
+fn attachments(formats: Formats, samples: vk::SampleCountFlags) -> Attachments {
+    use vk::{AttachmentLoadOp as Load, AttachmentStoreOp as Store};
+    let color = |samples, load, store| Attachment { format: formats.color, samples, load, store };
+    let depth = |load, store| Attachment { format: formats.depth, samples, load, store };
+    if samples == ONE {
+        Attachments {
+            color: Some(color(ONE, Load::CLEAR, Store::STORE)),
+            depth: Some(depth(Load::LOAD, Store::STORE)),
+            resolve: None,
+        }
+    } else {
+        Attachments {
+            color: Some(color(samples, Load::CLEAR, Store::DONT_CARE)),
+            depth: Some(depth(Load::CLEAR, Store::DONT_CARE)),
+            resolve: Some(color(ONE, Load::DONT_CARE, Store::STORE)),
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The opaque meshes and the ground, shaded. One pipeline for each kind of surface, as a software
+//! device takes both sides of every branch.
+//! Reads: vertices, shadow map, environment, irradiance, textures, uniforms.
+
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+use glam::{Quat, Vec3};
+
+use super::super::bake::Batch;
+use super::super::{Material, Mesh, Pattern, Scene, Texture};
+use super::opaque::{Opaque, set_depth_test};
+use super::textures::Textures;
+use super::{Recording, geometry};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::descriptors::bind_set;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+
+/// Push constants of `scene.frag`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Push {
+    turn: [f32; 4],
+    origin: [f32; 4],
+    color: [f32; 4],
+    pattern: [f32; 4],
+}
+
+shader::assert_layout!(shader::HEADLESS_SCENE_FRAG, "Push", Push { turn, origin, color, pattern });
+
+/// What `scene.frag` is specialised for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Kind {
+    pattern: u32,
+    ground: u32,
+    textured: u32,
+}
+
+pub struct Meshes {
+    pipelines: BTreeMap<Kind, Pipeline>,
+    draws: Vec<Draw>,
+}
+
+struct Draw {
+    kind: Kind,
+    texture: usize,
+    first: u32,
+    count: u32,
+    push: Push,
+}
+
+impl Meshes {
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        batches: &[Batch],
+        textures: &mut Textures,
+        pass: vk::RenderPass,
+        samples: vk::SampleCountFlags,
+    ) -> Result<Self, Error> {
+        // Textures are shared by what points to the same one.
+        let mut known: BTreeMap<*const Texture, usize> = BTreeMap::new();
+        let mut pipelines = BTreeMap::new();
+        let mut draws = Vec::new();
+        for batch in batches {
+            let mesh = batch.mesh.map(|index| &scene.meshes[index]);
+            let material = match (mesh, &scene.ground) {
+                (Some(mesh), _) => &mesh.material,
+                (None, Some(ground)) => &ground.material,
+                (None, None) => continue,
+            };
+            let texture = match &material.texture {
+                None => Textures::WHITE,
+                Some(texture) => match known.entry(Arc::as_ptr(texture)) {
+                    Entry::Occupied(entry) => *entry.get(),
+                    Entry::Vacant(entry) => *entry.insert(textures.add(gpu, texture)?),
+                },
+            };
+            let draw = Draw::new(batch, texture, mesh, material);
+            if let Entry::Vacant(entry) = pipelines.entry(draw.kind) {
+                entry.insert(pipeline(gpu, draw.kind, pass, samples)?);
+            }
+            draws.push(draw);
+        }
+        // By pipeline; within one as the scene has them.
+        draws.sort_by_key(|draw| draw.kind);
+        Ok(Self { pipelines, draws })
+    }
+
+    /// Descriptor sets that a record takes: one for each pipeline with each texture.
+    pub fn sets(&self) -> u32 {
+        let draws = self.draws.iter().map(|draw| (draw.kind, draw.texture));
+        draws.collect::<BTreeSet<_>>().len() as u32
+    }
+
+    pub fn draw(&self, r: &Recording<'_>) -> Result<(), Error> {
+        r.geometry.bind(r.gpu, r.cmd);
+        set_depth_test(r.gpu, r.cmd, r.view.far);
+        let mut sets: BTreeMap<(Kind, usize), vk::DescriptorSet> = BTreeMap::new();
+        for draw in &self.draws {
+            let Some(pipeline) = self.pipelines.get(&draw.kind) else { continue };
+            let set = match sets.entry((draw.kind, draw.texture)) {
+                Entry::Occupied(entry) => *entry.get(),
+                Entry::Vacant(entry) => {
+                    let resources = r.resources(draw.texture);
+                    *entry.insert(r.descriptors.set(r.gpu, pipeline, &resources)?)
+                }
+            };
+            pipeline.bind(r.gpu, r.cmd);
+            bind_set(r.gpu, r.cmd, pipeline, set);
+            pipeline.push(r.gpu, r.cmd, &draw.push);
+            // SAFETY: inside a render pass; the indices are within the vertices.
+            unsafe { r.gpu.device.cmd_draw_indexed(r.cmd, draw.count, 1, draw.first, 0, 0) };
+        }
+        Ok(())
+    }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    kind: Kind,
+    pass: vk::RenderPass,
+    samples: vk::SampleCountFlags,
+) -> Result<Pipeline, Error> {
+    let opaque = Opaque {
+        vertex: shader::HEADLESS_SCENE_VERT,
+        fragment: Some(shader::HEADLESS_SCENE_FRAG),
+        attributes: &geometry::VERTICES,
+        pass,
+        colored: true,
+        samples,
+        bias: 0.0,
+        constants: &[(0, kind.pattern), (1, kind.ground), (2, kind.textured)],
+    };
+    opaque.pipeline(gpu)
+}
+
+impl Draw {
+    fn new(batch: &Batch, texture: usize, mesh: Option<&Mesh>, material: &Material) -> Self {
+        let (mut turn, mut origin) = (Quat::IDENTITY, Vec3::ZERO);
+        if let Some(mesh) = mesh {
+            let (_, rotation, translation) = mesh.transform.to_scale_rotation_translation();
+            // A mesh that is not turned takes the world's frame: tiles go on round corners.
+            if rotation.is_finite() && !rotation.is_near_identity() {
+                (turn, origin) = (rotation.normalize(), translation);
+            }
+        }
+        // The numbers of `scene.frag`.
+        let (pattern, size, band) = match material.pattern {
+            Pattern::Plain => (0, 1.0, None),
+            Pattern::Tiles { size, band } => (1, size, band),
+            Pattern::Planks { width } => (2, width, None),
+            Pattern::Concrete => (3, 1.0, None),
+            Pattern::Stone { course } => (4, course, None),
+            Pattern::Sand => (5, 1.0, None),
+            Pattern::Paving { size } => (6, size, None),
+        };
+        let [r, g, b] = material.base_color;
+        Self {
+            kind: Kind {
+                pattern,
+                ground: mesh.is_none().into(),
+                textured: material.texture.is_some().into(),
+            },
+            texture,
+            first: batch.first,
+            count: batch.count,
+            push: Push {
+                turn: turn.to_array(),
+                origin: origin.extend(0.0).to_array(),
+                color: [r, g, b, material.roughness.clamp(0.05, 1.0)],
+                pattern: [size.max(1e-4), band.unwrap_or(-1e6), 0.0, 0.0],
+            },
+        }
+    }
+}

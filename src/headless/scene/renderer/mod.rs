@@ -1,0 +1,230 @@
+//! Pass `scene`: opaque meshes, ground and sky under a sun with a shadow map.
+//!
+//! Once: [`geometry`] and [`textures`] are uploaded, [`shadow`] draws the shadow map. Each frame:
+//! [`irradiance`] of the environment; [`depth`], which the water is tested against, with one
+//! sample a pixel; [`color`], of [`meshes`] and [`sky`], with four where that is asked for and the
+//! device has them. [`targets`] are the images and framebuffers they draw to, [`uniforms`] what
+//! their shaders know of the view, and [`opaque`] the pipeline state they share.
+//! Reads: vertices, shadow map, environment. Writes: scene colour and depth, all of both.
+
+mod color;
+mod depth;
+mod geometry;
+mod irradiance;
+mod meshes;
+mod opaque;
+mod shadow;
+mod sky;
+mod targets;
+mod textures;
+mod uniforms;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use super::{Scene, bake};
+use crate::contract::{Camera, Slot};
+use crate::error::Error;
+use crate::frame::Lens;
+use crate::gpu::Gpu;
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::image::Image;
+use crate::headless::depth_of_nothing;
+use color::Color;
+use depth::Depth;
+use geometry::Geometry;
+use irradiance::Irradiance;
+use opaque::View;
+use shadow::Shadow;
+use targets::Targets;
+use textures::Textures;
+use uniforms::{Surroundings, Uniforms};
+
+/// What one record needs.
+#[derive(Clone, Copy)]
+pub struct SceneFrame<'a> {
+    /// The slot; its earlier work is complete.
+    pub slot: Slot,
+    /// The slot's descriptor sets: room for [`SceneRenderer::sets`].
+    pub descriptors: &'a Descriptors,
+    /// The view.
+    pub camera: &'a Camera,
+    /// Colour target in COLOR_ATTACHMENT_OPTIMAL, before and after.
+    pub color: &'a Image,
+    /// Depth target in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, before and after.
+    pub depth: &'a Image,
+    /// Cube of the environment with its mips, in SHADER_READ_ONLY_OPTIMAL; its last barrier makes
+    /// it visible to compute and fragment shaders.
+    pub environment: vk::ImageView,
+    /// Linear in the texels and between the mips.
+    pub sampler: vk::Sampler,
+}
+
+/// The pass.
+pub struct SceneRenderer {
+    surroundings: Surroundings,
+    geometry: Geometry,
+    textures: Textures,
+    shadow: Shadow,
+    irradiance: Irradiance,
+    depth: Depth,
+    color: Color,
+    slots: Vec<SlotState>,
+}
+
+/// What frames in flight must not share.
+struct SlotState {
+    uniforms: Buffer,
+    /// Of the record last made.
+    targets: Option<Targets>,
+}
+
+/// Formats of the frame's images.
+#[derive(Clone, Copy)]
+struct Formats {
+    color: vk::Format,
+    depth: vk::Format,
+}
+
+/// What the passes of one record share.
+struct Recording<'a> {
+    gpu: &'a Gpu,
+    cmd: vk::CommandBuffer,
+    descriptors: &'a Descriptors,
+    geometry: &'a Geometry,
+    textures: &'a Textures,
+    view: View,
+    /// All of the frame.
+    area: vk::Rect2D,
+    /// All but the texture.
+    resources: [(u32, Resource); 4],
+}
+
+impl Recording<'_> {
+    /// Everything that a shader of the scene may read.
+    fn resources(&self, texture: usize) -> [(u32, Resource); 5] {
+        let [a, b, c, d] = self.resources;
+        [a, b, c, d, (4, self.textures.resource(texture))]
+    }
+}
+
+impl SceneRenderer {
+    /// Bakes the scene's light, makes pipelines, images and buffers. The depth convention is not
+    /// fixed here: each record takes it from its camera. `antialias` smooths the edges; it costs
+    /// little on a GPU, and on a software device several times the pass. What a failure leaves is
+    /// freed by the next `Gpu::bury`.
+    ///
+    /// # Errors
+    /// A sun without direction; no memory; what Vulkan reports.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        color_format: vk::Format,
+        depth_format: vk::Format,
+        antialias: bool,
+    ) -> Result<Self, Error> {
+        let formats = Formats { color: color_format, depth: depth_format };
+        let surroundings = Surroundings::new(scene)?;
+        let baked = bake::bake(scene);
+        let mut textures = Textures::new(gpu)?;
+        let color = Color::new(gpu, scene, &baked.batches, &mut textures, formats, antialias)?;
+        let slot = |_| {
+            let (name, size) = ("scene/uniforms", size_of::<Uniforms>() as u64);
+            let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
+            let uniforms = Buffer::new(gpu, name, size, usage, MemoryLocation::CpuToGpu)?;
+            Ok(SlotState { uniforms, targets: None })
+        };
+        Ok(Self {
+            geometry: Geometry::new(gpu, &baked)?,
+            textures,
+            shadow: Shadow::new(gpu, scene, surroundings.to_sun)?,
+            irradiance: Irradiance::new(gpu)?,
+            depth: Depth::new(gpu, formats.depth)?,
+            color,
+            slots: (0..gpu.slots).map(slot).collect::<Result<_, Error>>()?,
+            surroundings,
+        })
+    }
+
+    /// How many descriptor sets a record takes.
+    pub fn sets(&self) -> u32 {
+        // Irradiance, sky, meshes.
+        2 + self.color.meshes.sets()
+    }
+
+    /// Records the uploads and the shadow map; submitted once, before any record.
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        gpu.begin_label(cmd, c"scene/setup");
+        self.geometry.record_upload(gpu, cmd);
+        self.textures.record_upload(gpu, cmd);
+        self.shadow.record(gpu, cmd, &self.geometry);
+        gpu.end_label(cmd);
+    }
+
+    /// Frees what only `record_setup` needed. The GPU must be done with it.
+    pub fn finish_setup(&mut self, gpu: &Gpu) {
+        self.geometry.uploaded();
+        self.textures.uploaded();
+        gpu.bury();
+    }
+
+    /// Draws the scene: clears colour and depth and fills both. Drops what the slot's earlier
+    /// record drew to, for the next `Gpu::bury`.
+    ///
+    /// # Errors
+    /// A camera that cannot be drawn, no memory, what Vulkan reports.
+    pub fn record(
+        &mut self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        frame: &SceneFrame<'_>,
+    ) -> Result<(), Error> {
+        let lens = Lens::new(frame.camera)?;
+        let (index, slots) = (frame.slot.0 as usize, self.slots.len());
+        let Some(slot) = self.slots.get_mut(index) else {
+            let why = format!("expected less than {slots}, found {index}");
+            return Err(Error::bad("SceneFrame.slot", why));
+        };
+        if frame.color.extent != frame.depth.extent {
+            return Err(Error::bad("SceneFrame.depth", "not of the colour image's size"));
+        }
+        let far = depth_of_nothing(&lens);
+        let uniforms =
+            Uniforms::new(&self.surroundings, &self.shadow.sun, frame.camera, &lens, far);
+        let bytes = bytemuck::bytes_of(&uniforms);
+        slot.uniforms.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+        let earlier = slot.targets.take().and_then(|targets| targets.samples);
+        let targets = Targets::new(gpu, frame, &self.depth, &self.color, earlier)?;
+        let targets = slot.targets.insert(targets);
+
+        let r = Recording {
+            gpu,
+            cmd,
+            descriptors: frame.descriptors,
+            geometry: &self.geometry,
+            textures: &self.textures,
+            view: View { clip: frame.camera.projection * frame.camera.view, far },
+            area: frame.color.extent.into(),
+            resources: [
+                (0, Resource::buffer(&slot.uniforms)),
+                (1, self.shadow.resource()),
+                (2, Resource::Sampled(frame.environment, frame.sampler)),
+                (3, self.irradiance.resource()),
+            ],
+        };
+        gpu.begin_label(cmd, c"scene");
+        let drawn = self.irradiance.record(&r).and_then(|()| {
+            self.depth.record(&r, targets.depth.handle);
+            self.color.record(&r, targets, frame.depth)
+        });
+        gpu.end_label(cmd);
+        drawn
+    }
+
+    /// Frees everything. The GPU must be done with it.
+    pub fn destroy(self, gpu: &Gpu) {
+        drop(self);
+        gpu.bury();
+    }
+}

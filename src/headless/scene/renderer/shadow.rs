@@ -1,0 +1,135 @@
+//! The sun's shadow map: depth of everything that casts a shadow, seen along the sun's light.
+//! Drawn once, in the set-up: nothing in the scene moves.
+//! Reads: vertices. Writes: shadow map.
+
+use ash::vk;
+use glam::{Mat4, Vec2, Vec3};
+
+use super::super::Scene;
+use super::geometry::Geometry;
+use super::opaque::{DepthOnly, View};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED, NOTHING};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pass::{Attachment, Attachments, clear_depth};
+
+/// Edge of the map in texels.
+pub const SIZE: u32 = 2048;
+const FORMAT: vk::Format = vk::Format::D32_SFLOAT;
+/// Keeps lit slopes out of their own shadow, in slopes of a texel.
+const BIAS: f32 = 1.5;
+
+pub struct Shadow {
+    map: Image,
+    sampler: Owned<vk::Sampler>,
+    pass: Owned<vk::RenderPass>,
+    framebuffer: Owned<vk::Framebuffer>,
+    pipeline: DepthOnly,
+    /// What the map shows.
+    pub sun: SunView,
+}
+
+impl Shadow {
+    /// `direction`: to the sun, unit length.
+    pub fn new(gpu: &Gpu, scene: &Scene, direction: Vec3) -> Result<Self, Error> {
+        let map = Image::new(
+            gpu,
+            &ImageDesc::new(
+                "scene/shadow",
+                vk::Extent2D { width: SIZE, height: SIZE },
+                FORMAT,
+                vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED,
+            ),
+        )?;
+        // Compares; lit outside.
+        let border = vk::SamplerAddressMode::CLAMP_TO_BORDER;
+        let info = vk::SamplerCreateInfo::default()
+            .mag_filter(vk::Filter::LINEAR)
+            .min_filter(vk::Filter::LINEAR)
+            .address_mode_u(border)
+            .address_mode_v(border)
+            .address_mode_w(border)
+            .border_color(vk::BorderColor::FLOAT_OPAQUE_WHITE)
+            .compare_enable(true)
+            .compare_op(vk::CompareOp::LESS_OR_EQUAL);
+        let depth = Attachment {
+            format: FORMAT,
+            samples: vk::SampleCountFlags::TYPE_1,
+            load: vk::AttachmentLoadOp::CLEAR,
+            store: vk::AttachmentStoreOp::STORE,
+        };
+        let attachments = Attachments { depth: Some(depth), ..Attachments::default() };
+        let pass = gpu.render_pass("scene/shadow", &attachments)?;
+        Ok(Self {
+            sampler: gpu.sampler("scene/shadow", &info)?,
+            framebuffer: gpu.framebuffer("scene/shadow", pass.handle, map.view, map.extent)?,
+            pipeline: DepthOnly::new(gpu, pass.handle, BIAS)?,
+            sun: SunView::new(scene, direction),
+            pass,
+            map,
+        })
+    }
+
+    /// Draws the map. The geometry is uploaded.
+    pub fn record(&self, gpu: &Gpu, cmd: vk::CommandBuffer, geometry: &Geometry) {
+        let area = self.map.extent.into();
+        let view = View { clip: self.sun.clip, far: 1.0 };
+        gpu.barriers(cmd, &[access::image(&self.map, NOTHING, DEPTH_ATTACHMENT)], &[]);
+        let (pass, framebuffer) = (self.pass.handle, self.framebuffer.handle);
+        gpu.begin_pass_with(cmd, pass, framebuffer, area, &[clear_depth(view.far)]);
+        self.pipeline.draw(gpu, cmd, geometry, view, geometry.casters);
+        gpu.end_pass(cmd);
+        gpu.barriers(cmd, &[access::image(&self.map, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED)], &[]);
+    }
+
+    pub fn resource(&self) -> Resource {
+        Resource::Sampled(self.map.view, self.sampler.handle)
+    }
+}
+
+/// The sun's orthographic view of everything that casts a shadow.
+#[derive(Clone, Copy)]
+pub struct SunView {
+    /// World to clip space.
+    pub clip: Mat4,
+    /// World size of a texel.
+    pub texel: f32,
+}
+
+impl SunView {
+    fn new(scene: &Scene, direction: Vec3) -> Self {
+        let up = if direction.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
+        let view = Mat4::look_to_rh(Vec3::ZERO, -direction, up);
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for mesh in &scene.meshes {
+            for &position in &mesh.positions {
+                let at = mesh.transform.transform_point3(position.into());
+                let at = view.transform_point3(at);
+                if at.is_finite() {
+                    low = low.min(at);
+                    high = high.max(at);
+                }
+            }
+        }
+        if !low.is_finite() || !high.is_finite() {
+            (low, high) = (Vec3::splat(-1.0), Vec3::ONE);
+        }
+        // Square texels, and room for the filter at the border, which is lit.
+        let size = (high - low).truncate().max_element().max(1e-4);
+        let half = Vec2::splat(0.5 * size * (1.0 + 16.0 / SIZE as f32));
+        let centre = (0.5 * (low + high)).truncate();
+        let margin = 0.01 * (high - low).length().max(1e-4);
+        let clip = Mat4::orthographic_rh(
+            centre.x - half.x,
+            centre.x + half.x,
+            centre.y - half.y,
+            centre.y + half.y,
+            -high.z - margin,
+            -low.z + margin,
+        ) * view;
+        Self { clip, texel: 2.0 * half.x / SIZE as f32 }
+    }
+}

@@ -1,0 +1,66 @@
+//! What one slot draws to: the frame's images, and between them and the colour pass, where edges
+//! are smoothed, images of several samples a pixel.
+
+use ash::vk;
+
+use super::SceneFrame;
+use super::color::Color;
+use super::depth::Depth;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::{Image, ImageDesc};
+
+pub struct Targets {
+    pub depth: Owned<vk::Framebuffer>,
+    pub color: Owned<vk::Framebuffer>,
+    pub samples: Option<Samples>,
+}
+
+impl Targets {
+    /// Made for each record, as the frame's views may be others each time. Samples of the slot's
+    /// earlier record, which is complete, are used again where they fit.
+    pub fn new(
+        gpu: &Gpu,
+        frame: &SceneFrame<'_>,
+        depth: &Depth,
+        color: &Color,
+        earlier: Option<Samples>,
+    ) -> Result<Self, Error> {
+        let fits = |samples: &Samples| samples.color.extent == frame.color.extent;
+        let samples = match earlier {
+            _ if color.samples == vk::SampleCountFlags::TYPE_1 => None,
+            Some(samples) if fits(&samples) => Some(samples),
+            _ => Some(Samples::new(gpu, frame, color.samples)?),
+        };
+        Ok(Self {
+            depth: depth.framebuffer(gpu, frame.depth)?,
+            color: color.framebuffer(gpu, frame, samples.as_ref())?,
+            samples,
+        })
+    }
+}
+
+/// Colour and depth with several samples a pixel; they end with their pass.
+pub struct Samples {
+    pub color: Image,
+    pub depth: Image,
+}
+
+impl Samples {
+    fn new(
+        gpu: &Gpu,
+        frame: &SceneFrame<'_>,
+        samples: vk::SampleCountFlags,
+    ) -> Result<Self, Error> {
+        use vk::ImageUsageFlags as Usage;
+        let image = |name, like: &Image, usage| {
+            let desc = ImageDesc::new(name, like.extent, like.format, usage);
+            Image::new(gpu, &ImageDesc { samples, ..desc })
+        };
+        Ok(Self {
+            color: image("scene/samples", frame.color, Usage::COLOR_ATTACHMENT)?,
+            depth: image("scene/depths", frame.depth, Usage::DEPTH_STENCIL_ATTACHMENT)?,
+        })
+    }
+}

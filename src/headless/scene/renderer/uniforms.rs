@@ -1,0 +1,119 @@
+//! The uniform block of all shaders of the scene.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3};
+
+use super::super::bake::GROUND_FADE;
+use super::super::{Scene, SunLight};
+use super::shadow::{self, SunView};
+use crate::contract::Camera;
+use crate::error::Error;
+use crate::frame::Lens;
+use crate::gpu::shader;
+
+/// Radiance of the sun's disc over its irradiance: one over its solid angle, less where a half
+/// float would overflow.
+const DISC: f32 = 1.0 / 6.8e-5;
+const DISC_MOST: f32 = 3.0e4;
+/// Height of a ground that is not there: nothing stands near it.
+const NO_GROUND: f32 = -1e9;
+
+/// The block `Scene` of `glsl/headless/scene.glsl`; its comments say what each member holds.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct Uniforms {
+    clip: [[f32; 4]; 4],
+    shadow: [[f32; 4]; 4],
+    eye: [f32; 4],
+    ray_x: [f32; 4],
+    ray_y: [f32; 4],
+    ray_z: [f32; 4],
+    sun_direction: [f32; 4],
+    sun_color: [f32; 4],
+    shadow_texel: [f32; 4],
+    ground: [f32; 4],
+}
+
+shader::assert_layout!(
+    shader::HEADLESS_SCENE_FRAG,
+    "Scene",
+    Uniforms {
+        clip,
+        shadow,
+        eye,
+        ray_x,
+        ray_y,
+        ray_z,
+        sun_direction,
+        sun_color,
+        shadow_texel,
+        ground
+    }
+);
+
+/// What the block says of the scene, the same in every frame.
+pub struct Surroundings {
+    /// To the sun, unit length.
+    pub to_sun: Vec3,
+    sun_color: Vec3,
+    ground: Option<f32>,
+    /// Centre x and z; where the ground begins and ends to fade.
+    fade: [f32; 4],
+}
+
+impl Surroundings {
+    /// # Errors
+    /// A sun without direction, or of no colour.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        let SunLight { direction, color } = scene.sun;
+        let Some(to_sun) = Vec3::from(direction).try_normalize() else {
+            return Err(Error::bad("Scene.sun.direction", "not finite, or of no length"));
+        };
+        if !color.iter().all(|c| c.is_finite() && *c >= 0.0) {
+            return Err(Error::bad("Scene.sun.color", "expected finite values of at least 0"));
+        }
+        let (low, high) = scene.bounds();
+        let (centre, size) = (0.5 * (low + high), (high - low).length());
+        let [begin, end] = GROUND_FADE;
+        Ok(Self {
+            to_sun,
+            sun_color: color.into(),
+            ground: scene.ground.as_ref().map(|g| g.y),
+            fade: [centre.x, centre.z, begin * size, end * size],
+        })
+    }
+}
+
+impl Uniforms {
+    /// `far`: device depth of nothing.
+    pub fn new(
+        surroundings: &Surroundings,
+        sun: &SunView,
+        camera: &Camera,
+        lens: &Lens,
+        far: f32,
+    ) -> Self {
+        let Surroundings { to_sun, sun_color, ground, fade } = *surroundings;
+        let world = lens.view.inverse();
+        let turn = |v: Vec3| world.transform_vector3(v).extend(0.0).to_array();
+        let p = lens.p;
+        // Clip space of the sun is -1 to 1 with the same y down.
+        let to_uv = Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0))
+            * Mat4::from_scale(Vec3::new(0.5, 0.5, 1.0));
+        let disc = DISC.min(DISC_MOST / sun_color.max_element().max(1e-6));
+        let texel = 1.0 / shadow::SIZE as f32;
+        let shows = if ground.is_some() { 1.0 } else { 0.0 };
+        Self {
+            clip: (camera.projection * camera.view).to_cols_array_2d(),
+            shadow: (to_uv * sun.clip).to_cols_array_2d(),
+            eye: world.transform_point3(Vec3::ZERO).extend(far).to_array(),
+            ray_x: turn(Vec3::X / p.x),
+            ray_y: turn(Vec3::Y / p.y),
+            ray_z: turn(Vec3::new(p.z / p.x, p.w / p.y, -1.0)),
+            sun_direction: to_sun.extend(shows).to_array(),
+            sun_color: sun_color.extend(disc).to_array(),
+            shadow_texel: [texel, texel, sun.texel, ground.unwrap_or(NO_GROUND)],
+            ground: fade,
+        }
+    }
+}

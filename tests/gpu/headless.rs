@@ -1,0 +1,182 @@
+//! The headless renderer and its stand-in scene behind a spy: whichever call fails, nothing is left
+//! behind, and the next attempt is good.
+
+use std::sync::{Arc, Mutex};
+
+use ash::vk;
+use whitewater::Error;
+use whitewater::headless::scene::{Material, Mesh, Scene, Texture};
+use whitewater::headless::{Background, Device, Headless};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+use crate::support::spy::{self, MAKERS};
+
+const SIZE: vk::Extent2D = vk::Extent2D { width: 32, height: 16 };
+const NO_MEMORY: vk::Result = vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
+
+/// A device with the spy in its function table; the lock on it goes with the test's.
+fn spied() -> (Gpu, Device) {
+    let mut gpu = Gpu::own();
+    let functions = spy::functions(&gpu);
+    let allocator = gpu.make_allocator(&functions);
+    let mut device = gpu.take_device();
+    device.device = functions;
+    device.allocator = Arc::new(Mutex::new(allocator));
+    spy::reset();
+    spy::forget();
+    (gpu, device)
+}
+
+/// Some of a function's calls, first and last among them.
+fn chosen(calls: u32) -> Vec<u32> {
+    let mut chosen: Vec<u32> = (0..calls.min(4)).map(|i| 1 + i * (calls - 1) / 3).collect();
+    chosen.dedup();
+    chosen
+}
+
+fn is_memory_error(error: &Error) -> bool {
+    match error {
+        Error::Vulkan { result, .. } => *result == NO_MEMORY,
+        Error::Allocation { .. } => true,
+        _ => false,
+    }
+}
+
+/// A box with a texture on a plain sheet: two pipelines, two textures.
+fn scene() -> Scene {
+    let texture = Arc::new(Texture { width: 3, height: 2, data: vec![[200, 100, 50, 255]; 6] });
+    let textured = Material { texture: Some(texture), ..Material::default() };
+    let meshes = vec![
+        Mesh::cuboid([0.0, 0.0, -4.0], [0.5; 3], [0.0, 0.0, 0.0, 1.0], textured),
+        Mesh::plane([0.0, -0.5, -4.0], [2.0, 2.0], Material::default()),
+    ];
+    Scene { meshes, ..Scene::default() }
+}
+
+#[test]
+fn a_failed_headless_leaves_nothing() {
+    let calls: Vec<u32> = {
+        let (_gpu, device) = spied();
+        let headless = Headless::new(device, &config(SIZE)).expect("headless");
+        let calls = MAKERS.iter().map(|f| f.calls()).collect();
+        drop(headless.finish().expect("finish"));
+        assert_eq!(spy::live(), Vec::<String>::new());
+        calls
+    };
+    let mut wrong = Vec::new();
+    for (function, calls) in MAKERS.iter().zip(calls) {
+        for k in chosen(calls) {
+            let (_gpu, device) = spied();
+            function.fail(k, NO_MEMORY);
+            let name = format!("{} call {k}", function.name.to_string_lossy());
+            match Headless::new(device, &config(SIZE)) {
+                Err(error) if is_memory_error(&error) => {}
+                Err(error) => wrong.push(format!("{name}: {error}")),
+                Ok(_) => wrong.push(format!("{name}: no error")),
+            }
+            let live = spy::live();
+            if !live.is_empty() {
+                wrong.push(format!("{name}: left {}", live.join(", ")));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+#[test]
+fn a_failed_scene_leaves_nothing() {
+    let (_gpu, device) = spied();
+    let mut headless = Headless::new(device, &config(SIZE)).expect("headless");
+    let scene = scene();
+    spy::reset();
+    headless.scene(&scene, true).expect("scene");
+    let calls: Vec<u32> = MAKERS.iter().map(|f| f.calls()).collect();
+    assert!(spy::CREATE_RENDER_PASS.calls() >= 3 && spy::CREATE_SAMPLER.calls() >= 2, "it sees");
+    // The scene there is goes first: from here on there is none.
+    spy::CREATE_RENDER_PASS.fail(1, NO_MEMORY);
+    assert!(headless.scene(&scene, true).is_err());
+    let mut wrong = Vec::new();
+    for (function, calls) in MAKERS.iter().zip(calls) {
+        for k in chosen(calls) {
+            // The allocator keeps blocks of its own and asks for none.
+            if std::ptr::eq(*function, &spy::ALLOCATE_MEMORY) {
+                continue;
+            }
+            spy::reset();
+            spy::forget();
+            let held = allocations(headless.device());
+            function.fail(k, NO_MEMORY);
+            let name = format!("{} call {k}", function.name.to_string_lossy());
+            match headless.scene(&scene, true) {
+                Err(error) if is_memory_error(&error) => {}
+                Err(error) => wrong.push(format!("{name}: {error}")),
+                Ok(()) => wrong.push(format!("{name}: no error")),
+            }
+            let live = spy::live();
+            if !live.is_empty() {
+                wrong.push(format!("{name}: left {}", live.join(", ")));
+            }
+            if allocations(headless.device()) != held {
+                wrong.push(format!("{name}: left memory"));
+            }
+        }
+    }
+    spy::reset();
+    headless.scene(&scene, true).expect("a scene after all");
+    let device = headless.finish().expect("finish");
+    wrong.extend(device.take_messages());
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// How much the allocator has handed out.
+fn allocations(device: &Device) -> usize {
+    device.allocator.lock().unwrap().generate_report().allocations.len()
+}
+
+#[test]
+fn a_failed_frame_of_a_scene_can_be_repeated() {
+    let mut wrong = Vec::new();
+    for antialias in [true, false] {
+        let (_gpu, device) = spied();
+        let mut headless = Headless::new(device, &config(SIZE)).expect("headless");
+        let shot = Shot::new(
+            extent(32, 16),
+            Lens::Standard,
+            0.2,
+            &scenes::block(3, 0.25, [4, 4, 2], [-0.5, -0.5, 3.0]),
+        );
+        headless.particles(&shot.positions, None).expect("particles");
+        headless.scene(&scene(), antialias).expect("scene");
+        let draw = |headless: &mut Headless| {
+            headless.render(&shot.camera, &shot.settings, &Background::Scene)
+        };
+        draw(&mut headless).expect("a frame");
+        let expected = headless.color().expect("read back");
+        let live = spy::live();
+        for function in [&spy::CREATE_FRAMEBUFFER, &spy::ALLOCATE_SETS] {
+            for k in 1..=3 {
+                spy::reset();
+                function.fail(k, NO_MEMORY);
+                let name = format!("{antialias}, {} call {k}", function.name.to_string_lossy());
+                match draw(&mut headless) {
+                    Err(error) if is_memory_error(&error) => {}
+                    Err(error) => wrong.push(format!("{name}: {error}")),
+                    Ok(()) => wrong.push(format!("{name}: no error")),
+                }
+                spy::reset();
+                draw(&mut headless).expect("a frame after all");
+                if headless.color().expect("read back") != expected {
+                    wrong.push(format!("{name}: another picture afterwards"));
+                }
+                if spy::live() != live {
+                    wrong.push(format!("{name}: left {:?}, not {live:?}", spy::live()));
+                }
+            }
+        }
+        let device = headless.finish().expect("finish");
+        wrong.extend(device.take_messages());
+    }
+    assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
