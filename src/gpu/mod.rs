@@ -47,13 +47,15 @@ pub struct Gpu {
     own_samplers: Vec<Owned<vk::Sampler>>,
 }
 
-/// The samplers there are; all clamp to the edge.
+/// The samplers there are; they clamp to the edge unless said.
 #[derive(Default)]
 pub struct Samplers {
     /// Nearest texel, first mip.
     pub nearest: vk::Sampler,
     /// Linear in the texels and between the mips.
     pub linear: vk::Sampler,
+    /// The same, closed on itself from left to right: for maps of all directions.
+    pub around: vk::Sampler,
 }
 
 impl Gpu {
@@ -117,24 +119,27 @@ impl Gpu {
     }
 
     fn make_samplers(&mut self) -> Result<(), Error> {
-        let mut make = |filter, mip, max_lod| -> Result<vk::Sampler, Error> {
+        let clamp = vk::SamplerAddressMode::CLAMP_TO_EDGE;
+        let mut make = |filter, mip, max_lod, across| -> Result<vk::Sampler, Error> {
             let info = vk::SamplerCreateInfo::default()
                 .mag_filter(filter)
                 .min_filter(filter)
                 .mipmap_mode(mip)
                 .max_lod(max_lod)
-                .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-                .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-                .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
+                .address_mode_u(across)
+                .address_mode_v(clamp)
+                .address_mode_w(clamp);
             // SAFETY: valid create info.
             let handle = unsafe { self.device.create_sampler(&info, None) }
                 .context(|| "vkCreateSampler".into())?;
             self.own_samplers.push(Owned::new(handle, Grave::Sampler, &self.graveyard));
             Ok(handle)
         };
+        let (linear, mips) = (vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR);
         self.samplers = Samplers {
-            nearest: make(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0)?,
-            linear: make(vk::Filter::LINEAR, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
+            nearest: make(vk::Filter::NEAREST, vk::SamplerMipmapMode::NEAREST, 0.0, clamp)?,
+            linear: make(linear, mips, vk::LOD_CLAMP_NONE, clamp)?,
+            around: make(linear, mips, vk::LOD_CLAMP_NONE, vk::SamplerAddressMode::REPEAT)?,
         };
         Ok(())
     }
