@@ -14,6 +14,8 @@ mod composite;
 mod contract;
 #[path = "gpu/depth.rs"]
 mod depth;
+#[path = "gpu/environment.rs"]
+mod environment;
 #[path = "gpu/harness.rs"]
 mod harness;
 #[path = "gpu/invariants.rs"]

@@ -16,6 +16,7 @@ use std::ops::Range;
 pub mod composite;
 pub mod cull;
 pub mod depth;
+pub mod environment;
 pub mod reduce;
 pub mod smooth;
 pub mod thickness;

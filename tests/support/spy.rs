@@ -2,10 +2,10 @@
 //! a call fail. One at a time, as the tests.
 
 use std::ffi::{CStr, c_void};
-use std::sync::atomic::{AtomicI32, AtomicI64, AtomicPtr, AtomicU32, Ordering::SeqCst};
+use std::sync::atomic::{AtomicI32, AtomicI64, AtomicPtr, AtomicU32, AtomicU64, Ordering::SeqCst};
 use std::sync::{Arc, Mutex};
 
-use ash::vk;
+use ash::vk::{self, Handle};
 
 use super::device::Gpu;
 
@@ -106,7 +106,6 @@ spied! {
     BIND_BUFFER_MEMORY c"vkBindBufferMemory" (d: vk::Device, b: u64, m: u64, o: u64) made 0;
     BIND_IMAGE_MEMORY c"vkBindImageMemory" (d: vk::Device, b: u64, m: u64, o: u64) made 0;
     CREATE_BUFFER c"vkCreateBuffer" (d: vk::Device, i: P, a: P, o: P) made 1;
-    CREATE_IMAGE c"vkCreateImage" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_IMAGE_VIEW c"vkCreateImageView" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_SAMPLER c"vkCreateSampler" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_SHADER_MODULE c"vkCreateShaderModule" (d: vk::Device, i: P, a: P, o: P) made 1;
@@ -256,8 +255,39 @@ unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P
     result
 }
 
-const BY_HAND: &[(&Function, *const c_void)] =
-    &[(&CREATE_DESCRIPTOR_POOL, create_descriptor_pool as *const c_void)];
+/// Made by hand: it keeps the cube.
+pub static CREATE_IMAGE: Function = Function::new(c"vkCreateImage");
+/// The image of six layers that was made last: the environment, which no layer of a frame shows.
+static CUBE: AtomicU64 = AtomicU64::new(0);
+
+/// The environment of the renderer that was made last.
+pub fn cube() -> vk::Image {
+    vk::Image::from_raw(CUBE.load(SeqCst))
+}
+
+unsafe extern "system" fn create_image(d: vk::Device, i: P, a: P, o: P) -> vk::Result {
+    if let Some(result) = CREATE_IMAGE.called() {
+        return result;
+    }
+    // SAFETY: the driver's function, with a valid create info and room for the handle.
+    let (result, cube) = unsafe {
+        let real: unsafe extern "system" fn(vk::Device, P, P, P) -> vk::Result =
+            std::mem::transmute(CREATE_IMAGE.real.load(SeqCst));
+        let result = real(d, i, a, o);
+        let info = &*i.cast::<vk::ImageCreateInfo<'_>>();
+        (result, (info.array_layers == 6).then(|| *o.cast::<u64>()))
+    };
+    if result == vk::Result::SUCCESS {
+        CREATE_IMAGE.live.fetch_add(1, SeqCst);
+        CUBE.store(cube.unwrap_or(CUBE.load(SeqCst)), SeqCst);
+    }
+    result
+}
+
+const BY_HAND: &[(&Function, *const c_void)] = &[
+    (&CREATE_DESCRIPTOR_POOL, create_descriptor_pool as *const c_void),
+    (&CREATE_IMAGE, create_image as *const c_void),
+];
 
 fn all() -> impl Iterator<Item = &'static (&'static Function, *const c_void)> {
     WITH_RESULT.iter().chain(WITHOUT_RESULT).chain(BY_HAND)
