@@ -20,6 +20,8 @@ mod environment;
 mod harness;
 #[path = "gpu/invariants.rs"]
 mod invariants;
+#[path = "gpu/limits.rs"]
+mod limits;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/reduce.rs"]

@@ -4,6 +4,7 @@
 pub mod compare;
 pub mod device;
 pub mod host;
+pub mod limits;
 pub mod rig;
 pub mod scenes;
 pub mod spy;
