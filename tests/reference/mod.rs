@@ -19,6 +19,7 @@ pub mod depth;
 pub mod environment;
 pub mod reduce;
 pub mod smooth;
+pub mod surface;
 pub mod thickness;
 
 /// The depth of a pixel without a surface.

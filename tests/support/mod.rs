@@ -6,7 +6,9 @@ pub mod device;
 pub mod host;
 pub mod limits;
 pub mod rig;
+pub mod rounded;
 pub mod scenes;
+pub mod shaded;
 pub mod spy;
 pub mod tolerance;
 
