@@ -26,7 +26,8 @@ pub enum EnvironmentSource {
     Equirectangular(Equirectangular),
 }
 
-/// A clear sky by single scattering in a Rayleigh and Mie atmosphere, over grey ground.
+/// A clear sky by single scattering in a Rayleigh and Mie atmosphere (to 4 % of its integral), over
+/// grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sky {
     /// World direction to the sun, unit length, y up.
@@ -41,14 +42,15 @@ impl Default for Sky {
     }
 }
 
-/// An equirectangular image: row 0 up, its middle column along world −z.
+/// An equirectangular image: row 0 up, its middle column along world −z, its right quarter along
+/// +x; left and right edge meet along +z.
 #[derive(Clone, Copy, Debug)]
 pub struct Equirectangular {
-    /// Linear radiance.
+    /// Linear radiance. Its format must be good for linear filtering.
     pub image: HostImage,
-    /// Factor on the radiance, default 1.
+    /// Factor on the radiance, default 1; the product is cut at 65 000.
     pub scale: f32,
-    /// Turn about y in radians.
+    /// Right-handed turn of the image about +y in radians: what lay along −z moves towards −x.
     pub turn: f32,
 }
 
@@ -163,7 +165,7 @@ impl Environment {
                     gpu,
                     cmd,
                     &self.equirect,
-                    &[target, (1, Resource::Sampled(image.view, gpu.samplers.linear))],
+                    &[target, (1, Resource::Sampled(image.view, gpu.samplers.around))],
                 )?;
                 let push = EquirectPush { size, scale: equirect.scale, turn: equirect.turn };
                 self.equirect.push(gpu, cmd, &push);

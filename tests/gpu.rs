@@ -14,6 +14,8 @@ mod composite;
 mod contract;
 #[path = "gpu/depth.rs"]
 mod depth;
+#[path = "gpu/environment.rs"]
+mod environment;
 #[path = "gpu/harness.rs"]
 mod harness;
 #[path = "gpu/headless.rs"]
@@ -22,6 +24,8 @@ mod headless;
 mod invariants;
 #[path = "gpu/level.rs"]
 mod level;
+#[path = "gpu/limits.rs"]
+mod limits;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/reduce.rs"]

@@ -48,13 +48,15 @@ pub struct Gpu {
     own_samplers: Vec<Owned<vk::Sampler>>,
 }
 
-/// The samplers there are; all clamp to the edge.
+/// The samplers there are; they clamp to the edge unless said.
 #[derive(Default)]
 pub struct Samplers {
     /// Nearest texel, first mip.
     pub nearest: vk::Sampler,
     /// Linear in the texels and between the mips.
     pub linear: vk::Sampler,
+    /// The same, closed on itself from left to right: for maps of all directions.
+    pub around: vk::Sampler,
 }
 
 impl Gpu {
@@ -118,24 +120,27 @@ impl Gpu {
     }
 
     fn make_samplers(&mut self) -> Result<(), Error> {
-        let mut make = |name, filter, mip, max_lod| -> Result<vk::Sampler, Error> {
+        let clamp = vk::SamplerAddressMode::CLAMP_TO_EDGE;
+        let mut make = |name, filter, mip, max_lod, across| -> Result<vk::Sampler, Error> {
             let info = vk::SamplerCreateInfo::default()
                 .mag_filter(filter)
                 .min_filter(filter)
                 .mipmap_mode(mip)
                 .max_lod(max_lod)
-                .address_mode_u(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-                .address_mode_v(vk::SamplerAddressMode::CLAMP_TO_EDGE)
-                .address_mode_w(vk::SamplerAddressMode::CLAMP_TO_EDGE);
+                .address_mode_u(across)
+                .address_mode_v(clamp)
+                .address_mode_w(clamp);
             let sampler = self.sampler(name, &info)?;
             let handle = sampler.handle;
             self.own_samplers.push(sampler);
             Ok(handle)
         };
         let (nearest, linear) = (vk::Filter::NEAREST, vk::Filter::LINEAR);
+        let (mips, all) = (vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE);
         self.samplers = Samplers {
-            nearest: make("nearest", nearest, vk::SamplerMipmapMode::NEAREST, 0.0)?,
-            linear: make("linear", linear, vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE)?,
+            nearest: make("nearest", nearest, vk::SamplerMipmapMode::NEAREST, 0.0, clamp)?,
+            linear: make("linear", linear, mips, all, clamp)?,
+            around: make("around", linear, mips, all, vk::SamplerAddressMode::REPEAT)?,
         };
         Ok(())
     }

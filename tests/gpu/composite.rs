@@ -4,17 +4,20 @@ use glam::{DVec2, DVec3};
 use whitewater::Config;
 use whitewater::water::{Fresnel, Medium, Splat};
 
+use crate::harness::fails;
 use crate::reduce::wide;
-use crate::reference::composite::{self as twin, Inputs, hidden, look_up, surface};
+use crate::reference::composite::{self as twin, Inputs, hidden, look_up};
+use crate::reference::surface::{Case, Surface, Surfaces};
 use crate::reference::{Image, View, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens};
-use crate::support::tolerance::{U, reach};
+use crate::support::shaded::{Filter, Shaded, shaded};
+use crate::support::tolerance::U;
 
 /// What the environment is, for the picture and its twin.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Sky {
     /// A constant that half precision holds.
     Even,
@@ -22,6 +25,8 @@ enum Sky {
     Slope,
 }
 
+/// A scene of one colour: what filters may do to it is nothing, the bounds are those of arithmetic.
+const FLAT: [f32; 4] = [0.3, 0.5, 0.7, 0.75];
 const CUBE: f64 = 64.0;
 const SKY: (u32, u32) = (256, 128);
 
@@ -51,6 +56,11 @@ impl Sky {
             .collect()
     }
 
+    /// The most that a channel changes per unit of direction.
+    fn slope(self) -> f64 {
+        if self == Self::Even { 0.0 } else { 0.25 }
+    }
+
     /// Error of the cube: linear interpolation in it and in the image that it is made of misses
     /// h² / 8 of the second derivative (0.25) an axis, four samples a texel as much again; half
     /// precision keeps 2^-11 of 0.75; the weights are of `bits` bits of a texel's difference.
@@ -70,6 +80,7 @@ fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     let rgb = |c: [f32; 3]| c.map(f64::from);
     twin::Settings {
         radius: f64::from(water.radius()),
+        falloff: f64::from(water.depth_falloff),
         refraction: f64::from(water.refraction),
         medium: match water.medium {
             Medium::Physical { absorption, scattering } => twin::Medium::Physical {
@@ -96,83 +107,71 @@ fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     }
 }
 
-/// Whether a difference of the surface round a pixel is so near to the border threshold that
-/// rounding decides.
-fn undecided(inputs: &Inputs<'_>, threshold: f64, x: usize, y: usize) -> bool {
-    let front = inputs.depth.at(x, y);
-    let block = f64::from(1 << inputs.level);
-    let base = (DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / block - 0.5).floor();
-    let near =
-        |difference: f64, z: f64| (difference.abs() - threshold).abs() <= 8.0 * U * z.min(front);
-    let at = |x: isize, y: isize| inputs.smoothed.clamped(x, y);
-    (-1..3_isize).flat_map(|dy| (-1..3_isize).map(move |dx| (dx, dy))).any(|(dx, dy)| {
-        let (x, y) = (base.x as isize + dx, base.y as isize + dy);
-        let here = at(x, y);
-        near(here - front, front)
-            || near(here - at(x + 1, y), here)
-            || near(here - at(x, y + 1), here)
-    })
+/// How many pixels were of each kind.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cases {
+    whole: usize,
+    border: usize,
+    part_rim: usize,
+    rim: usize,
+    steep_rim: usize,
+    nearest: usize,
+    alone: usize,
+    drop: usize,
+    part_drop: usize,
+    borrowed: usize,
 }
 
-/// How far the picture may be off, from u and the numbers of the pixel:
-/// the normal by 32u times the condition of its tangents, the colour's slope times what that moves
-/// the look-up (and a texel's difference times the filter's weight step); absorption by 16u of the
-/// exponent; Fresnel and highlight by their slopes times the normal, and pow's own error; the
-/// environment by its own.
-fn tolerance(
-    shot: &Shot,
-    settings: &twin::Settings,
-    surface: &twin::Surface,
-    view: &View,
-    sky: Sky,
-    bits: u32,
-) -> ([f64; 4], f64) {
-    let z = -surface.position.z;
-    let normal = 32.0 * U * surface.condition * (1.0 + reach(view));
-    let path = surface.thickness * surface.position.length() / z;
-    let pixels = surface.thickness * settings.refraction / (view.c_x().min(view.c_y()) * z);
-    let moved = pixels * (normal + 16.0 * U) + 8.0 * U * view.extent().max_element();
-    // The scene's colour: see `gradient`.
-    let slope = 1.0 / 256.0;
-    let behind = slope * (2.0 * moved + 2.0 / f64::from(1 << bits));
-    let light = |i: usize| f64::from(shot.settings.light.ambient[i]) + 1.0;
-    let extinction = match settings.medium {
-        twin::Medium::Physical { absorption, scattering, .. } => {
-            [0, 1, 2].map(|i| absorption[i] + scattering[i])
-        }
-        twin::Medium::Source { k, .. } => [0, 1, 2].map(|i| k[i] + k[3]),
-    };
-    let v = -surface.position.normalize();
-    // pow(x, y) = exp2(y log2 x); near 1 log2 has an absolute error of 2^-21.
-    let power_of = |x: f64, y: f64| {
-        let x = (x + 2.0 * normal + 8.0 * U).clamp(0.0, 1.0);
-        y * x.powf(y - 1.0) * (2.0 * normal + 8.0 * U + x / f64::from(1 << 21))
-    };
-    let grazing = 1.0 - surface.normal.dot(v);
-    let fresnel = match settings.fresnel {
-        twin::Fresnel::Source { scale, power, .. } => scale * power_of(grazing, power),
-        twin::Fresnel::Schlick { .. } => power_of(grazing, 5.0),
-    };
-    let half = (v + settings.sun_direction).normalize_or_zero();
-    let shine = power_of(surface.normal.dot(half).max(0.0), settings.shininess);
-    let mut tolerance = [0.0; 4];
-    for (i, t) in tolerance.iter_mut().take(3).enumerate() {
-        let absorbed = (16.0 * extinction[i] * path * U + 16.0 * U) * light(i);
-        let sun = settings.specular[i] * settings.sun_color[i];
-        *t = behind
-            + absorbed
-            + 2.0 * (fresnel + 32.0 * U)
-            + sky.error(bits)
-            + sun * (shine + 32.0 * U);
+impl Cases {
+    fn count(&mut self, surface: &Surface) {
+        let parts = &surface.parts;
+        *match parts.case {
+            Case::Whole => &mut self.whole,
+            Case::Border => &mut self.border,
+            Case::PartRim => &mut self.part_rim,
+            Case::Rim => &mut self.rim,
+            Case::SteepRim => &mut self.steep_rim,
+            Case::Nearest => &mut self.nearest,
+            Case::Alone => &mut self.alone,
+        } += 1;
+        self.drop += usize::from(parts.drop == 1.0);
+        self.part_drop += usize::from(parts.drop > 0.0 && parts.drop < 1.0);
+        self.borrowed += usize::from(parts.borrowed);
     }
-    (tolerance, moved)
 }
 
-fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) {
+impl std::ops::AddAssign for Cases {
+    fn add_assign(&mut self, other: Self) {
+        self.whole += other.whole;
+        self.border += other.border;
+        self.part_rim += other.part_rim;
+        self.rim += other.rim;
+        self.steep_rim += other.steep_rim;
+        self.nearest += other.nearest;
+        self.alone += other.alone;
+        self.drop += other.drop;
+        self.part_drop += other.part_drop;
+        self.borrowed += other.borrowed;
+    }
+}
+
+fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) -> Cases {
+    check_other(name, rig, shot, sky, |_| ())
+}
+
+/// Against a twin whose look is another.
+fn check_other(
+    name: &str,
+    rig: &mut Rig<'_>,
+    shot: &Shot,
+    sky: Sky,
+    other: impl Fn(&mut twin::Settings),
+) -> Cases {
     let (size, level) = (rig.config.extent, rig.config.smoothing_level);
     let drawn: Drawn = rig.draw(shot);
     let view = shot.view(size);
-    let settings = twin_settings(shot, &view);
+    let mut settings = twin_settings(shot, &view);
+    other(&mut settings);
     let (width, height) = (size.width as usize, size.height as usize);
     let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
     let color = Image::from_vec(width, height, color).expect("the output's size");
@@ -189,17 +188,32 @@ fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) {
     };
     let mut expected = twin::shade(&inputs, &settings, |d| sky.radiance(d), &view);
     let bits = rig.gpu.limits().sub_texel_precision_bits;
+    let (sky_slope, sky_error) = (sky.slope(), sky.error(bits));
+    let filter = Filter { bits, sky_slope, sky_error };
+    let surfaces = Surfaces::new(&inputs, &settings, &view);
     let (mut water, mut skipped) = (0, 0);
+    let mut cases = Cases::default();
     let mut bounds = Image::new(width, height, [0.0; 4]);
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         if !is_surface(depth.at(x, y)) {
             continue;
         }
         water += 1;
-        let found = surface(&inputs, settings.radius, &view, x, y).expect("a surface");
-        let (bound, moved) = tolerance(shot, &settings, &found, &view, sky, bits);
-        // A look-up as near to the next texel as it is uncertain may meet another scene.
+        let found = surfaces.at(x, y).expect("a surface");
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let seen = twin::seen(&inputs, &settings, &found, |d| sky.radiance(d), &view, pixel);
+        let Shaded { color, moved } =
+            shaded(&inputs, &settings, &found, &view, (x, y), seen, &filter);
+        for (i, c) in color.iter().enumerate() {
+            let twin = expected.at(x, y)[i];
+            // The view's matrix is a rotation to single precision only.
+            assert!(
+                (c.v - twin).abs() <= 8.0 * U * (1.0 + twin),
+                "{name}: two orders, two colours"
+            );
+        }
+        cases.count(&found);
+        // A look-up as near to the next texel as it is uncertain may meet another scene.
         let q = look_up(&settings, &found, &view, pixel);
         let z = -found.position.z;
         let sides = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
@@ -207,18 +221,20 @@ fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) {
         let texel = size.width as f64 / shot.depth_extent.width.min(size.width) as f64;
         let moved = moved + 2.0 * texel / f64::from(1 << bits);
         let either = sides.map(|(dx, dy)| hidden(&inputs, z, q + DVec2::new(dx, dy) * moved));
-        if undecided(&inputs, 5.3 * settings.radius, x, y) || either.iter().any(|h| *h != either[0])
-        {
+        // Depths are means of 13u, the falloff a product.
+        let undecided = 16.0 * U * (z + settings.falloff * settings.radius);
+        if found.parts.margin <= undecided || either.iter().any(|h| *h != either[0]) {
             skipped += 1;
             *expected.at_mut(x, y) = drawn.output.at(x, y).map(f64::from);
         }
-        *bounds.at_mut(x, y) = bound;
+        *bounds.at_mut(x, y) = [color[0].e, color[1].e, color[2].e, 0.0];
     }
     let census = compare::close_color(name, &drawn.output, &expected, |x, y| bounds.at(x, y));
     assert!(water > 300 && skipped * 50 <= water, "{name}: {skipped} of {water} undecided");
     if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
-        eprintln!("{name}: {skipped} of {water} undecided, {census}");
+        eprintln!("{name}: {skipped} of {water} undecided, {cases:?}, {census}");
     }
+    cases
 }
 
 fn shot(size: ash::vk::Extent2D, lens: Lens) -> Shot {
@@ -235,7 +251,7 @@ fn the_picture_is_the_twins() {
     let size = extent(97, 61);
     for (level, thickness_level) in [(0, 0), (1, 0), (1, 1), (2, 2), (0, 2), (1, 2), (2, 1), (1, 3)]
     {
-        for sky in [Sky::Even, Sky::Slope] {
+        for (sky, flat) in [(Sky::Even, true), (Sky::Even, false), (Sky::Slope, false)] {
             let config = Config {
                 smoothing_level: level,
                 thickness_level,
@@ -250,11 +266,49 @@ fn the_picture_is_the_twins() {
                 _ => &[Lens::Standard, Lens::OffAxis],
             };
             for lens in lenses {
-                let name = format!("composite-{level}{thickness_level}-{lens:?}-{}", sky as u8);
-                check(&name, &mut rig, &shot(size, *lens), sky);
+                let mut shot = shot(size, *lens);
+                if flat {
+                    shot.color.fill(FLAT);
+                }
+                let name = format!("composite-{level}{thickness_level}-{lens:?}-{sky:?}-{flat}");
+                check(&name, &mut rig, &shot, sky);
             }
         }
     }
+}
+
+/// Spheres of many pixels with steep limbs, single drops and thin layers, cut by narrow and wide
+/// falloffs: each rule of the surface decides in some pixels.
+#[test]
+fn every_rule_of_the_surface() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut all = Cases::default();
+    for (level, thickness_level) in [(0, 0), (1, 2), (2, 1), (2, 3), (1, 1)] {
+        // The twin knows one level; tests of `level` compare the others with it.
+        let config =
+            Config { smoothing_level: level, thickness_level, coarsening: 0, ..config(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        // At full resolution a surface smoothed by more than the falloff is left out.
+        let width_at_01 = if level == 0 { 0.0 } else { 0.5 };
+        for (falloff, width) in [(5.3, 1.5), (1.0, 0.0), (0.3, 0.0), (0.1, width_at_01)] {
+            let mut points = vec![[-1.2, 0.3, 5.0]; 5];
+            points.extend([[1.6, -0.9, 6.0]; 3]);
+            points.extend([[1.0, 1.2, 7.0], [0.4, -0.5, 4.0], [0.6, -0.3, 4.2]]);
+            points.extend(scenes::cloud(9, 60, 5.0, 20.0));
+            let mut shot = Shot::new(size, Lens::Standard, 0.6, &points);
+            shot.color.fill(FLAT);
+            let water = &mut shot.settings.water;
+            water.shininess = 20.0;
+            (water.depth_falloff, water.smoothing_width) = (falloff, width);
+            let name = format!("composite-rules-{level}{thickness_level}-{falloff}");
+            all += check(&name, &mut rig, &shot, Sky::Even);
+        }
+    }
+    let Cases { whole, part_rim, rim, steep_rim, alone, drop, part_drop, borrowed, .. } = all;
+    let least = [whole, part_rim, rim, steep_rim, alone, drop, part_drop, borrowed];
+    assert!(least.iter().all(|pixels| *pixels >= 20), "{all:?}");
 }
 
 #[test]
@@ -275,11 +329,52 @@ fn every_medium_and_reflectance() {
     ];
     for (medium_name, medium) in media {
         for (fresnel_name, fresnel) in fresnels {
-            let mut shot = shot(size, Lens::Standard);
-            shot.settings.water.medium = medium;
-            shot.settings.water.fresnel = fresnel;
-            check(&format!("composite-{medium_name}-{fresnel_name}"), &mut rig, &shot, Sky::Even);
+            for flat in [true, false] {
+                let mut shot = shot(size, Lens::Standard);
+                shot.settings.water.medium = medium;
+                shot.settings.water.fresnel = fresnel;
+                if flat {
+                    shot.color.fill(FLAT);
+                }
+                let name = format!("composite-{medium_name}-{fresnel_name}-{flat}");
+                check(&name, &mut rig, &shot, Sky::Even);
+            }
         }
+    }
+}
+
+/// A look that is off by a hundredth is another picture, for each of its numbers.
+#[test]
+fn a_hundredth_is_seen() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &config(size));
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let shot = shot(size, Lens::Standard);
+    let mut flat = shot.clone();
+    flat.color.fill(FLAT);
+    fn medium(settings: &mut twin::Settings, absorbs: f64, scatters: f64) {
+        if let twin::Medium::Physical { absorption, scattering, .. } = &mut settings.medium {
+            *absorption = absorption.map(|k| k * absorbs);
+            *scattering = scattering.map(|k| k * scatters);
+        }
+    }
+    type Fault = fn(&mut twin::Settings);
+    let faults: [(&str, &Shot, Fault); 7] = [
+        ("absorption", &flat, |s| medium(s, 1.01, 1.0)),
+        ("scattering", &flat, |s| medium(s, 1.0, 1.01)),
+        ("fresnel", &flat, |s| s.fresnel = twin::Fresnel::Schlick { f0: 0.0202 }),
+        ("specular", &flat, |s| s.specular = s.specular.map(|k| k * 1.01)),
+        ("shininess", &flat, |s| s.shininess *= 1.01),
+        ("radius", &flat, |s| s.radius *= 1.01),
+        ("refraction", &shot, |s| s.refraction *= 1.01),
+    ];
+    for (name, shot, fault) in faults {
+        check("planted-look", &mut rig, shot, Sky::Even);
+        let seen = fails(|| {
+            check_other("planted-look", &mut rig, shot, Sky::Even, fault);
+        });
+        assert!(seen, "{name} off by a hundredth");
     }
 }
 

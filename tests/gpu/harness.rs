@@ -15,7 +15,8 @@ use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::tolerance;
 
-fn fails(check: impl FnOnce()) -> bool {
+/// Whether a check panics; says nothing of it.
+pub fn fails(check: impl FnOnce()) -> bool {
     let hook = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| ()));
     let result = catch_unwind(AssertUnwindSafe(check));

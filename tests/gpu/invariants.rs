@@ -15,7 +15,7 @@ use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::{self, Sum};
 
 /// Sums in fixed point: the order of the particles is no matter.
-fn exact(size: vk::Extent2D) -> Config {
+pub fn exact(size: vk::Extent2D) -> Config {
     Config {
         depth_splat: Some(Splat::Compute),
         thickness_splat: Some(Splat::Compute),
@@ -23,13 +23,13 @@ fn exact(size: vk::Extent2D) -> Config {
     }
 }
 
-fn water(size: vk::Extent2D) -> Shot {
+pub fn water(size: vk::Extent2D) -> Shot {
     let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
     points.extend(scenes::cloud(4, 40, 0.2, 12.0));
     Shot::new(size, Lens::Standard, 0.2, &points)
 }
 
-fn same_drawn(name: &str, actual: &Drawn, expected: &Drawn) {
+pub fn same_drawn(name: &str, actual: &Drawn, expected: &Drawn) {
     compare::same(&format!("{name}-depth"), &actual.depth, &expected.depth);
     compare::same(&format!("{name}-surface"), &actual.surface, &expected.surface);
     compare::same(&format!("{name}-thickness"), &actual.thickness, &expected.thickness);
@@ -288,7 +288,7 @@ fn streams_may_be_strided_offset_and_interleaved() {
     }
 }
 
-fn packet_bytes(shot: &Shot, ranges: &[(u32, u32)]) -> Vec<u8> {
+pub fn packet_bytes(shot: &Shot, ranges: &[(u32, u32)]) -> Vec<u8> {
     let mut bytes = Vec::new();
     for &(first, count) in ranges {
         let mut low = [f32::INFINITY; 3];

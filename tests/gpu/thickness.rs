@@ -3,11 +3,14 @@
 use whitewater::Config;
 use whitewater::water::Splat;
 
+use std::f64::consts::PI;
+
 use crate::depth::spheres;
+use crate::reference::thickness::{J, kernel};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
-use crate::support::scenes::{self, LENSES, Lens};
+use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::{self, Sum};
 
 const PATHS: [(Splat, Sum); 2] = [(Splat::Raster, Sum::Float), (Splat::Compute, Sum::Fixed)];
@@ -72,6 +75,69 @@ fn sums_of_many_and_of_large_sprites() {
             for (name, radius, points) in cases {
                 let shot = Shot::new(size, Lens::Infinite, radius, &points);
                 check(&format!("thickness-{name}-{splat:?}-{width}"), &mut rig, &shot, sum);
+            }
+        }
+    }
+}
+
+/// Mean and deviation of what the pixels add up to of a sprite of a half-axis in pixels, wherever it
+/// lies against them, as a part of its integral.
+fn sampled(half: f64) -> (f64, f64) {
+    let reach = half.ceil() as i32 + 1;
+    let pixels = || (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| (x, y)));
+    let sums: Vec<f64> = (0..64 * 64)
+        .map(|i| (f64::from(i % 64) / 64.0, f64::from(i / 64) / 64.0))
+        .map(|(dx, dy)| {
+            let square =
+                |(x, y): (i32, i32)| (f64::from(x) - dx).powi(2) + (f64::from(y) - dy).powi(2);
+            let values = pixels().map(square).filter(|s| *s < half * half);
+            values.map(|s| kernel(s / (half * half))).sum::<f64>() / (PI * J * half * half)
+        })
+        .collect();
+    let n = sums.len() as f64;
+    let mean = sums.iter().sum::<f64>() / n;
+    let square = sums.iter().map(|s| (s - mean).powi(2)).sum::<f64>() / n;
+    (mean, square.sqrt())
+}
+
+/// The integral of the thickness over the plane the particles lie in is their volume, however small
+/// a sprite is against a pixel: none is lost between pixels, none counts for more by being widened.
+#[test]
+fn the_volume_is_kept_at_every_distance() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let count = 4000;
+    for (splat, _) in PATHS {
+        for level in [0, 2] {
+            let config =
+                Config { thickness_splat: Some(splat), thickness_level: level, ..config(size) };
+            let mut rig = Rig::new(&gpu, &config);
+            for axis in [0.1, 0.4, 0.9, 1.0, 1.1, 1.7] {
+                let depth = 8.0_f32;
+                let view = Shot::new(size, Lens::Standard, 1.0, &[]).view(size).reduced(level);
+                let pixel = view.c_x() * f64::from(depth);
+                let radius = (axis * pixel / 2.0) as f32;
+                // All of every sprite in the image.
+                let (x, y) = (view.width as f32 / 2.0 - 3.0, view.height as f32 / 2.0 - 3.0);
+                let mut random = Random(31);
+                let mut within = |n: f32| random.between(-n, n) * pixel as f32;
+                let points: Vec<[f32; 3]> =
+                    (0..count).map(|_| [within(x), within(y), depth]).collect();
+                let shot = Shot::new(size, Lens::Standard, radius, &points);
+                let drawn = rig.draw(&shot);
+                let area = pixel * view.c_y() * f64::from(depth);
+                let found: f64 =
+                    drawn.thickness.data.iter().map(|t| f64::from(*t) * area).sum::<f64>();
+                let volume = f64::from(shot.settings.water.spacing).powi(3) * f64::from(count);
+                let (mean, deviation) = sampled(axis.max(1.0));
+                assert!((mean - 1.0).abs() < 1e-3, "{mean}");
+                // Five deviations of the mean, and a thousandth for fixed point and rounding.
+                let most = 5.0 * deviation / f64::from(count).sqrt() + 1e-3;
+                let off = found / volume - 1.0;
+                if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+                    eprintln!("{splat:?}, level {level}, {axis} pixels: {off:.2e} of {most:.2e}");
+                }
+                assert!(off.abs() <= most, "{splat:?}, level {level}, {axis} pixels: {off}");
             }
         }
     }

@@ -1,6 +1,5 @@
-//! Twin of the water's composite (section 7, without foam): the surface rebuilt at full
-//! resolution from the smoothed depth of the reduced one, then refraction, absorption along the
-//! ray, Fresnel reflection and the highlight.
+//! Twin of the water's composite (section 7, without foam): refraction, absorption along the ray,
+//! Fresnel reflection and the highlight of the surface.
 //! ```text
 //! P = (s_x z, s_y z, -z)    n = P_x x P_y normalized, towards the eye    path = T |P| / z
 //! Physical  C = background t + ambient (scattering / ext) (1 - t),    t = exp(-ext path)
@@ -8,7 +7,8 @@
 //! C <- mix(C, env(R), w F) + w specular sun max(n.h, 0)^shininess,   w = smoothstep(0, r/4, T)
 //! ```
 
-use super::{Image, View, is_surface, smoothstep};
+use super::surface::{Surface, Surfaces};
+use super::{Image, View, smoothstep};
 use glam::{DVec2, DVec3};
 
 /// What light meets inside the water.
@@ -86,9 +86,10 @@ pub struct Inputs<'a> {
 /// The look.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// r, the drawn radius: the border threshold is 5.3 r, and water thinner than r / 4 fades out
-    /// of reflection.
+    /// r, the drawn radius: water thinner than r / 4 fades out of reflection.
     pub radius: f64,
+    /// Depths that differ by more radii are on different surfaces.
+    pub falloff: f64,
     /// Beta: by how much of the thickness a slope displaces the background.
     pub refraction: f64,
     /// The water.
@@ -103,151 +104,6 @@ pub struct Settings {
     pub sun_direction: DVec3,
     /// The sun's colour.
     pub sun_color: [f64; 3],
-}
-
-/// The water's surface in one pixel, in eye space.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface {
-    /// The point seen.
-    pub position: DVec3,
-    /// Its normal, towards the eye.
-    pub normal: DVec3,
-    /// The thickness along z.
-    pub thickness: f64,
-    /// By how much rounding of the tangents shows in the normal: |P_x| |P_y| / |P_x x P_y|.
-    pub condition: f64,
-}
-
-/// The part of a texel on the rim in the slope, where there are others.
-pub const RIM: f64 = 1.0 / 64.0;
-/// The steepest slope of a surface that is all rim: depth per width.
-pub const RIM_SLOPE: f64 = 1.5;
-
-/// The derivative along an axis of a texel and whether both sides are on its surface: the mean of
-/// the two differences, or the one that stays on the surface, 0 at an islet.
-fn derivative(
-    z: &Image<f64>,
-    (x, y): (isize, isize),
-    (dx, dy): (isize, isize),
-    threshold: f64,
-) -> (f64, bool) {
-    let here = z.clamped(x, y);
-    let a = z.checked(x - dx, y - dy).map_or(f64::INFINITY, |before| here - before);
-    let b = z.checked(x + dx, y + dy).map_or(f64::INFINITY, |after| after - here);
-    match (a.abs() <= threshold, b.abs() <= threshold) {
-        (true, true) => ((a + b) / 2.0, true),
-        (true, false) => (a, false),
-        (false, true) => (b, false),
-        (false, false) => (0.0, false),
-    }
-}
-
-/// The surface in a pixel of the full image, if there is water.
-pub fn surface(
-    inputs: &Inputs<'_>,
-    radius: f64,
-    view: &View,
-    x: usize,
-    y: usize,
-) -> Option<Surface> {
-    let zf = inputs.depth.at(x, y);
-    if !is_surface(zf) {
-        return None;
-    }
-    let threshold = 5.3 * radius;
-    let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-
-    // The texels of the smoothed depth on this pixel's surface and their weights.
-    let away = |x, y| (inputs.smoothed.clamped(x, y) - zf).abs();
-    let mut texels = inputs.smoothed.bilinear(pixel / f64::from(1 << inputs.level));
-    for (x, y, weight) in &mut texels {
-        *weight *= f64::from(away(*x, *y) <= threshold);
-    }
-    let mut sum: f64 = texels.iter().map(|t| t.2).sum();
-    let mut alone = false;
-    if sum < 1e-4 {
-        let nearest = (1..4).fold(0, |best, j| {
-            let nearer = away(texels[j].0, texels[j].1) < away(texels[best].0, texels[best].1);
-            if nearer { j } else { best }
-        });
-        for (j, texel) in texels.iter_mut().enumerate() {
-            texel.2 = f64::from(j == nearest);
-        }
-        sum = 1.0;
-        alone = away(texels[nearest].0, texels[nearest].1) > threshold;
-    }
-    let mean = |value: &dyn Fn(isize, isize) -> f64| {
-        let weighted = texels.iter().filter(|t| t.2 > 0.0).map(|t| t.2 * value(t.0, t.1));
-        weighted.sum::<f64>() / sum
-    };
-
-    // The last texels of a body of water curve away: they hardly count in the slope, and a surface
-    // of nothing else is never steep.
-    let g = view.slope_step() * f64::from(1 << inputs.level);
-    let (z, z_x, z_y) = if alone {
-        (zf, 0.0, 0.0)
-    } else {
-        let z = mean(&|x, y| inputs.smoothed.clamped(x, y));
-        let (mut slope, mut trusted) = (DVec2::ZERO, 0.0);
-        for (x, y, weight) in texels.iter().filter(|t| t.2 > 0.0) {
-            let (z_x, whole_x) = derivative(inputs.smoothed, (*x, *y), (1, 0), threshold);
-            let (z_y, whole_y) = derivative(inputs.smoothed, (*x, *y), (0, 1), threshold);
-            let trust = if whole_x && whole_y { 1.0 } else { RIM } * weight / sum;
-            slope += DVec2::new(z_x, z_y) * trust;
-            trusted += trust;
-        }
-        slope /= trusted;
-        if trusted <= 2.0 * RIM {
-            let steepest = g.abs() * z * RIM_SLOPE;
-            slope = slope.clamp(-steepest, steepest);
-        }
-        (z, slope.x, slope.y)
-    };
-    let thickness = match inputs.thickness_level {
-        0 => inputs.thickness.at(x, y),
-        same if same == inputs.level => mean(&|x, y| inputs.thickness.clamped(x, y)),
-        other => {
-            // Bilinear, with the texels whose middle is on this surface; with all if none is.
-            let all = inputs.thickness.bilinear(pixel / f64::from(1 << other));
-            let ratio = f64::from(1 << other) / f64::from(1 << inputs.level);
-            let h = (pixel / f64::from(1 << other) - 0.5).floor();
-            let on = |j: usize| {
-                let middle = h + DVec2::new((j & 1) as f64, (j >> 1) as f64) + 0.5;
-                let at = (middle * ratio).floor();
-                let there = inputs.smoothed.clamped(at.x as isize, at.y as isize);
-                (there - z).abs() <= threshold
-            };
-            let same: f64 = (0..4).filter(|j| on(*j)).map(|j| all[j].2).sum();
-            let value = |j: usize| all[j].2 * inputs.thickness.clamped(all[j].0, all[j].1);
-            match same > 1e-3 {
-                true => (0..4).filter(|j| on(*j)).map(value).sum::<f64>() / same,
-                false => (0..4).map(value).sum(),
-            }
-        }
-    };
-
-    // Less than a layer of water is a drop: it keeps the shape of its sphere.
-    let spacing = radius / 0.656;
-    let drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, thickness);
-    let raw = |step: (isize, isize)| {
-        derivative(inputs.depth, (x as isize, y as isize), step, threshold).0
-    };
-    let reduced = f64::from(1 << inputs.level);
-    let steepest = view.slope_step().abs() * zf * RIM_SLOPE;
-    let sphere = DVec2::new(raw((1, 0)), raw((0, 1))).clamp(-steepest, steepest) * reduced;
-    let slope = DVec2::new(z_x, z_y).lerp(sphere, drop);
-    let (z_x, z_y) = (slope.x, slope.y);
-
-    // P = z (s_x, s_y, -1); g is what a pixel of the smoothed image adds to the slope.
-    let ray = view.ray(x, y);
-    let position = ray * z;
-    let along_x = DVec3::new(g.x * z, 0.0, 0.0) + ray * z_x;
-    let along_y = DVec3::new(0.0, g.y * z, 0.0) + ray * z_y;
-    let cross = along_x.cross(along_y);
-    let condition = along_x.length() * along_y.length() / cross.length();
-    let normal = cross.normalize();
-    let normal = if normal.dot(position) > 0.0 { -normal } else { normal };
-    Some(Surface { position, normal, thickness, condition })
 }
 
 /// Where the background is looked up, in pixels: displaced by refraction. Light bends towards the
@@ -291,6 +147,24 @@ fn background(
     inputs.scene_color.bilinear(q).iter().map(color).sum()
 }
 
+/// The direction in the world in which a surface mirrors.
+fn mirrored(surface: &Surface, view: &View) -> DVec3 {
+    let (n, v) = (surface.normal, -surface.position.normalize());
+    view.view.inverse().transform_vector3(2.0 * n.dot(v) * n - v).normalize()
+}
+
+/// What a surface shows: the scene behind it and the environment it mirrors.
+pub fn seen(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    env: impl Fn(DVec3) -> DVec3,
+    view: &View,
+    pixel: DVec2,
+) -> (DVec3, DVec3) {
+    (background(inputs, settings, surface, view, pixel), env(mirrored(surface, view)))
+}
+
 /// The picture: water over the scene with alpha 1, the scene as it is elsewhere. `env` gives the
 /// environment's radiance from a direction in the world.
 pub fn shade(
@@ -299,8 +173,9 @@ pub fn shade(
     env: impl Fn(DVec3) -> DVec3 + Sync,
     view: &View,
 ) -> Image<[f64; 4]> {
+    let surfaces = Surfaces::new(inputs, settings, view);
     Image::from_fn(view.width, view.height, |x, y| {
-        let Some(surface) = surface(inputs, settings.radius, view, x, y) else {
+        let Some(surface) = surfaces.at(x, y) else {
             return inputs.scene_color.at(x, y);
         };
         let Surface { position, normal: n, thickness, .. } = surface;
@@ -308,7 +183,7 @@ pub fn shade(
         let v = -position.normalize();
         let path = thickness * position.length() / -position.z;
 
-        let background = background(inputs, settings, &surface, view, pixel);
+        let (background, mirrored_sky) = seen(inputs, settings, &surface, &env, view, pixel);
         let exp = |k: DVec3| (-k * path).exp();
         let mut color = match settings.medium {
             Medium::Physical { absorption, scattering, ambient } => {
@@ -325,11 +200,10 @@ pub fn shade(
         };
 
         let w = smoothstep(0.0, settings.radius / 4.0, thickness);
-        let reflected = 2.0 * n.dot(v) * n - v;
-        let reflected = view.view.inverse().transform_vector3(reflected).normalize();
+        let reflected = mirrored(&surface, view);
         // What is mirrored from below the horizon is more water, not the environment's ground.
         let sky = smoothstep(-0.3, 0.0, reflected.y);
-        color = color.lerp(env(reflected), w * sky * settings.fresnel.reflectance(n.dot(v)));
+        color = color.lerp(mirrored_sky, w * sky * settings.fresnel.reflectance(n.dot(v)));
 
         let h = (v + settings.sun_direction).normalize_or_zero();
         let highlight = n.dot(h).max(0.0).powf(settings.shininess);
@@ -347,6 +221,7 @@ mod tests {
 
     const PLAIN: Settings = Settings {
         radius: 0.5,
+        falloff: 5.3,
         refraction: 0.25,
         medium: Medium::Physical {
             absorption: [0.5, 0.2, 0.0],
@@ -406,7 +281,8 @@ mod tests {
             for level in 0..3 {
                 let scene = Scene::new(&view, level, 1.0, |ray| -n.z * 20.0 / ray.dot(n));
                 for (x, y) in [(81, 60), (30, 20), (140, 100)] {
-                    let found = surface(&scene.inputs(level), 0.5, &view, x, y).expect("water");
+                    let found =
+                        Surfaces::new(&scene.inputs(level), &PLAIN, &view).at(x, y).expect("water");
                     assert!((found.normal - n).length() < 2e-3, "{found:?}");
                     assert!(
                         (found.position - view.ray(x, y) * scene.depth.at(x, y)).length() < 5e-2
@@ -424,7 +300,7 @@ mod tests {
         for (x, y) in (0..32).flat_map(|y| (16..32).map(move |x| (x, y))) {
             *scene.smoothed.at_mut(x, y) = if x < 20 { 40.0 } else { EMPTY };
         }
-        let at = |x| surface(&scene.inputs(1), 0.5, &view, x, 30).expect("water");
+        let at = |x| Surfaces::new(&scene.inputs(1), &PLAIN, &view).at(x, 30).expect("water");
         assert!((at(31).normal - n).length() < 0.02, "{:?}", at(31));
         // Water without a smoothed surface near it.
         let islet = at(50);

@@ -16,8 +16,10 @@ use std::ops::Range;
 pub mod composite;
 pub mod cull;
 pub mod depth;
+pub mod environment;
 pub mod reduce;
 pub mod smooth;
+pub mod surface;
 pub mod thickness;
 
 /// The depth of a pixel without a surface.

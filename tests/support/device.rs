@@ -18,6 +18,8 @@ pub struct Gpu {
     /// Functions and allocator handed to the library; a spy replaces them.
     pub functions: ash::Device,
     pub allocator: Arc<Mutex<Allocator>>,
+    /// The instance's functions that are handed to the library, where they are not its own.
+    pub claims: Option<ash::Instance>,
     /// The test leaves objects behind on purpose.
     pub leaks: bool,
     _lock: MutexGuard<'static, ()>,
@@ -74,7 +76,7 @@ impl Gpu {
             Held::Shared(device) => (device.device.clone(), device.allocator.clone()),
             Held::Own(device) => (device.device.clone(), device.allocator.clone()),
         };
-        Self { device: Some(device), functions, allocator, leaks: false, _lock: lock }
+        Self { device: Some(device), functions, allocator, claims: None, leaks: false, _lock: lock }
     }
 
     /// The device that most tests share.
@@ -103,6 +105,7 @@ impl Gpu {
     /// The host's side of the contract.
     pub fn host(&self, frames_in_flight: u32) -> Host<'_> {
         Host {
+            instance: self.claims.as_ref().unwrap_or(&self.instance),
             device: &self.functions,
             allocator: self.allocator.clone(),
             ..Device::host(self, frames_in_flight)

@@ -400,6 +400,59 @@ impl Stub {
         back.bytes().to_vec()
     }
 
+    /// The bytes of every mip of a cube of `size`, face by face; it is back in its state afterwards.
+    pub fn download_cube(
+        &self,
+        image: vk::Image,
+        format: vk::Format,
+        size: u32,
+        state: Access,
+    ) -> Vec<Vec<u8>> {
+        let color = vk::ImageAspectFlags::COLOR;
+        let mips = 0..=size.ilog2();
+        let bytes = |mip: u32| 6 * u64::from(size >> mip).pow(2) * texel_size(format);
+        let usage = vk::BufferUsageFlags::TRANSFER_DST;
+        let back: Vec<Data> = mips.map(|mip| self.sized(bytes(mip), usage)).collect();
+        self.run(|cmd| {
+            self.barrier(cmd, image, color, state, COPIED_FROM);
+            for (mip, back) in back.iter().enumerate() {
+                let extent = vk::Extent2D { width: size >> mip, height: size >> mip };
+                let mut region = region(color, extent.into());
+                region.image_subresource.mip_level = mip as u32;
+                region.image_subresource.layer_count = 6;
+                // SAFETY: the image is in the copy's layout and the buffer has its size.
+                unsafe {
+                    self.device.cmd_copy_image_to_buffer(
+                        cmd,
+                        image,
+                        COPIED_FROM.layout,
+                        back.buffer,
+                        &[region],
+                    );
+                }
+                self.to_host(cmd, back);
+            }
+            self.barrier(cmd, image, color, COPIED_FROM, state);
+        });
+        back.iter().map(|mip| mip.bytes().to_vec()).collect()
+    }
+
+    /// Makes what a copy wrote into a buffer visible to the CPU.
+    fn to_host(&self, cmd: vk::CommandBuffer, back: &Data) {
+        let to_host = [vk::BufferMemoryBarrier2::default()
+            .buffer(back.buffer)
+            .size(vk::WHOLE_SIZE)
+            .src_stage_mask(COPIED_TO.stage)
+            .src_access_mask(COPIED_TO.access)
+            .dst_stage_mask(HOST_READ.stage)
+            .dst_access_mask(HOST_READ.access)
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)];
+        let info = vk::DependencyInfo::default().buffer_memory_barriers(&to_host);
+        // SAFETY: cmd is recording, the buffer is alive.
+        unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
+    }
+
     /// Records the copy of an image into a buffer that the CPU reads.
     pub fn record_download(
         &self,
@@ -411,15 +464,6 @@ impl Stub {
         back: &Data,
     ) {
         self.barrier(cmd, image, aspect, state, COPIED_FROM);
-        let to_host = [vk::BufferMemoryBarrier2::default()
-            .buffer(back.buffer)
-            .size(vk::WHOLE_SIZE)
-            .src_stage_mask(COPIED_TO.stage)
-            .src_access_mask(COPIED_TO.access)
-            .dst_stage_mask(HOST_READ.stage)
-            .dst_access_mask(HOST_READ.access)
-            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
-            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)];
         // SAFETY: the image is in the copy's layout and the buffer has its size.
         unsafe {
             self.device.cmd_copy_image_to_buffer(
@@ -429,9 +473,8 @@ impl Stub {
                 back.buffer,
                 &[region(aspect, area)],
             );
-            let info = vk::DependencyInfo::default().buffer_memory_barriers(&to_host);
-            self.device.cmd_pipeline_barrier2(cmd, &info);
         }
+        self.to_host(cmd, back);
         self.barrier(cmd, image, aspect, COPIED_FROM, state);
     }
 
@@ -489,9 +532,9 @@ fn range(aspect: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
     vk::ImageSubresourceRange {
         aspect_mask: aspect,
         base_mip_level: 0,
-        level_count: 1,
+        level_count: vk::REMAINING_MIP_LEVELS,
         base_array_layer: 0,
-        layer_count: 1,
+        layer_count: vk::REMAINING_ARRAY_LAYERS,
     }
 }
 

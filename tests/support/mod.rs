@@ -4,8 +4,11 @@
 pub mod compare;
 pub mod device;
 pub mod host;
+pub mod limits;
 pub mod rig;
+pub mod rounded;
 pub mod scenes;
+pub mod shaded;
 pub mod spy;
 pub mod tolerance;
 

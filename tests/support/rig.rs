@@ -200,6 +200,17 @@ impl<'g> Rig<'g> {
 
     /// An environment of an equirectangular image.
     pub fn environment(&mut self, size: vk::Extent2D, texels: &[[f32; 4]]) {
+        self.turned_environment(size, texels, 1.0, 0.0);
+    }
+
+    /// The same, brighter and turned.
+    pub fn turned_environment(
+        &mut self,
+        size: vk::Extent2D,
+        texels: &[[f32; 4]],
+        scale: f32,
+        turn: f32,
+    ) {
         let after = Access::new(
             vk::PipelineStageFlags2::COMPUTE_SHADER,
             vk::AccessFlags2::SHADER_SAMPLED_READ,
@@ -212,15 +223,16 @@ impl<'g> Rig<'g> {
             bytemuck::cast_slice(texels),
             after,
         );
-        let source = EnvironmentSource::Equirectangular(Equirectangular {
-            image: image.host_image(),
-            scale: 1.0,
-            turn: 0.0,
-        });
+        let source = Equirectangular { image: image.host_image(), scale, turn };
+        self.any_environment(&EnvironmentSource::Equirectangular(source));
+    }
+
+    /// An environment of any kind, whose images live to the end of this.
+    pub fn any_environment(&mut self, source: &EnvironmentSource) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
         // SAFETY: cmd is recording; the slot's work is done.
         let result =
-            self.stub.run(|cmd| unsafe { renderer.record_environment(cmd, Slot(0), &source) });
+            self.stub.run(|cmd| unsafe { renderer.record_environment(cmd, Slot(0), source) });
         result.expect("record_environment");
         renderer.collect(Slot(0));
     }

@@ -1,11 +1,12 @@
 //! A spy in the device's function table: counts calls, follows what is made and destroyed, and lets
 //! a call fail. One at a time, as the tests.
 
+use std::collections::BTreeMap;
 use std::ffi::{CStr, c_void};
-use std::sync::atomic::{AtomicI32, AtomicI64, AtomicPtr, AtomicU32, Ordering::SeqCst};
-use std::sync::{Arc, Mutex};
+use std::sync::atomic::{AtomicI32, AtomicI64, AtomicPtr, AtomicU32, AtomicU64, Ordering::SeqCst};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use ash::vk;
+use ash::vk::{self, Handle};
 
 use super::device::Gpu;
 
@@ -105,8 +106,6 @@ spied! {
     MAP_MEMORY c"vkMapMemory" (d: vk::Device, m: u64, o: u64, s: u64, f: u32, p: P) made 0;
     BIND_BUFFER_MEMORY c"vkBindBufferMemory" (d: vk::Device, b: u64, m: u64, o: u64) made 0;
     BIND_IMAGE_MEMORY c"vkBindImageMemory" (d: vk::Device, b: u64, m: u64, o: u64) made 0;
-    CREATE_BUFFER c"vkCreateBuffer" (d: vk::Device, i: P, a: P, o: P) made 1;
-    CREATE_IMAGE c"vkCreateImage" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_IMAGE_VIEW c"vkCreateImageView" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_SAMPLER c"vkCreateSampler" (d: vk::Device, i: P, a: P, o: P) made 1;
     CREATE_SHADER_MODULE c"vkCreateShaderModule" (d: vk::Device, i: P, a: P, o: P) made 1;
@@ -266,8 +265,166 @@ unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P
     result
 }
 
-const BY_HAND: &[(&Function, *const c_void)] =
-    &[(&CREATE_DESCRIPTOR_POOL, create_descriptor_pool as *const c_void)];
+/// Made by hand: it keeps the cube.
+pub static CREATE_IMAGE: Function = Function::new(c"vkCreateImage");
+/// The image of six layers that was made last: the environment, which no layer of a frame shows.
+static CUBE: AtomicU64 = AtomicU64::new(0);
+
+/// The environment of the renderer that was made last.
+pub fn cube() -> vk::Image {
+    vk::Image::from_raw(CUBE.load(SeqCst))
+}
+
+unsafe extern "system" fn create_image(d: vk::Device, i: P, a: P, o: P) -> vk::Result {
+    if let Some(result) = CREATE_IMAGE.called() {
+        return result;
+    }
+    // SAFETY: the driver's function, with a valid create info and room for the handle.
+    let (result, cube) = unsafe {
+        let real: unsafe extern "system" fn(vk::Device, P, P, P) -> vk::Result =
+            std::mem::transmute(CREATE_IMAGE.real.load(SeqCst));
+        let result = real(d, i, a, o);
+        let info = &*i.cast::<vk::ImageCreateInfo<'_>>();
+        (result, (info.array_layers == 6).then(|| *o.cast::<u64>()))
+    };
+    if result == vk::Result::SUCCESS {
+        CREATE_IMAGE.live.fetch_add(1, SeqCst);
+        CUBE.store(cube.unwrap_or(CUBE.load(SeqCst)), SeqCst);
+    }
+    result
+}
+
+/// Made by hand: it keeps the sizes.
+pub static CREATE_BUFFER: Function = Function::new(c"vkCreateBuffer");
+/// Sizes of the library's buffers.
+static SIZES: Mutex<BTreeMap<u64, u64>> = Mutex::new(BTreeMap::new());
+
+unsafe extern "system" fn create_buffer(d: vk::Device, i: P, a: P, o: P) -> vk::Result {
+    if let Some(result) = CREATE_BUFFER.called() {
+        return result;
+    }
+    // SAFETY: the driver's function, with a valid create info and room for the handle.
+    unsafe {
+        let real: unsafe extern "system" fn(vk::Device, P, P, P) -> vk::Result =
+            std::mem::transmute(CREATE_BUFFER.real.load(SeqCst));
+        let result = real(d, i, a, o);
+        if result == vk::Result::SUCCESS {
+            CREATE_BUFFER.live.fetch_add(1, SeqCst);
+            let size = (*i.cast::<vk::BufferCreateInfo<'_>>()).size;
+            held(&SIZES).insert(*o.cast::<u64>(), size);
+        }
+        result
+    }
+}
+
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Made by hand: it keeps what is bound.
+pub static UPDATE_SETS: Function = Function::new(c"vkUpdateDescriptorSets");
+static BOUND: Mutex<Vec<Bound>> = Mutex::new(Vec::new());
+
+/// A buffer in a descriptor set.
+#[derive(Clone, Copy, Debug)]
+pub struct Bound {
+    pub kind: vk::DescriptorType,
+    pub buffer: vk::Buffer,
+    pub offset: u64,
+    pub range: u64,
+}
+
+impl Bound {
+    /// How many bytes are bound; `host`: sizes of the host's buffers.
+    pub fn bytes(&self, host: &[(vk::Buffer, u64)]) -> u64 {
+        if self.range != vk::WHOLE_SIZE {
+            return self.range;
+        }
+        let host = host.iter().find(|(buffer, _)| *buffer == self.buffer).map(|(_, size)| *size);
+        let size = host.or_else(|| held(&SIZES).get(&self.buffer.as_raw()).copied());
+        size.unwrap_or_else(|| panic!("of unknown size: {self:?}")) - self.offset
+    }
+}
+
+/// Every buffer that was written to a descriptor set since the last call.
+pub fn take_bound() -> Vec<Bound> {
+    std::mem::take(&mut *held(&BOUND))
+}
+
+unsafe extern "system" fn update_sets(d: vk::Device, n: u32, w: P, copies: u32, c: P) {
+    UPDATE_SETS.called();
+    // SAFETY: the driver's function, with `n` valid writes; those of buffers have buffer infos.
+    unsafe {
+        let writes = std::slice::from_raw_parts(w.cast::<vk::WriteDescriptorSet<'_>>(), n as usize);
+        for write in writes.iter().filter(|w| !w.p_buffer_info.is_null()) {
+            let count = write.descriptor_count as usize;
+            for info in std::slice::from_raw_parts(write.p_buffer_info, count) {
+                let vk::DescriptorBufferInfo { buffer, offset, range } = *info;
+                held(&BOUND).push(Bound { kind: write.descriptor_type, buffer, offset, range });
+            }
+        }
+        let real: unsafe extern "system" fn(vk::Device, u32, P, u32, P) =
+            std::mem::transmute(UPDATE_SETS.real.load(SeqCst));
+        real(d, n, w, copies, c);
+    }
+}
+
+/// Made by hand: it changes timestamps.
+pub static QUERY_RESULTS: Function = Function::new(c"vkGetQueryPoolResults");
+static STAMPS: Mutex<Option<Stamps>> = Mutex::new(None);
+
+/// A timestamp for each query.
+pub type Stamps = Box<dyn Fn(usize) -> u64 + Send>;
+
+/// Answers of the queries from now on, by their number; none: the driver's.
+pub fn answer(stamps: Option<Stamps>) {
+    *held(&STAMPS) = stamps;
+}
+
+#[allow(clippy::too_many_arguments)] // Vulkan's
+unsafe extern "system" fn query_results(
+    d: vk::Device,
+    pool: u64,
+    first: u32,
+    n: u32,
+    size: usize,
+    data: *mut c_void,
+    stride: u64,
+    flags: u32,
+) -> vk::Result {
+    if let Some(result) = QUERY_RESULTS.called() {
+        return result;
+    }
+    // SAFETY: the driver's function, and room for `n` results of 64 bits where they are asked for.
+    unsafe {
+        let real: unsafe extern "system" fn(
+            vk::Device,
+            u64,
+            u32,
+            u32,
+            usize,
+            *mut c_void,
+            u64,
+            u32,
+        ) -> vk::Result = std::mem::transmute(QUERY_RESULTS.real.load(SeqCst));
+        let result = real(d, pool, first, n, size, data, stride, flags);
+        if let Some(stamps) = held(&STAMPS).as_ref().filter(|_| result == vk::Result::SUCCESS) {
+            assert!(flags == vk::QueryResultFlags::TYPE_64.as_raw() && stride == 8);
+            for i in 0..n as usize {
+                data.cast::<u64>().add(i).write(stamps(first as usize + i));
+            }
+        }
+        result
+    }
+}
+
+const BY_HAND: &[(&Function, *const c_void)] = &[
+    (&CREATE_BUFFER, create_buffer as *const c_void),
+    (&UPDATE_SETS, update_sets as *const c_void),
+    (&QUERY_RESULTS, query_results as *const c_void),
+    (&CREATE_DESCRIPTOR_POOL, create_descriptor_pool as *const c_void),
+    (&CREATE_IMAGE, create_image as *const c_void),
+];
 
 fn all() -> impl Iterator<Item = &'static (&'static Function, *const c_void)> {
     WITH_RESULT.iter().chain(WITHOUT_RESULT).chain(BY_HAND)

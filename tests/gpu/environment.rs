@@ -1,0 +1,171 @@
+//! Pass `environment`: the cube of a map and of the sky against their twins, and its mips.
+
+use glam::{DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+use whitewater::{Config, EnvironmentSource, Sky};
+
+use crate::reference::Image;
+use crate::reference::environment as twin;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, config, extent};
+use crate::support::scenes::Random;
+use crate::support::spy;
+use crate::support::tolerance::U;
+
+const FORMAT: ash::vk::Format = ash::vk::Format::R16G16B16A16_SFLOAT;
+
+/// Conversion to half precision may go to either neighbour: one of its steps, of 2^-10 at most of
+/// the value and of 2^-24 at least.
+fn half_step(value: f64) -> f64 {
+    (value.abs() / 1024.0).max(1.0 / (1 << 24) as f64)
+}
+
+/// All faces of each mip, one below the other.
+fn cube(rig: &Rig<'_>) -> Vec<Image<[f32; 4]>> {
+    let size = rig.config.environment_size;
+    let state = whitewater::Access::new(
+        ash::vk::PipelineStageFlags2::FRAGMENT_SHADER
+            | ash::vk::PipelineStageFlags2::COMPUTE_SHADER,
+        ash::vk::AccessFlags2::SHADER_SAMPLED_READ,
+        ash::vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+    );
+    let mips = rig.stub.download_cube(spy::cube(), FORMAT, size, state);
+    let width = |mip: usize| (size >> mip) as usize;
+    let image = |(mip, bytes): (usize, &Vec<u8>)| Image {
+        width: width(mip),
+        height: 6 * width(mip),
+        data: bytes
+            .chunks_exact(8)
+            .map(bytemuck::pod_read_unaligned::<[u16; 4]>)
+            .map(|c| c.map(|v| half::f16::from_bits(v).to_f32()))
+            .collect(),
+    };
+    mips.iter().enumerate().map(image).collect()
+}
+
+/// How far a position in a map may be off, in its texels. The direction: components of 8u (pixel to
+/// 0..1, normalization), which turn the angle by as much over the distance from the axis; atan and
+/// acos may be off by 4096 ulp (8192u), acos by what 1 - y² loses; sums and quotients 8u. Filters
+/// know positions to 2^-bits.
+fn nudge(d: DVec3, turn: f64, map: &Image<[f32; 4]>, bits: u32) -> DVec2 {
+    let unit = d.normalize();
+    let away = DVec2::new(unit.x, unit.z).length();
+    let (east, down) = (unit.x.atan2(-unit.z), unit.y.acos());
+    let east = U * (8.0 / away + 8192.0 * east.abs() + 8.0 * (east.abs() + turn.abs() + PI));
+    let down = U * (12.0 / away + 8200.0 * down);
+    let filter = 1.0 / f64::from(1 << bits);
+    DVec2::new(east / TAU * map.width as f64, down / PI * map.height as f64) + filter
+}
+
+/// Compares a cube's first mip with the twin's, and the others with means of the one before.
+fn check(name: &str, rig: &Rig<'_>, expected: impl Fn(usize, DVec2) -> (DVec3, DVec3) + Sync) {
+    let mips = cube(rig);
+    let size = mips[0].width;
+    let both = Image::from_fn(size, 6 * size, |x, y| {
+        expected(y / size, DVec2::new(x as f64, (y % size) as f64))
+    });
+    let value = both.map(|(value, _)| value.extend(1.0).to_array());
+    let bound = both.map(|(_, bound)| bound.extend(0.0).to_array());
+    let census = compare::close_color(name, &mips[0], &value, |x, y| bound.at(x, y));
+    verbose(name, &census);
+    for (mip, pair) in mips.windows(2).enumerate() {
+        let mean = Image::from_fn(pair[1].width, pair[1].height, |x, y| {
+            let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
+                .map(|(dx, dy)| pair[0].at(2 * x + dx, 2 * y + dy).map(f64::from));
+            [0, 1, 2, 3].map(|i| four.iter().map(|c| c[i]).sum::<f64>() / 4.0)
+        });
+        let name = format!("{name}-mip-{}", mip + 1);
+        let close = |x: usize, y: usize| mean.at(x, y).map(|v| 8.0 * U * v.abs() + half_step(v));
+        let census = compare::close_color(&name, &pair[1], &mean, close);
+        verbose(&name, &census);
+    }
+}
+
+fn verbose(name: &str, census: &crate::reference::Census) {
+    if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+        eprintln!("{name}: {census}");
+    }
+}
+
+/// Maps of texels that have nothing to do with each other, so that none can stand for another.
+#[test]
+fn a_map_becomes_the_twins_cube() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let mut random = Random(11);
+    for (size, width, height) in [(16, 64, 32), (64, 33, 17), (32, 256, 128), (16, 1, 1)] {
+        let config = Config { environment_size: size, ..config(extent(16, 8)) };
+        let mut rig = Rig::new(&gpu, &config);
+        let texels: Vec<[f32; 4]> = (0..width * height)
+            .map(|_| [0, 1, 2].map(|i| random.between(0.0, [1.0, 4.0, 0.1][i])))
+            .map(|[r, g, b]| [r, g, b, 0.5])
+            .collect();
+        let map = Image { width, height, data: texels.clone() };
+        for (scale, turn) in [(1.0_f32, 0.0_f32), (2.5, 0.7), (1.0, -2.5), (0.5, 7.0)] {
+            let map_extent = extent(width as u32, height as u32);
+            rig.turned_environment(map_extent, &texels, scale, turn);
+            let (scale, turn) = (f64::from(scale), f64::from(turn));
+            let expected = |face: usize, at: DVec2| {
+                let (x, y) = (at.x as usize, at.y as usize);
+                let (mut value, mut bound) = (DVec3::ZERO, DVec3::ZERO);
+                for st in twin::quarters(x, y, size as usize) {
+                    let d = twin::direction(face, st);
+                    let nudge = nudge(d, turn, &map, bits);
+                    let position = twin::map_position(d, turn, width, height);
+                    let found = twin::sample(&map, position, nudge);
+                    value += found.value * scale / 4.0;
+                    bound += (found.slope[0] * nudge.x + found.slope[1] * nudge.y) * scale / 4.0;
+                }
+                let rounding = value.to_array().map(|v| 8.0 * U * v + half_step(v));
+                (value, bound + DVec3::from(rounding))
+            };
+            let name = format!("environment-{width}x{height}-{size}-{turn:.1}");
+            check(&name, &rig, expected);
+        }
+    }
+}
+
+/// From noon to after sunset, and a sun that is not of unit length.
+#[test]
+fn the_sky_becomes_the_twins_cube() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let size = 32;
+    let mut rig = Rig::new(&gpu, &Config { environment_size: size, ..config(extent(16, 8)) });
+    for (sun, intensity) in [
+        (Sky::default().sun, 20.0),
+        ([0.0, 3.0, 0.0], 1.0),
+        ([0.9, 0.03, -0.4], 20.0),
+        ([-0.5, -0.1, 0.5], 5.0),
+    ] {
+        rig.any_environment(&EnvironmentSource::Sky(Sky { sun, intensity }));
+        let to = DVec3::from(sun.map(f64::from)).normalize();
+        let expected = |face: usize, at: DVec2| {
+            let d = twin::direction(face, (at + 0.5) / f64::from(size)).normalize();
+            let found = twin::sky(d, to, twin::SKY_STEPS);
+            let (value, error) = (found.value, found.error);
+            let value = value * f64::from(intensity);
+            let bound = error * f64::from(intensity) + DVec3::from(value.to_array().map(half_step));
+            (value, bound)
+        };
+        check(&format!("environment-sky-{:.2}", sun[1]), &rig, expected);
+    }
+}
+
+/// The brightest texel is one that half precision can hold, and mips stay finite.
+#[test]
+fn radiance_over_half_precision_is_cut() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let mut rig = Rig::new(&gpu, &config(extent(16, 8)));
+    rig.turned_environment(extent(2, 1), &[[1.0, 30.0, 1e30, 1.0]; 2], 2500.0, 0.0);
+    check("environment-bright", &rig, |_, _| {
+        let value = DVec3::new(2500.0, 65_000.0, 65_000.0);
+        (value, DVec3::from(value.to_array().map(half_step)))
+    });
+}

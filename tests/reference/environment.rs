@@ -1,0 +1,275 @@
+//! Twin of the environment: the cube of an equirectangular image and of the built-in sky, and its
+//! mips. Cube faces as the Vulkan specification selects them ("Cube Map Face Selection"); the map's
+//! columns run round the horizon, west to east as seen from its middle, its rows from the zenith
+//! down.
+
+use super::{Image, smoothstep};
+use crate::support::tolerance::U;
+use glam::{DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// Of each face +x −x +y −y +z −z: its axis, and the directions in which s and t grow.
+const FACES: [[DVec3; 3]; 6] = [
+    [DVec3::X, DVec3::NEG_Z, DVec3::NEG_Y],
+    [DVec3::NEG_X, DVec3::Z, DVec3::NEG_Y],
+    [DVec3::Y, DVec3::X, DVec3::Z],
+    [DVec3::NEG_Y, DVec3::X, DVec3::NEG_Z],
+    [DVec3::Z, DVec3::X, DVec3::NEG_Y],
+    [DVec3::NEG_Z, DVec3::NEG_X, DVec3::NEG_Y],
+];
+
+/// The direction through a position (0 to 1) on a face; not of unit length.
+pub fn direction(face: usize, st: DVec2) -> DVec3 {
+    let [axis, s, t] = FACES[face];
+    axis + s * (2.0 * st.x - 1.0) + t * (2.0 * st.y - 1.0)
+}
+
+/// The face a direction meets, and where on it.
+pub fn face_of(d: DVec3) -> (usize, DVec2) {
+    let face = (0..6).max_by(|a, b| FACES[*a][0].dot(d).total_cmp(&FACES[*b][0].dot(d)));
+    let face = face.unwrap_or(0);
+    let [axis, s, t] = FACES[face];
+    (face, (DVec2::new(s.dot(d), t.dot(d)) / axis.dot(d) + 1.0) / 2.0)
+}
+
+/// Where a direction is found in an equirectangular map, in its texels: the middle column lies
+/// along −z, the right quarter along +x. A positive turn carries the map from −z towards −x, as a
+/// right-handed rotation about +y does.
+pub fn map_position(d: DVec3, turn: f64, width: usize, height: usize) -> DVec2 {
+    let east = d.x.atan2(-d.z) + turn;
+    let down = DVec2::new(d.x, d.z).length().atan2(d.y);
+    DVec2::new((east / TAU + 0.5) * width as f64, down / PI * height as f64)
+}
+
+/// A map's values round a position.
+pub struct Sample {
+    /// The bilinear mean of the four texels; the map closes on itself from left to right.
+    pub value: DVec3,
+    /// How much the value changes, at most, where the position moves by a texel in x or in y.
+    pub slope: [DVec3; 2],
+}
+
+/// A sample of a map. `nudge`: by how many texels the position may be off, which may take it to
+/// other texels.
+pub fn sample(map: &Image<[f32; 4]>, at: DVec2, nudge: DVec2) -> Sample {
+    let texel = |x: isize, y: isize| {
+        let x = x.rem_euclid(map.width as isize);
+        let y = y.clamp(0, map.height as isize - 1);
+        let [r, g, b, _] = map.at(x as usize, y as usize).map(f64::from);
+        DVec3::new(r, g, b)
+    };
+    let h = at - 0.5;
+    let (i, f) = (h.floor(), h - h.floor());
+    let (x, y) = (i.x as isize, i.y as isize);
+    let top = texel(x, y).lerp(texel(x + 1, y), f.x);
+    let bottom = texel(x, y + 1).lerp(texel(x + 1, y + 1), f.x);
+    let (low, high) = ((h - nudge).floor(), (h + nudge).floor());
+    let mut slope = [DVec3::ZERO; 2];
+    for y in low.y as isize..=high.y as isize + 1 {
+        for x in low.x as isize..=high.x as isize + 1 {
+            slope[0] = slope[0].max((texel(x + 1, y) - texel(x, y)).abs());
+            slope[1] = slope[1].max((texel(x, y + 1) - texel(x, y)).abs());
+        }
+    }
+    Sample { value: top.lerp(bottom, f.y), slope }
+}
+
+/// The four positions on a face whose mean a texel of the cube is: the middles of its quarters.
+pub fn quarters(x: usize, y: usize, size: usize) -> [DVec2; 4] {
+    [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)]
+        .map(|(dx, dy)| DVec2::new(x as f64 + dx, y as f64 + dy) / size as f64)
+}
+
+/// The air, in kilometres: Bruneton and Neyret 2008 (scattering per km at sea level; what Mie
+/// scattering takes from a ray is a ninth more than it scatters; scale heights).
+const EARTH: f64 = 6360.0;
+const TOP: f64 = 6420.0;
+const RAYLEIGH: DVec3 = DVec3::new(5.8e-3, 13.5e-3, 33.1e-3);
+const MIE: f64 = 4e-3;
+const MIE_LOSS: f64 = 4.44e-3;
+const HEIGHTS: DVec2 = DVec2::new(8.0, 1.2);
+
+/// Steps of the quadrature: along a ray, where they grow as odd numbers, and from there to the sun.
+#[derive(Clone, Copy)]
+pub struct Steps {
+    pub along: usize,
+    pub sun: usize,
+}
+
+/// Those of the built-in sky.
+pub const SKY_STEPS: Steps = Steps { along: 24, sun: 8 };
+
+/// A value and how far single precision may be off it.
+#[derive(Clone, Copy)]
+pub struct Rounded<T> {
+    pub value: T,
+    pub error: T,
+}
+
+/// How far from a point inside the air it ends. The root's square is a difference of squares of
+/// the radius, three roundings and a root of 10u.
+fn air_ends(p: DVec3, d: DVec3) -> Rounded<f64> {
+    let b = p.dot(d);
+    let square = b * b - p.length_squared() + TOP * TOP;
+    let root = square.max(0.0).sqrt();
+    let error = U * (3.0 * TOP * TOP / root.max(1.0) + 12.0 * (root + b.abs()));
+    Rounded { value: root - b, error }
+}
+
+/// Rayleigh's and Mie's density at a point `t` along a ray whose length there is off by
+/// `uncertain`. The height is the root (10u) of a sum of squares (5u before the root), less the
+/// earth's radius; the cosine is of 10u. An exponential is off by (6 + 4 |x|) u.
+fn density(p: DVec3, t: f64, uncertain: f64) -> Rounded<DVec2> {
+    let height = (p.length() - EARTH).max(0.0) / HEIGHTS;
+    let off = (U * (12.5 * p.length() + 10.0 * t) + uncertain) / HEIGHTS;
+    let value = (-height).exp();
+    Rounded { value, error: value * (off + U * (6.0 + 4.0 * height)) }
+}
+
+/// Density times length from a point up to the end of the air, by midpoints.
+fn optical_depth(p: DVec3, d: DVec3, steps: usize) -> Rounded<DVec2> {
+    let end = air_ends(p, d);
+    let size = end.value / steps as f64;
+    let mut sum = Rounded { value: DVec2::ZERO, error: DVec2::ZERO };
+    for i in 0..steps {
+        let t = (i as f64 + 0.5) * size;
+        let found = density(p + d * t, t, end.error);
+        sum.value += found.value * size;
+        sum.error += (found.error + found.value * (end.error / end.value + 20.0 * U)) * size;
+    }
+    sum
+}
+
+fn extinction(depth: DVec2) -> DVec3 {
+    RAYLEIGH * depth.x + MIE_LOSS * depth.y
+}
+
+fn transmittance(depth: Rounded<DVec2>) -> Rounded<DVec3> {
+    let exponent = extinction(depth.value);
+    let value = (-exponent).exp();
+    let error = value * (extinction(depth.error) + U * (6.0 + 8.0 * exponent));
+    Rounded { value, error }
+}
+
+/// The radiance of the sky under a sun of unit irradiance, seen 50 m above the sea. A ray's light is
+/// what one scattering turns from the sun into it; rays lower than 0.003 are that one. What scatters
+/// more often adds 0.13 of the sun's height where the air is thick. Under the horizon the ground, a
+/// diffuse 0.22 in the light of sun and sky, fades in down to 0.12.
+pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
+    let eye = DVec3::Y * (EARTH + 0.05);
+    let d = direction.with_y(direction.y.max(0.003)).normalize();
+    let end = air_ends(eye, d);
+    let n = steps.along as f64;
+    let mut passed = Rounded { value: DVec2::ZERO, error: DVec2::ZERO };
+    let mut sum = [DVec3::ZERO; 2];
+    let mut error = [DVec3::ZERO; 2];
+    for i in 0..steps.along {
+        let [from, to] = [i, i + 1].map(|i| end.value * (i as f64 / n).powi(2));
+        // The square by pow: log2(1/24) to 3 ulp, exp2 of twice that.
+        let uncertain = end.error + 100.0 * U * to;
+        let (t, size) = ((from + to) / 2.0, to - from);
+        let p = eye + d * t;
+        let here = density(p, t, uncertain);
+        let off = here.error * size + here.value * 2.0 * uncertain;
+        let here = here.value * size;
+
+        // The sun is never lower than 0.05 under the point's own horizon.
+        let up = p.normalize();
+        let cosine = up.dot(sun);
+        let level = (sun - up * cosine).normalize_or_zero();
+        let lowest = up * -0.05 + level * (1.0_f64 - 0.05 * 0.05).sqrt();
+        let away = optical_depth(p, if cosine < -0.05 { lowest } else { sun }, steps.sun);
+        let through = transmittance(Rounded {
+            value: passed.value + here / 2.0 + away.value,
+            error: passed.error + off / 2.0 + away.error,
+        });
+        passed.value += here;
+        passed.error += off;
+        for kind in [0, 1] {
+            sum[kind] += here[kind] * through.value;
+            error[kind] += off[kind] * through.value + here[kind] * through.error;
+        }
+    }
+    let mu = d.dot(sun);
+    let g = 0.76_f64;
+    let beyond = 1.0 + g * g - 2.0 * g * mu;
+    let rayleigh = RAYLEIGH * (3.0 / (16.0 * PI) * (1.0 + mu * mu));
+    let mie = MIE * 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + mu * mu)
+        / ((2.0 + g * g) * beyond.powf(1.5));
+    // pow: log2 to 2^-21 near 1 or 3 ulp of at most 4.1; the cosine is of 10u.
+    let phase = U * (40.0 + 3.0 * g * 10.0 / beyond);
+    let once = sum[0] * rayleigh + sum[1] * mie;
+    let thick = (-(RAYLEIGH * passed.value.x + 2.0 * MIE * passed.value.y)).exp();
+    let thick_off = thick * (RAYLEIGH * passed.error.x + 2.0 * MIE * passed.error.y + 40.0 * U);
+    let often = 0.13 * sun.y.max(0.0);
+    let air = Rounded {
+        value: once + often * (1.0 - thick),
+        error: error[0] * rayleigh + error[1] * mie + once * (phase + 60.0 * U) + often * thick_off,
+    };
+    let daylight = transmittance(optical_depth(eye, sun, steps.sun));
+    let lit = sun.y.max(0.0) / PI;
+    let ground = Rounded {
+        value: 0.22 * (lit * daylight.value + 0.08 * DVec3::new(0.5, 0.6, 0.8)),
+        error: 0.22 * lit * daylight.error + 20.0 * U,
+    };
+    let below = 1.0 - smoothstep(-0.12, 0.0, direction.y);
+    // Its slope is 1.5 over 0.12 at most.
+    let mixing = (ground.value - air.value).abs() * (1.5 / 0.12 * 8.0 + 8.0) * U;
+    Rounded {
+        value: air.value.lerp(ground.value, below),
+        error: air.error.lerp(ground.error, below) + mixing,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_face_has_its_axis_in_the_middle_and_neighbours_meet() {
+        for (face, [axis, s, t]) in FACES.into_iter().enumerate() {
+            assert_eq!(direction(face, DVec2::splat(0.5)), axis);
+            for st in [DVec2::new(0.1, 0.7), DVec2::new(0.9, 0.95), DVec2::new(0.3, 0.2)] {
+                let (found, at) = face_of(direction(face, st) * 3.0);
+                assert!(found == face && (at - st).length() < 1e-12);
+            }
+            // s × t looks outwards on every face or inwards on every face: no face is mirrored.
+            assert_eq!(s.cross(t), -axis);
+        }
+    }
+
+    #[test]
+    fn the_map_is_where_it_is_said_to_be() {
+        let at = |d: DVec3, turn: f64| map_position(d, turn, 400, 200);
+        for (d, expected) in [
+            (DVec3::NEG_Z, DVec2::new(200.0, 100.0)),
+            (DVec3::X, DVec2::new(300.0, 100.0)),
+            (DVec3::NEG_X, DVec2::new(100.0, 100.0)),
+            (DVec3::new(1.0, 1.0, 0.0), DVec2::new(300.0, 50.0)),
+            (DVec3::new(0.0, -1.0, -1.0), DVec2::new(200.0, 150.0)),
+        ] {
+            assert!((at(d, 0.0) - expected).length() < 1e-9, "{d}: {}", at(d, 0.0));
+        }
+        let turn = 0.4;
+        let turned = glam::DMat3::from_rotation_y(turn) * DVec3::NEG_Z;
+        assert!((at(turned, turn) - DVec2::new(200.0, 100.0)).length() < 1e-9);
+    }
+
+    /// What the quadrature of the built-in sky is worth: a few parts in a hundred.
+    #[test]
+    fn the_skys_steps_are_enough() {
+        let fine = Steps { along: 400, sun: 200 };
+        let mut worst: f64 = 0.0;
+        for elevation in [0.05_f64, 0.3, 0.8, 1.5] {
+            let sun = DVec3::new(elevation.cos(), elevation.sin(), 0.0);
+            for (height, turn) in [(0.005, 0.3), (0.05, 3.0), (0.3, 1.0), (0.7, 2.0), (1.5, 0.0)] {
+                let (height, turn): (f64, f64) = (height, turn);
+                let across = DVec2::from_angle(turn) * height.cos();
+                let d = DVec3::new(across.x, height.sin(), across.y);
+                let (coarse, exact) = (sky(d, sun, SKY_STEPS).value, sky(d, sun, fine).value);
+                worst = worst.max(((coarse - exact) / exact).abs().max_element());
+            }
+        }
+        assert!(worst > 1e-4 && worst < 0.04, "{worst}");
+    }
+}

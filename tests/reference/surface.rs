@@ -1,0 +1,266 @@
+//! Twin of the surface that `composite` shades: the smoothed depth of the reduced image, rebuilt in
+//! each pixel of the full one.
+//!
+//! A texel's slope along an axis is the mean of its rises to those of the two neighbours that are
+//! on its surface: not further than the falloff in depth, and in the image. A texel that lacks
+//! one of the four is on the *rim*. A pixel sees the texels round it that are on the surface of its
+//! own depth, weighed by the tent of bilinear filtering (the image's edge goes on beyond it):
+//! - its depth is their mean, its slope too, but with texels on the rim for a 64th of their
+//!   weight; where whole ones are less than a 63rd of it, no axis is steeper than 1.5;
+//! - where none weighs 1/10 000, the texel nearest in depth stands for all, and where even that
+//!   one is on another surface, the pixel faces the eye at its own depth;
+//! - where the thickness is less than 0.9 spacings, the slope passes over into that of the
+//!   unsmoothed depth, which never is steeper than 1.5, wholly from 0.6 down: a drop.
+//!
+//! With the ray s = (s_x, s_y, -1) and the depth d(s_x, s_y), P = s d, and P_x x P_y is d times
+//! `(d_x, d_y, d + s_x d_x + s_y d_y)`: the normal, which has P on its back.
+
+use super::composite::{Inputs, Settings};
+use super::{Image, View, is_surface, smoothstep};
+use glam::{DVec2, DVec3};
+
+/// The part of a texel on the rim in the slope, where there are others.
+const RIM: f64 = 1.0 / 64.0;
+/// The steepest slope of a rim and of a drop: depth per width.
+const STEEPEST: f64 = 1.5;
+
+/// The water's surface in one pixel, in eye space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// The point seen.
+    pub position: DVec3,
+    /// Its normal, towards the eye.
+    pub normal: DVec3,
+    /// The thickness along z.
+    pub thickness: f64,
+    /// What it was made of.
+    pub parts: Parts,
+}
+
+/// What a surface was made of; slopes in depth per texel of the smoothed image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parts {
+    pub case: Case,
+    /// Of the smoothed depth, and the same mean of the rises' absolute values.
+    pub smooth: [DVec2; 2],
+    /// Of the unsmoothed depth, as above.
+    pub sphere: [DVec2; 2],
+    /// How much of a drop it is, 0 to 1.
+    pub drop: f64,
+    /// The thickness is of texels on other surfaces.
+    pub borrowed: bool,
+    /// How near to the falloff any difference was that decided: rounding may decide otherwise.
+    pub margin: f64,
+}
+
+/// Which texels a pixel sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Case {
+    /// Four on its surface, none of them on the rim.
+    Whole,
+    /// Fewer on its surface, none of them on the rim.
+    Border,
+    /// Some on the rim.
+    PartRim,
+    /// Hardly any that is not, and the slope is kept or cut.
+    Rim,
+    SteepRim,
+    /// None that weighs anything: the nearest in depth.
+    Nearest,
+    /// None.
+    Alone,
+}
+
+/// What a texel knows of its surface.
+#[derive(Clone, Copy)]
+struct Texel {
+    /// Depth per texel, and the same mean of the rises' absolute values.
+    slope: [DVec2; 2],
+    /// It is not on the rim.
+    whole: bool,
+    /// See [`Parts`].
+    margin: f64,
+}
+
+/// The slopes of an image's texels.
+fn texels(z: &Image<f64>, threshold: f64) -> Image<Texel> {
+    Image::from_fn(z.width, z.height, |x, y| {
+        let all =
+            |dx: isize, dy: isize| Some(z.checked(x as isize + dx, y as isize + dy)? - z.at(x, y));
+        let rise = |dx, dy| all(dx, dy).filter(|rise| rise.abs() <= threshold);
+        let round = [all(-1, 0), all(1, 0), all(0, -1), all(0, 1)];
+        let margins = round.iter().flatten().map(|rise| (rise.abs() - threshold).abs());
+        let axes = [[rise(-1, 0).map(|r| -r), rise(1, 0)], [rise(0, -1).map(|r| -r), rise(0, 1)]];
+        let mean = |sides: [Option<f64>; 2], of: fn(f64) -> f64| {
+            let there: Vec<f64> = sides.into_iter().flatten().map(of).collect();
+            there.iter().sum::<f64>() / there.len().max(1) as f64
+        };
+        let slope = |of| DVec2::from(axes.map(|axis| mean(axis, of)));
+        Texel {
+            slope: [slope(|rise| rise), slope(f64::abs)],
+            whole: axes.iter().flatten().all(Option::is_some),
+            margin: margins.fold(f64::INFINITY, f64::min),
+        }
+    })
+}
+
+/// Every texel that a tent about a position (in texels) touches, with its weight.
+fn tent(width: usize, height: usize, at: DVec2) -> Vec<(usize, usize, f64)> {
+    let along = |at: f64, texels: usize| {
+        (-1..=texels as isize).filter_map(move |i| {
+            let weight = 1.0 - (i as f64 + 0.5 - at).abs();
+            (weight > 0.0).then_some((i.clamp(0, texels as isize - 1) as usize, weight))
+        })
+    };
+    along(at.y, height)
+        .flat_map(|(y, of_row)| along(at.x, width).map(move |(x, w)| (x, y, w * of_row)))
+        .collect()
+}
+
+/// The images, ready to be asked pixel by pixel.
+pub struct Surfaces<'a> {
+    inputs: Inputs<'a>,
+    view: &'a View,
+    radius: f64,
+    /// Depths further apart are on different surfaces.
+    threshold: f64,
+    smoothed: Image<Texel>,
+    raw: Image<Texel>,
+}
+
+impl<'a> Surfaces<'a> {
+    pub fn new(inputs: &Inputs<'a>, settings: &Settings, view: &'a View) -> Self {
+        let (radius, threshold) = (settings.radius, settings.falloff * settings.radius);
+        let (smoothed, raw) = (texels(inputs.smoothed, threshold), texels(inputs.depth, threshold));
+        Self { inputs: *inputs, view, radius, threshold, smoothed, raw }
+    }
+
+    fn near(&self, a: f64, b: f64, margin: &mut f64) -> bool {
+        *margin = margin.min(((a - b).abs() - self.threshold).abs());
+        (a - b).abs() <= self.threshold
+    }
+
+    /// The texels of the smoothed image that a pixel sees, their weights of sum 1, and how many they
+    /// are on its surface.
+    fn seen(&self, x: usize, y: usize, margin: &mut f64) -> (Vec<(usize, usize, f64)>, Case) {
+        let z = self.inputs.smoothed;
+        let depth = self.inputs.depth.at(x, y);
+        let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << self.inputs.level);
+        let all = tent(z.width, z.height, at);
+        let mut own: Vec<_> =
+            all.iter().copied().filter(|t| self.near(z.at(t.0, t.1), depth, margin)).collect();
+        let sum: f64 = own.iter().map(|t| t.2).sum();
+        if sum >= 1e-4 {
+            own.iter_mut().for_each(|t| t.2 /= sum);
+            let case = if own.len() == all.len() { Case::Whole } else { Case::Border };
+            return (own, case);
+        }
+        let away = |t: &&(usize, usize, f64)| (z.at(t.0, t.1) - depth).abs();
+        let nearest = all.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let (i, j, _) = *nearest.expect("a tent touches a texel");
+        let own = self.near(z.at(i, j), depth, margin);
+        (vec![(i, j, 1.0)], if own { Case::Nearest } else { Case::Alone })
+    }
+
+    /// Depth and slope (with that of absolute values) of the smoothed surface in a pixel.
+    fn smooth(&self, x: usize, y: usize, margin: &mut f64) -> (f64, [DVec2; 2], Case) {
+        let (seen, mut case) = self.seen(x, y, margin);
+        if case == Case::Alone {
+            return (self.inputs.depth.at(x, y), [DVec2::ZERO; 2], case);
+        }
+        let z: f64 = seen.iter().map(|t| t.2 * self.inputs.smoothed.at(t.0, t.1)).sum();
+        let (mut slope, mut trust, mut whole) = ([DVec2::ZERO; 2], 0.0, 0.0);
+        for (i, j, weight) in seen {
+            let texel = self.smoothed.at(i, j);
+            *margin = margin.min(texel.margin);
+            let trusted = if texel.whole { weight } else { weight * RIM };
+            slope = [0, 1].map(|k| slope[k] + texel.slope[k] * trusted);
+            trust += trusted;
+            whole += if texel.whole { weight } else { 0.0 };
+        }
+        let mut slope = slope.map(|s| s / trust);
+        if whole < 1.0 - 1e-9 && case != Case::Nearest {
+            case = Case::PartRim;
+        }
+        if (whole - 1.0 / 63.0).abs() < 1e-6 {
+            *margin = 0.0;
+        }
+        if whole <= 1.0 / 63.0 {
+            let cut = self.not_steep(slope[0], z, self.inputs.level);
+            if case != Case::Nearest {
+                case = if cut == slope[0] { Case::Rim } else { Case::SteepRim };
+            }
+            slope[0] = cut;
+        }
+        (z, slope, case)
+    }
+
+    /// Limits a slope to a multiple of what a texel is wide at a depth.
+    fn not_steep(&self, slope: DVec2, depth: f64, level: u32) -> DVec2 {
+        let wide = DVec2::new(self.view.c_x(), self.view.c_y()) * f64::from(1 << level);
+        let most = STEEPEST * depth * wide;
+        slope.max(-most).min(most)
+    }
+
+    /// Thickness in a pixel whose surface lies at a depth: its own texel, or the mean of the texels
+    /// that it sees of the smoothed image, or of those of the thickness over whose middle there is
+    /// its surface (if they weigh 1/1000), or of all.
+    fn thickness(&self, x: usize, y: usize, surface: f64, margin: &mut f64) -> (f64, bool) {
+        let Inputs { thickness, thickness_level, smoothed, level, .. } = self.inputs;
+        if thickness_level == 0 {
+            return (thickness.at(x, y), false);
+        }
+        if thickness_level == level {
+            let (seen, case) = self.seen(x, y, margin);
+            let mean = seen.iter().map(|t| t.2 * thickness.at(t.0, t.1)).sum();
+            return (mean, case == Case::Alone);
+        }
+        let size = f64::from(1 << thickness_level);
+        let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / size;
+        let mut mean = |own: bool| {
+            let (mut sum, mut weights) = (0.0, 0.0);
+            // Tent weights by hand: the middle of a texel beyond the edge is there, not on it.
+            for j in -1..=thickness.height as isize {
+                for i in -1..=thickness.width as isize {
+                    let middle = DVec2::new(i as f64 + 0.5, j as f64 + 0.5);
+                    let tent = (1.0 - (middle - at).abs()).max(DVec2::ZERO);
+                    let over = middle * size / f64::from(1 << level);
+                    let z = smoothed.clamped(over.x.floor() as isize, over.y.floor() as isize);
+                    if tent.x * tent.y > 0.0 && (!own || self.near(z, surface, margin)) {
+                        sum += tent.x * tent.y * thickness.clamped(i, j);
+                        weights += tent.x * tent.y;
+                    }
+                }
+            }
+            (weights > if own { 1e-3 } else { 0.0 }).then(|| sum / weights)
+        };
+        match mean(true) {
+            Some(own) => (own, false),
+            None => (mean(false).expect("a tent touches a texel"), true),
+        }
+    }
+
+    /// The surface in a pixel, if there is water.
+    pub fn at(&self, x: usize, y: usize) -> Option<Surface> {
+        let depth = self.inputs.depth.at(x, y);
+        if !is_surface(depth) {
+            return None;
+        }
+        let mut margin = self.raw.at(x, y).margin;
+        let (z, smooth, case) = self.smooth(x, y, &mut margin);
+        let (thickness, borrowed) = self.thickness(x, y, z, &mut margin);
+        let spacing = self.radius / 0.656;
+        let mut sphere = self.raw.at(x, y).slope;
+        sphere[0] = self.not_steep(sphere[0], depth, 0);
+        let texel = f64::from(1 << self.inputs.level);
+        let sphere = sphere.map(|s| s * texel);
+        let drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, thickness);
+        let slope = smooth[0].lerp(sphere[0], drop);
+
+        let ray = self.view.ray(x, y);
+        let d = slope / (self.view.slope_step() * texel);
+        let normal = DVec3::new(d.x, d.y, z + ray.x * d.x + ray.y * d.y).normalize();
+        let parts = Parts { case, smooth, sphere, drop, borrowed, margin };
+        Some(Surface { position: ray * z, normal, thickness, parts })
+    }
+}
