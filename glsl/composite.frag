@@ -25,7 +25,7 @@ layout(location = 0) out vec4 color;
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
-    vec2 texel = 1.0 / frame.extent.xy;
+    vec2 texel = 1.0 / vec2(textureSize(depth, 0));
     vec4 before = textureGather(depth, vec2(pixel) * texel);
     vec4 after = textureGather(depth, vec2(pixel + 1) * texel);
     ivec2 last = ivec2(frame.extent.xy) - 1;
@@ -74,7 +74,11 @@ float thickness_at(Surface s, Level level, vec2 pixel, float threshold) {
 
 // Whether any of the four texels of the scene's depth round a point stands before a depth.
 bool stands_before(vec2 at, float z) {
-    vec4 scene = frame.depth.x / (textureGather(scene_depth, at / frame.extent.xy) + frame.depth.y);
+    // No texel of what lies beside the view in the same image.
+    vec2 size = frame.scene_depth.zw;
+    vec2 texel = clamp(at * frame.scene_depth.xy, min(vec2(1.0), 0.5 * size), max(size - 1.0, 0.5 * size));
+    texel = (texel + frame.scene_origin.xy) / vec2(textureSize(scene_depth, 0));
+    vec4 scene = frame.depth.x / (textureGather(scene_depth, texel) + frame.depth.y);
     // Infinity of a reversed depth may come out negative.
     return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
 }
@@ -90,7 +94,9 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
               || stands_before(q + reach * vec2(-1.0, 1.0), z);
     }
     q = hidden ? pixel : q;
-    return textureLod(scene_color, q / frame.extent.xy, 0.0).rgb;
+    vec2 texel = clamp(q * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
+    texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
+    return textureLod(scene_color, texel, 0.0).rgb;
 }
 
 vec3 through_medium(vec3 background, float path) {
@@ -114,7 +120,8 @@ float fresnel(float cosine) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 at = gl_FragCoord.xy - frame.target.xy;
+    ivec2 pixel = ivec2(at);
     float front = texelFetch(depth, pixel, 0).x;
     if (front >= EMPTY) {
         discard;
@@ -122,18 +129,18 @@ void main() {
     float threshold = frame.surface.w;
     uint finer = CONFIGURED == 1u ? 0u : finer_level();
     Level level = levels.level[finer];
-    Surface surface = surface_at(level, gl_FragCoord.xy, front, threshold);
-    float t = thickness_at(surface, level, gl_FragCoord.xy, threshold);
+    Surface surface = surface_at(level, at, front, threshold);
+    float t = thickness_at(surface, level, at, threshold);
     Level coarser = levels.level[1u - finer];
     if (CONFIGURED == 0u && coarser.texel.w > 0.0) {
-        Surface other = surface_at(coarser, gl_FragCoord.xy, front, threshold);
+        Surface other = surface_at(coarser, at, front, threshold);
         surface.z = mix(surface.z, other.z, coarser.texel.w);
         surface.dz = mix(surface.dz, other.dz, coarser.texel.w);
     }
     // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(pixel, front, threshold), drop);
-    vec2 slope = ray_slope(gl_FragCoord.xy, frame.slope);
+    vec2 slope = ray_slope(at, frame.slope);
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, position, n);
@@ -144,7 +151,7 @@ void main() {
     // Light bends towards the water's normal: the look-up moves against it (the source has it the
     // other way, which shows things smaller under a bump).
     vec2 offset = -n.xy * sign(frame.projection.xy) * t * frame.surface.x / (frame.texel.xy * surface.z);
-    vec3 c = through_medium(refracted(gl_FragCoord.xy, offset, surface.z), path);
+    vec3 c = through_medium(refracted(at, offset, surface.z), path);
 
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.
     float w = smoothstep(0.0, 0.25 * frame.particle.x, t);

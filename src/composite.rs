@@ -19,8 +19,8 @@ use crate::water::{COMPOSITE_DRAWS, Recording, WaterLayers};
 pub struct Surroundings {
     /// Framebuffer of the output, in COLOR_ATTACHMENT_OPTIMAL.
     pub target: vk::Framebuffer,
-    /// Its size.
-    pub extent: vk::Extent2D,
+    /// The part of it that is the view.
+    pub area: vk::Rect2D,
     /// The scene behind the water, sampled linearly.
     pub scene_color: Resource,
     /// What it reflects, a cube.
@@ -84,7 +84,7 @@ impl Composite {
             Fresnel::Schlick { .. } => &self.pipelines[0],
             Fresnel::Source { .. } => &self.pipelines[1],
         };
-        gpu.begin_pass(cmd, self.pass.handle, around.target, around.extent.into(), [0.0; 4]);
+        gpu.begin_pass(cmd, self.pass.handle, around.target, around.area, [0.0; 4]);
         let nearest = gpu.samplers.nearest;
         // Their bindings are the same; one of the draws is empty.
         for (pipeline, draw) in pipelines.iter().zip(COMPOSITE_DRAWS) {

@@ -52,7 +52,8 @@ pub struct Enabled {
 /// [`reconfigure`](crate::Renderer::reconfigure).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Size of the output in pixels, 1 to the device's 2D image limit.
+    /// Largest size of the output's part in pixels, 1 to the device's 2D image limit. Images are
+    /// made for it; a frame may be smaller ([`HostImage::rect`]).
     pub extent: vk::Extent2D,
     /// Format of the output: a colour attachment.
     pub output_format: vk::Format,
@@ -133,6 +134,9 @@ pub struct HostImage {
     pub aspect: vk::ImageAspectFlags,
     /// Size in texels.
     pub extent: vk::Extent2D,
+    /// The part of the image that is the view: all of it, or a window of it for one of several
+    /// views, or for a resolution that changes from frame to frame. Barriers cover the whole image.
+    pub rect: vk::Rect2D,
     /// Last use before `record`: stages and accesses to wait for, current layout.
     pub before: Access,
     /// First use after `record`, and the layout to leave the image in.
@@ -217,10 +221,11 @@ pub struct Camera {
 pub struct Frame<'a> {
     /// The slot; its earlier work is complete.
     pub slot: Slot,
-    /// Written where there is water, unchanged elsewhere. Linear, scene-referred.
+    /// Written where there is water, unchanged elsewhere. Linear, scene-referred. Its `rect` is the
+    /// frame's size, at most [`Config::extent`].
     pub output: HostImage,
     /// The scene behind the water, linear, only sampled. May be the image of `output`: then it is
-    /// copied first (both need transfer usage).
+    /// copied first (both need transfer usage), the `rect` of `output`. Else its size may differ.
     pub scene_color: HostImage,
     /// Depth of the scene in the camera's convention, only sampled. Its size may differ.
     pub scene_depth: HostImage,
@@ -230,6 +235,13 @@ pub struct Frame<'a> {
     pub camera: Camera,
     /// Uniform settings.
     pub settings: &'a Settings,
+}
+
+impl Frame<'_> {
+    /// The output is its own scene.
+    pub(crate) fn in_place(&self) -> bool {
+        self.scene_color.image == self.output.image
+    }
 }
 
 /// All settings that cost nothing to change from frame to frame.

@@ -8,7 +8,7 @@ use glam::{Mat4, Vec4};
 use crate::contract::{Camera, Config, Frame, Light};
 use crate::error::Error;
 use crate::gpu::shader;
-use crate::water::settings::{Fresnel, Medium, Rule, WaterSettings};
+use crate::water::settings::{Amplitude, Fresnel, Medium, Rule, WaterSettings};
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
 pub const EMPTY: f32 = 1.0e10;
@@ -31,6 +31,8 @@ pub struct FrameUniforms {
     pub texel: [f32; 4],
     pub scene_depth: [f32; 4],
     pub scene_color: [f32; 4],
+    pub scene_origin: [f32; 4],
+    pub target: [f32; 4],
     pub particle: [f32; 4],
     pub density: [f32; 4],
     pub smoothing: [f32; 4],
@@ -60,6 +62,8 @@ shader::assert_layout!(
         texel,
         scene_depth,
         scene_color,
+        scene_origin,
+        target,
         particle,
         density,
         smoothing,
@@ -173,7 +177,7 @@ impl Lens {
 impl FrameUniforms {
     /// Fills the block for a frame.
     pub fn new(lens: &Lens, frame: &Frame<'_>, config: &Config) -> Self {
-        let full = config.extent;
+        let full = frame.output.rect.extent;
         let level = config.smoothing_level;
         let small = reduced(full, level);
         let thick = reduced(full, config.thickness_level);
@@ -182,16 +186,25 @@ impl FrameUniforms {
         let light = &frame.settings.light;
         let radius = water.radius();
         let axis = THICKNESS_SCALE * radius;
-        let volume = water.spacing.powi(3);
-        let amplitude = volume / (std::f32::consts::PI * KERNEL_INTEGRAL * axis * axis);
+        let amplitude = match water.amplitude {
+            Amplitude::Volume => {
+                water.spacing.powi(3) / (std::f32::consts::PI * KERNEL_INTEGRAL * axis * axis)
+            }
+            Amplitude::Source => 0.8 * 2.0 * axis,
+        };
         let (c_x, c_y) = (
             2.0 / (full.width as f32 * lens.p.x.abs()),
             2.0 / (full.height as f32 * lens.p.y.abs()),
         );
-        let ratio = |image: vk::Extent2D| {
-            let (x, y) = (image.width as f32, image.height as f32);
+        let ratio = |part: vk::Rect2D| {
+            let (x, y) = (part.extent.width as f32, part.extent.height as f32);
             [x / full.width as f32, y / full.height as f32, x, y]
         };
+        // The copy that stands in for an output that is its own scene begins with the view.
+        let scene_color = if frame.in_place() { full.into() } else { frame.scene_color.rect };
+        let [depth_at, color_at, target_at] =
+            [frame.scene_depth.rect, scene_color, frame.output.rect]
+                .map(|part| [part.offset.x as f32, part.offset.y as f32]);
         let fixed = match config.rule {
             Rule::Fixed(count) => count as f32,
             _ => 0.0,
@@ -220,8 +233,10 @@ impl FrameUniforms {
             reduced_slope: lens.slope(full, scale).to_array(),
             thick_slope: lens.slope(full, (1 << config.thickness_level) as f32).to_array(),
             texel: [c_x, c_y, c_x * scale, c_y * scale],
-            scene_depth: ratio(frame.scene_depth.extent),
-            scene_color: ratio(frame.scene_color.extent),
+            scene_depth: ratio(frame.scene_depth.rect),
+            scene_color: ratio(scene_color),
+            scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
+            target: [target_at[0], target_at[1], 0.0, 0.0],
             particle: [radius, water.spacing, axis, amplitude],
             density: [
                 water.density_threshold * water.rest_density,

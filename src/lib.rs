@@ -8,7 +8,8 @@
 //! # Embedding
 //!
 //! 1. Ask [`requirements`] and [`Offer::check`] before you make the device, and enable what you
-//!    want of the optional features. Tell the truth about them in [`Enabled`].
+//!    want of the optional features ([`Offer`] says which it supports). Tell the truth about them
+//!    in [`Enabled`].
 //! 2. [`Renderer::new`] with a [`Host`] and a [`Config`]: all pipelines and memory are made here.
 //! 3. [`Renderer::record_setup`] once, [`Renderer::record_environment`] once per environment.
 //! 4. Each frame, after the slot's fence: [`Renderer::collect`], then [`Renderer::record`] with a
@@ -22,7 +23,7 @@
 //!
 //! | input | what | needs | state |
 //! |---|---|---|---|
-//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, `Config.output_format`, `Config.extent`; transfer source when it is also the scene | `before` → `after` |
+//! | `output` | colour, linear, scene-referred; written where there is water | colour attachment, `Config.output_format`; its `rect` is the frame, at most `Config.extent`; transfer source when it is also the scene | `before` → `after` |
 //! | `scene_color` | the scene behind the water; may be `output` itself (`Config.in_place`) | sampled, linear filtering | `before` → `after` |
 //! | `scene_depth` | device depth in the camera's convention; any size | sampled and depth attachment, a view of the depth aspect alone, single-sampled | `before` → `after` |
 //! | `particles.positions` | 3×f32, world space; NaN, infinite and huge ones are dropped and counted | storage buffer, any stride and offset that are multiples of 4 | `before` → `after` |
@@ -52,6 +53,9 @@
 //!   were recorded. A recorded one that is never submitted is reported by [`Renderer::abandon`].
 //! - One `record` per slot; two views are two renderers. The slot's earlier work is complete.
 //! - Family ownership is acquired before, images are single-sampled.
+//!
+//! The view may be a part of each image ([`HostImage::rect`]), so that several views share one, and
+//! a resolution may change from frame to frame below [`Config::extent`] without a resize.
 //!
 //! Clobbered: bound pipelines, descriptor sets, push constants, viewport and scissor. Not done:
 //! tone mapping, exposure, anti-aliasing, ownership transfers, multisampled or array images,

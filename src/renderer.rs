@@ -156,7 +156,7 @@ impl Renderer {
         let index = self.slot_index(frame.slot)?;
         let lens = self.check_frame(frame)?;
         let gpu = &*self.gpu;
-        let in_place = frame.scene_color.image == frame.output.image;
+        let in_place = frame.in_place();
         let slot = &mut self.slots[index];
         slot.begin(gpu)?;
         let framebuffer =
@@ -179,6 +179,7 @@ impl Renderer {
             cmd,
             descriptors: &slot.descriptors,
             timer: &mut slot.timer,
+            extent: frame.output.rect.extent,
             uniforms: Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64),
             scene_depth: Resource::SampledIn(
                 frame.scene_depth.view,
@@ -199,7 +200,7 @@ impl Renderer {
             &mut r,
             &Surroundings {
                 target,
-                extent: frame.output.extent,
+                area: frame.output.rect,
                 scene_color: Resource::Sampled(scene_color, gpu.samplers.linear),
                 environment: Resource::Sampled(self.environment.cube.view, gpu.samplers.linear),
                 fresnel: frame.settings.water.fresnel,
@@ -220,7 +221,7 @@ impl Renderer {
         gpu.end_label(cmd);
         let recorded = Recorded {
             layers: if self.config.keep_layers {
-                self.water.kept(FRAGMENT_SAMPLED)
+                self.water.kept(frame.output.rect.extent, FRAGMENT_SAMPLED)
             } else {
                 Vec::new()
             },
@@ -389,15 +390,13 @@ impl Renderer {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
         }
         check_settings(&frame.settings.water, &frame.settings.light)?;
-        if frame.output.extent != self.config.extent {
+        let (part, most) = (frame.output.rect.extent, self.config.extent);
+        if part.width > most.width || part.height > most.height {
             return Err(Error::bad(
-                "Frame.output.extent",
+                "Frame.output.rect",
                 format!(
-                    "{}x{}, but the renderer is made for {}x{}: call resize first",
-                    frame.output.extent.width,
-                    frame.output.extent.height,
-                    self.config.extent.width,
-                    self.config.extent.height
+                    "{}x{}, but the renderer is made for {}x{} at most: call resize first",
+                    part.width, part.height, most.width, most.height
                 ),
             ));
         }
@@ -421,11 +420,30 @@ impl Renderer {
             ) {
                 return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
             }
-            if image.extent.width == 0 || image.extent.height == 0 {
-                return Err(Error::bad("HostImage.extent", "zero"));
+            let vk::Rect2D { offset, extent } = image.rect;
+            let fits = |at: i32, size: u32, whole: u32| {
+                at >= 0
+                    && size > 0
+                    && u64::from(at.unsigned_abs()) + u64::from(size) <= whole.into()
+            };
+            if !fits(offset.x, extent.width, image.extent.width)
+                || !fits(offset.y, extent.height, image.extent.height)
+            {
+                return Err(Error::bad(
+                    "HostImage.rect",
+                    format!(
+                        "{}x{} at ({}, {}) is no part of an image of {}x{}",
+                        extent.width,
+                        extent.height,
+                        offset.x,
+                        offset.y,
+                        image.extent.width,
+                        image.extent.height
+                    ),
+                ));
             }
         }
-        if frame.scene_color.image == frame.output.image && !self.config.in_place {
+        if frame.in_place() && !self.config.in_place {
             return Err(Error::bad(
                 "Frame.scene_color",
                 "is the output itself, but Config.in_place is false",
@@ -686,10 +704,12 @@ fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image) {
         base_array_layer: 0,
         layer_count: 1,
     };
+    let from = output.rect.offset;
     let region = vk::ImageCopy::default()
         .src_subresource(layers)
+        .src_offset(vk::Offset3D { x: from.x, y: from.y, z: 0 })
         .dst_subresource(layers)
-        .extent(output.extent.into());
+        .extent(output.rect.extent.into());
     // SAFETY: both images are in their transfer layouts and of one format and size.
     unsafe {
         gpu.device.cmd_copy_image(

@@ -28,6 +28,8 @@ mod level;
 mod limits;
 #[path = "gpu/queries.rs"]
 mod queries;
+#[path = "gpu/rect.rs"]
+mod rect;
 #[path = "gpu/reduce.rs"]
 mod reduce;
 #[path = "gpu/smooth.rs"]

@@ -15,8 +15,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 reduced_slope; // reduced pixel -> slope
     vec4 thick_slope;   // thickness pixel -> slope
     vec4 texel;         // C_x C_y full, C_x C_y reduced: world size of a pixel per depth
-    vec4 scene_depth;   // pixels of the scene's depth per full pixel, its size
+    vec4 scene_depth;   // pixels of the scene's depth per full pixel, size of its part
     vec4 scene_color;   // the same of its colour
+    vec4 scene_origin;  // first pixel of the part: of the scene's depth, of its colour
+    vec4 target;        // first pixel of the part of the output
     vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
     vec4 density;       // spray below, full radius above, rest
     vec4 smoothing;     // width, depth falloff, most iterations, fixed count
@@ -40,5 +42,6 @@ float eye_depth(float device_depth) {
 
 // The scene-depth texel of a full-resolution pixel (nearest look-up by uv).
 ivec2 scene_texel(vec2 pixel) {
-    return clamp(ivec2(pixel * frame.scene_depth.xy), ivec2(0), ivec2(frame.scene_depth.zw) - 1);
+    ivec2 texel = ivec2(pixel * frame.scene_depth.xy);
+    return clamp(texel, ivec2(0), ivec2(frame.scene_depth.zw) - 1) + ivec2(frame.scene_origin.xy);
 }

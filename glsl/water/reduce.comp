@@ -20,6 +20,8 @@ layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; 
 // Pixels that pass the cap until the smoothing is one, two, three, more levels coarser.
 layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
 
+layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a row
+
 #include "reduction.glsl"
 
 shared uint most;
@@ -78,7 +80,7 @@ void main() {
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
-        tile_work[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = most;
+        tile_work[gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x] = most;
     }
     if (gl_LocalInvocationIndex < 4u && tile_over[gl_LocalInvocationIndex] > 0u) {
         atomicAdd(over[gl_LocalInvocationIndex], tile_over[gl_LocalInvocationIndex]);

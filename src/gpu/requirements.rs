@@ -4,7 +4,9 @@ use std::ffi::CStr;
 
 use ash::vk;
 
+use crate::contract::Enabled;
 use crate::error::Error;
+use crate::water::settings::{Gate, Smoothing, Splat};
 
 /// One thing the host must or may enable, and why.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +77,9 @@ pub struct Offer {
     pub blend_r32f: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
+    /// The optional features it supports. A host that enables them all hands this on in
+    /// [`Host::enabled`](crate::Host::enabled).
+    pub optional: Enabled,
     /// Limits.
     pub limits: vk::PhysicalDeviceLimits,
 }
@@ -86,8 +91,13 @@ impl Offer {
         physical: vk::PhysicalDevice,
         output_format: vk::Format,
     ) -> Self {
+        let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
         let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
-        let mut features = vk::PhysicalDeviceFeatures2::default().push_next(&mut v13);
+        let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
+        let mut features = vk::PhysicalDeviceFeatures2::default()
+            .push_next(&mut v12)
+            .push_next(&mut v13)
+            .push_next(&mut conditional);
         // SAFETY: the handles are alive and belong together; the chain is well formed.
         let (properties, output) = unsafe {
             instance.get_physical_device_features2(physical, &mut features);
@@ -96,7 +106,17 @@ impl Offer {
                 instance.get_physical_device_format_properties(physical, output_format),
             )
         };
+        let core = features.features;
         Self {
+            optional: Enabled {
+                // Of the instance, not of a device.
+                debug_utils: false,
+                // A device without the extension leaves the structure as it was.
+                conditional_rendering: conditional.conditional_rendering == vk::TRUE,
+                draw_indirect_count: v12.draw_indirect_count == vk::TRUE,
+                large_points: core.large_points == vk::TRUE,
+                precise_occlusion_queries: core.occlusion_query_precise == vk::TRUE,
+            },
             api_version: properties.api_version,
             synchronization2: v13.synchronization2 == vk::TRUE,
             blend_r32f: can_blend_r32f(instance, physical),
@@ -129,12 +149,24 @@ impl Offer {
                 "the composite is drawn into it; choose another format",
             );
         }
-        let raster = Some(crate::water::settings::Splat::Raster);
+        let raster = Some(Splat::Raster);
         if !self.blend_r32f && (config.depth_splat == raster || config.thickness_splat == raster) {
             return missing(
                 "blending of R32_SFLOAT".into(),
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
+        }
+        match config.smoothing {
+            Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {
+                return missing("drawIndirectCount".into(), "Gate::DrawCount; choose another gate");
+            }
+            Some(Smoothing::Query(Gate::Predicate)) if !self.optional.conditional_rendering => {
+                return missing(
+                    "VK_EXT_conditional_rendering".into(),
+                    "Gate::Predicate; choose another gate",
+                );
+            }
+            _ => {}
         }
         let range = u64::from(self.limits.max_storage_buffer_range).saturating_sub(256);
         if 16 * u64::from(config.max_stride) > range {

@@ -254,6 +254,7 @@ impl Headless {
                 format,
                 aspect: vk::ImageAspectFlags::COLOR,
                 extent,
+                rect: extent.into(),
                 before: COPY_WRITE,
                 after: access::COMPUTE_SAMPLED,
             };
@@ -405,6 +406,7 @@ impl Headless {
             format: image.format,
             aspect: crate::gpu::image::aspect_of(image.format),
             extent: image.extent,
+            rect: image.extent.into(),
             before: rest,
             after: rest,
         };

@@ -159,7 +159,7 @@ impl Depth {
                     &[access::image(&self.image, BEFORE.discarded(), COLOR_ATTACHMENT)],
                     &[],
                 );
-                let area = self.image.extent.into();
+                let area = r.extent.into();
                 gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [EMPTY, 0.0, 0.0, 0.0]);
                 draw_sprites(r, list, points, quads)?;
                 // SAFETY: the pass was begun above.

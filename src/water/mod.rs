@@ -16,6 +16,7 @@ use ash::vk;
 
 use crate::contract::{Config, Layer, MemoryUse, ParticleCounts, Particles};
 use crate::error::Error;
+use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::Access;
 use crate::gpu::descriptors::{Descriptors, Resource};
@@ -25,7 +26,7 @@ use crate::gpu::timing::{Scope, Timer};
 
 pub(crate) use cull::chunks;
 pub(crate) use level::MOST_COARSENING;
-pub use settings::{Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
+pub use settings::{Amplitude, Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
 pub(crate) use tiles::COMPOSITE_DRAWS;
 
 /// What every pass records with.
@@ -34,6 +35,8 @@ pub(crate) struct Recording<'a> {
     pub cmd: vk::CommandBuffer,
     pub descriptors: &'a Descriptors,
     pub timer: &'a mut Timer,
+    /// Size of the frame; images may be larger.
+    pub extent: vk::Extent2D,
     /// The frame's uniform block.
     pub uniforms: Resource,
     /// The scene's depth, sampled.
@@ -160,22 +163,22 @@ impl Water {
         self.smooth.query_results()
     }
 
-    /// The layers for the host, in the state `composite` left them in.
-    pub fn kept(&self, access: Access) -> Vec<Layer> {
-        let layer = |name, image: &Image, access| Layer {
+    /// The layers of a frame of a size for the host, in the state `composite` left them in.
+    pub fn kept(&self, frame: vk::Extent2D, access: Access) -> Vec<Layer> {
+        let layer = |name, image: &Image, level, access| Layer {
             name,
             image: image.handle,
             view: image.view,
             format: image.format,
-            extent: image.extent,
+            extent: reduced(frame, level),
             access,
         };
-        let configured = |layer: Layer| Layer { extent: self.reduce.extent, ..layer };
+        let (smoothing, plan) = (self.reduce.level, reduce::PLAN_AFTER);
         vec![
-            layer("water.depth", &self.depth.image, access),
-            configured(layer("water.surface", &self.smooth.a, access)),
-            configured(layer("water.iterations", &self.reduce.plan, reduce::PLAN_AFTER)),
-            layer("water.thickness.front", &self.thickness.image, access),
+            layer("water.depth", &self.depth.image, 0, access),
+            layer("water.surface", &self.smooth.a, smoothing, access),
+            layer("water.iterations", &self.reduce.plan, smoothing, plan),
+            layer("water.thickness.front", &self.thickness.image, self.thickness.level, access),
         ]
     }
 

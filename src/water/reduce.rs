@@ -34,8 +34,8 @@ pub struct Reduce {
     pipeline: Pipeline,
     /// Iterations (9 bits) and step (23 bits) of each reduced pixel.
     pub plan: Image,
-    /// Size of the configured level.
-    pub extent: vk::Extent2D,
+    /// The configured level of the smoothing.
+    pub level: u32,
 }
 
 /// Number of a rule in the shaders.
@@ -53,7 +53,7 @@ impl Reduce {
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
             plan: Self::plan(gpu, config)?,
-            extent: reduced(config.extent, config.smoothing_level),
+            level: config.smoothing_level,
         })
     }
 
@@ -79,7 +79,6 @@ impl Reduce {
     ) -> Result<(), Error> {
         let plan = Self::plan(gpu, config)?;
         retired.retire(std::mem::replace(&mut self.plan, plan));
-        self.extent = reduced(config.extent, config.smoothing_level);
         Ok(())
     }
 
@@ -127,7 +126,8 @@ impl Reduce {
                 (8, Resource::buffer(&level.over)),
             ],
         )?;
-        r.dispatch_over(self.extent, self.pipeline.local_size);
+        self.pipeline.push(gpu, cmd, &tiles.atlas.columns);
+        r.dispatch_over(reduced(r.extent, self.level), self.pipeline.local_size);
         r.end(scope);
         Ok(())
     }

@@ -63,6 +63,8 @@ pub struct WaterSettings {
     pub smoothing_width: f32,
     /// Depth steps over this many drawn radii are silhouettes, not smoothed over. Default 5.3.
     pub depth_falloff: f32,
+    /// What a particle adds to the thickness.
+    pub amplitude: Amplitude,
     /// Optical properties.
     pub medium: Medium,
     /// Fresnel reflectance.
@@ -84,6 +86,7 @@ impl Default for WaterSettings {
             density_full: 0.45,
             smoothing_width: 1.5,
             depth_falloff: 5.3,
+            amplitude: Amplitude::Volume,
             medium: Medium::POOL,
             fresnel: Fresnel::Schlick { f0: 0.02 },
             refraction: 0.25,
@@ -98,6 +101,17 @@ impl WaterSettings {
     pub fn radius(&self) -> f32 {
         RADIUS_PER_SPACING * self.spacing
     }
+}
+
+/// Height of a particle's thickness sprite `√(1 − ρ²)·exp(−2ρ²)` at its centre.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Amplitude {
+    /// Its integral over the sprite is the particle's volume, spacing³: the thickness is metres of
+    /// water, and does not depend on how many particles resolve it. Default.
+    Volume,
+    /// The source's 0.8 times the sprite's width (thesis, Listing A.15): a sprite holds about four
+    /// particle volumes, and finer particles make more water.
+    Source,
 }
 
 /// How light is lost and gained on its way through the water.

@@ -54,6 +54,8 @@ pub struct Thickness {
     path: Path,
     /// Thickness along z.
     pub image: Image,
+    /// Times halved.
+    pub level: u32,
 }
 
 impl Thickness {
@@ -81,7 +83,7 @@ impl Thickness {
                 sums: Self::sums(gpu, &image)?,
             },
         };
-        Ok(Self { path, image })
+        Ok(Self { path, image, level: config.thickness_level })
     }
 
     fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
@@ -141,13 +143,8 @@ impl Thickness {
                     &[access::image(&self.image, BEFORE.discarded(), COLOR_ATTACHMENT)],
                     &[],
                 );
-                gpu.begin_pass(
-                    cmd,
-                    pass.handle,
-                    framebuffer.handle,
-                    self.image.extent.into(),
-                    [0.0; 4],
-                );
+                let area = reduced(r.extent, self.level).into();
+                gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [0.0; 4]);
                 draw_sprites(r, list, points, quads)?;
                 // SAFETY: the pass was begun above.
                 unsafe { gpu.device.cmd_end_render_pass(cmd) };
@@ -184,7 +181,7 @@ impl Thickness {
                         (2, Resource::storage(&self.image)),
                     ],
                 )?;
-                r.dispatch_over(self.image.extent, resolve.local_size);
+                r.dispatch_over(reduced(r.extent, self.level), resolve.local_size);
                 gpu.barriers(
                     cmd,
                     &[access::image(&self.image, COMPUTE_WRITE, FRAGMENT_SAMPLED)],

@@ -2,10 +2,10 @@
 //! kind of host image.
 
 use ash::vk;
-use whitewater::water::{Rule, Smoothing, Splat};
+use whitewater::water::{Gate, Rule, Smoothing, Splat};
 use whitewater::{
-    Access, Config, Count, Error, Frame, HostImage, Packets, Recorded, Renderer, Settings, Slot,
-    Stream,
+    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Renderer, Settings,
+    Slot, Stream,
 };
 
 use crate::reference::Image;
@@ -347,7 +347,13 @@ type Spoil = (&'static str, &'static str, fn(&mut Good<'_>));
 fn spoils() -> Vec<Spoil> {
     vec![
         ("slot", "Frame.slot", |g| g.frame.slot = Slot(3)),
-        ("extent", "Frame.output.extent", |g| g.frame.output.extent.width += 1),
+        ("too large", "Frame.output.rect", |g| {
+            g.frame.output.extent.width += 1;
+            g.frame.output.rect.extent.width += 1;
+        }),
+        ("beyond", "HostImage.rect", |g| g.frame.output.rect.offset.x = 1),
+        ("before", "HostImage.rect", |g| g.frame.scene_depth.rect.offset.y = -1),
+        ("no part", "HostImage.rect", |g| g.frame.scene_color.rect.extent.width = 0),
         ("format", "Frame.output.format", |g| g.frame.output.format = vk::Format::R8G8B8A8_UNORM),
         ("lost output", "Frame.output.before", |g| {
             g.frame.output.before.layout = vk::ImageLayout::UNDEFINED;
@@ -364,8 +370,8 @@ fn spoils() -> Vec<Spoil> {
         ("left preinitialized", "HostImage.after", |g| {
             g.frame.scene_depth.after.layout = vk::ImageLayout::PREINITIALIZED;
         }),
-        ("no extent", "HostImage.extent", |g| g.frame.scene_depth.extent.height = 0),
-        ("no width", "HostImage.extent", |g| g.frame.scene_color.extent.width = 0),
+        ("no extent", "HostImage.rect", |g| g.frame.scene_depth.extent.height = 0),
+        ("no width", "HostImage.rect", |g| g.frame.scene_color.extent.width = 0),
         ("too many", "Frame.particles.count", |g| g.frame.particles.count = Count::Cpu(4097)),
         ("short buffer", "Frame.particles.positions", |g| {
             g.frame.particles.count = Count::Cpu(4000);
@@ -600,11 +606,15 @@ fn what_a_device_lacks_is_named() {
     let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
     offer.check(&config).expect("this device will do");
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
+    let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
+    let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
     let lacking = [
         (whitewater::Offer { api_version: vk::API_VERSION_1_2, ..offer }, config, "Vulkan 1.3"),
         (whitewater::Offer { synchronization2: false, ..offer }, config, "synchronization2"),
         (whitewater::Offer { output_attachment: false, ..offer }, config, "output format"),
         (whitewater::Offer { blend_r32f: false, ..offer }, raster, "R32_SFLOAT"),
+        (bare, gate(Gate::DrawCount), "drawIndirectCount"),
+        (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
     for (offer, config, needle) in lacking {
         match offer.check(&config) {

@@ -1,7 +1,7 @@
 //! Pass `thickness`: metres of water along z, against the twin.
 
 use whitewater::Config;
-use whitewater::water::Splat;
+use whitewater::water::{Amplitude, Splat};
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
-use crate::support::tolerance::{self, Sum};
+use crate::support::tolerance::{self, Sum, U};
 
 const PATHS: [(Splat, Sum); 2] = [(Splat::Raster, Sum::Float), (Splat::Compute, Sum::Fixed)];
 
@@ -140,5 +140,29 @@ fn the_volume_is_kept_at_every_distance() {
                 assert!(off.abs() <= most, "{splat:?}, level {level}, {axis} pixels: {off}");
             }
         }
+    }
+}
+
+/// The source's unit: the same sums, times its height over ours.
+#[test]
+fn the_sources_amplitude() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for (splat, _) in PATHS {
+        let mut rig = Rig::new(&gpu, &Config { thickness_splat: Some(splat), ..config(size) });
+        let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(3, 300, 1.0, 9.0));
+        let volume = rig.draw(&shot).thickness;
+        shot.settings.water.amplitude = Amplitude::Source;
+        let source = rig.draw(&shot).thickness;
+        let water = &shot.settings.water;
+        let axis = 2.0 * f64::from(water.radius());
+        let ours = f64::from(water.spacing).powi(3) / (PI * J * axis * axis);
+        let ratio = 0.8 * 2.0 * axis / ours;
+        for (a, b) in volume.data.iter().zip(&source.data) {
+            // Each height is rounded a few times; a float sum once an addend.
+            let (expected, found) = (f64::from(*a) * ratio, f64::from(*b));
+            assert!((found - expected).abs() <= 600.0 * U * expected, "{found}, not {expected}");
+        }
+        assert!(volume.data.iter().any(|t| *t > 0.0));
     }
 }

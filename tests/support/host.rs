@@ -58,6 +58,7 @@ impl Texture {
             format: self.format,
             aspect: self.aspect,
             extent: self.extent,
+            rect: self.extent.into(),
             before: self.state,
             after: self.state,
         }

@@ -31,9 +31,16 @@ pub fn config(size: vk::Extent2D) -> Config {
     }
 }
 
+/// Colour beside a view.
+pub const AROUND: [f32; 4] = [50.0, 0.0, 25.0, 0.5];
+
 /// What a frame shows.
 #[derive(Clone)]
 pub struct Shot {
+    /// Of the view.
+    pub size: vk::Extent2D,
+    /// Columns before and behind the view, rows above and below it, in all images of the host's.
+    pub margin: [u32; 4],
     pub camera: Camera,
     pub settings: Settings,
     pub positions: Vec<[f32; 3]>,
@@ -51,6 +58,8 @@ impl Shot {
     pub fn new(size: vk::Extent2D, lens: scenes::Lens, radius: f32, points: &[[f32; 3]]) -> Self {
         let camera = scenes::camera(lens, size);
         let mut shot = Self {
+            size,
+            margin: [0; 4],
             positions: scenes::world(&camera, points),
             camera,
             settings: scenes::settings(radius),
@@ -63,6 +72,25 @@ impl Shot {
         shot.color = gradient(size);
         shot.scene_depth(|_, _| None);
         shot
+    }
+
+    /// Size of an image round a view of a size, and where the view lies in it.
+    pub fn with_margin(&self, view: vk::Extent2D) -> (vk::Extent2D, vk::Rect2D) {
+        let [left, right, above, below] = self.margin;
+        let whole = extent(left + view.width + right, above + view.height + below);
+        let offset = vk::Offset2D { x: left as i32, y: above as i32 };
+        (whole, vk::Rect2D { offset, extent: view })
+    }
+
+    /// The texels of such an image.
+    fn pad<T: Copy>(&self, view: vk::Extent2D, texels: &[T], around: T) -> Vec<T> {
+        let (whole, rect) = self.with_margin(view);
+        let mut padded = vec![around; (whole.width * whole.height) as usize];
+        for (y, row) in texels.chunks_exact(view.width as usize).enumerate() {
+            let at = (y + rect.offset.y as usize) * whole.width as usize + rect.offset.x as usize;
+            padded[at..at + row.len()].copy_from_slice(row);
+        }
+        padded
     }
 
     /// The twins' camera.
@@ -138,6 +166,8 @@ pub fn gradient(size: vk::Extent2D) -> Vec<[f32; 4]> {
 #[derive(Clone)]
 pub struct Drawn {
     pub output: Image<[f32; 4]>,
+    /// The output's image with what lies beside the view.
+    pub whole: Image<[f32; 4]>,
     pub depth: Image<f32>,
     /// Of the finest level in use.
     pub surface: Image<f32>,
@@ -242,17 +272,18 @@ impl<'g> Rig<'g> {
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let color = self.stub.uploaded(
             self.config.output_format,
-            self.config.extent,
+            shot.with_margin(shot.size).0,
             usage,
-            &color_bytes(self.config.output_format, &shot.color),
+            &color_bytes(self.config.output_format, &shot.pad(shot.size, &shot.color, AROUND)),
             COLOR,
         );
         let usage = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let depth = self.stub.uploaded(
             shot.depth_format,
-            shot.depth_extent,
+            shot.with_margin(shot.depth_extent).0,
             usage,
-            &depth_bytes(shot.depth_format, &shot.depth),
+            // Nearer than all water.
+            &depth_bytes(shot.depth_format, &shot.pad(shot.depth_extent, &shot.depth, 0.5)),
             DEPTH,
         );
         (color, depth)
@@ -283,16 +314,21 @@ impl<'g> Rig<'g> {
         let (color, depth) = self.scene(shot);
         let apart = (!self.config.in_place).then(|| {
             let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
-            let bytes = color_bytes(self.config.output_format, &shot.color);
-            let (format, extent) = (self.config.output_format, self.config.extent);
+            let format = self.config.output_format;
+            let bytes = color_bytes(format, &shot.pad(shot.size, &shot.color, AROUND));
+            let extent = shot.with_margin(shot.size).0;
             self.stub.uploaded(format, extent, usage, &bytes, COLOR)
         });
-        let output = apart.as_ref().unwrap_or(&color).host_image();
+        let placed = |texture: &Texture, size| HostImage {
+            rect: shot.with_margin(size).1,
+            ..texture.host_image()
+        };
+        let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
         let frame = Frame {
             slot: Slot(0),
             output,
-            scene_color: color.host_image(),
-            scene_depth: depth.host_image(),
+            scene_color: placed(&color, shot.size),
+            scene_depth: placed(&depth, shot.depth_extent),
             particles: *particles,
             camera: shot.camera,
             settings: &shot.settings,
@@ -319,9 +355,11 @@ impl<'g> Rig<'g> {
             output.after,
         );
         let levels = self.levels(recorded);
+        let whole = picture(output.format, output.extent, &bytes);
         let empty = || Image::new(0, 0, 0.0);
         let mut drawn = Drawn {
-            output: picture(output.format, output.extent, &bytes),
+            output: crop(&whole, output.rect),
+            whole,
             depth: empty(),
             surface: empty(),
             plan: Image::new(0, 0, 0),
@@ -468,6 +506,13 @@ fn picture(format: vk::Format, extent: vk::Extent2D, bytes: &[u8]) -> Image<[f32
             .collect(),
     };
     Image { width: extent.width as usize, height: extent.height as usize, data }
+}
+
+fn crop(whole: &Image<[f32; 4]>, part: vk::Rect2D) -> Image<[f32; 4]> {
+    let (width, height) = (part.extent.width as usize, part.extent.height as usize);
+    let (x, y) = (part.offset.x as usize, part.offset.y as usize);
+    let rows = whole.data.chunks_exact(whole.width).skip(y).take(height);
+    Image { width, height, data: rows.flat_map(|row| row[x..x + width].to_vec()).collect() }
 }
 
 /// Where a level lies.

@@ -144,7 +144,8 @@ impl Gpu {
             .subresource_range(range(aspect));
         // SAFETY: the image is bound.
         let view = unsafe { self.device.create_image_view(&info, None)? };
-        Ok((HostImage { image, view, format, aspect, extent, before: CLEAR, after }, memory))
+        let rect = extent.into();
+        Ok((HostImage { image, view, format, aspect, extent, rect, before: CLEAR, after }, memory))
     }
 
     pub fn buffer(

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 use whitewater::Settings;
-use whitewater::water::settings::{Fresnel, Medium, WaterSettings};
+use whitewater::water::settings::{Amplitude, Fresnel, Medium, WaterSettings};
 
 use crate::failure::{Failure, Outcome};
 
@@ -26,6 +26,7 @@ pub struct WaterTable {
     density_full: Option<f32>,
     smoothing_width: Option<f32>,
     depth_falloff: Option<f32>,
+    amplitude: Option<String>,
     medium: Option<toml::Value>,
     fresnel: Option<toml::Value>,
     refraction: Option<f32>,
@@ -102,6 +103,14 @@ impl SettingsFile {
         set(&mut water.refraction, table.refraction);
         set(&mut water.specular, table.specular);
         set(&mut water.shininess, table.shininess);
+        match table.amplitude.as_deref() {
+            None => {}
+            Some("volume") => water.amplitude = Amplitude::Volume,
+            Some("source") => water.amplitude = Amplitude::Source,
+            Some(other) => {
+                return Err(format!("water.amplitude: expected volume or source, found '{other}'"));
+            }
+        }
         if let Some(value) = &table.medium {
             water.medium = medium(value, water)?;
         }
@@ -172,6 +181,10 @@ pub fn to_toml(settings: &Settings) -> String {
             format!("{{ bias = {bias:?}, scale = {scale:?}, power = {power:?} }}")
         }
     };
+    let amplitude = match water.amplitude {
+        Amplitude::Volume => "volume",
+        Amplitude::Source => "source",
+    };
     let numbers = [
         ("spacing", water.spacing),
         ("rest_density", water.rest_density),
@@ -185,7 +198,7 @@ pub fn to_toml(settings: &Settings) -> String {
     ];
     let numbers: String = numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect();
     format!(
-        "[water]\n{numbers}medium = {medium}\nfresnel = {fresnel}\n\n\
+        "[water]\n{numbers}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
          [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\n",
         light.direction, light.color, light.ambient
     )
@@ -218,6 +231,7 @@ mod tests {
         let mut settings = Settings::default();
         settings.water.medium = Medium::source(0.02);
         settings.water.shininess = 1.0e-7;
+        settings.water.amplitude = Amplitude::Source;
         let mut back = Settings::default();
         SettingsFile::parse(&to_toml(&settings)).unwrap().apply(&mut back).unwrap();
         assert_eq!(back, settings);
@@ -231,6 +245,7 @@ mod tests {
             ("[water]\n\nspacing = 'a'", "line 3"),
             ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk, source"),
             ("[water]\nmedium = {absorption=[1.0,1.0,1.0], scatter=[0.0,0.0,0.0]}", "scatter"),
+            ("[water]\namplitude = 'loud'", "volume or source"),
             ("[water", "line 1"),
         ] {
             let message = SettingsFile::parse(text).unwrap_err();

@@ -1,0 +1,98 @@
+//! Views that are a part of the host's images, and frames smaller than the renderer was made for.
+
+use whitewater::Config;
+use whitewater::water::{Gate, Smoothing, Splat};
+
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{AROUND, Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+
+const SIZE: (u32, u32) = (61, 45);
+
+fn shot(depth_extent: (u32, u32)) -> Shot {
+    let mut points = scenes::block(3, 0.25, [14, 8, 4], [-1.8, -1.0, 4.0]);
+    points.extend(scenes::cloud(4, 30, 1.5, 12.0));
+    let mut shot = Shot::new(extent(SIZE.0, SIZE.1), Lens::Reversed, 0.2, &points);
+    // Refraction that looks beyond the view's edges.
+    shot.settings.water.refraction = 2.0;
+    shot.depth_extent = extent(depth_extent.0, depth_extent.1);
+    shot.scene_depth(|x, y| ((x / 9 + y / 7) % 2 == 0).then_some(6.0 + f64::from(x % 5)));
+    shot
+}
+
+/// Bit for bit, but for the scene's colour: it is filtered at a place that rounds otherwise in
+/// another image. Weights have at least four bits, neighbours of the gradient differ by 1/256 along
+/// either axis.
+fn assert_same(name: &str, found: &Drawn, expected: &Drawn) {
+    compare::same(&format!("{name}-depth"), &found.depth, &expected.depth);
+    compare::same(&format!("{name}-surface"), &found.surface, &expected.surface);
+    compare::same(&format!("{name}-thickness"), &found.thickness, &expected.thickness);
+    assert!(found.plan.data == expected.plan.data, "{name}: other plans");
+    let bound = 2.0 * 2.0_f32.powi(-4) / 256.0;
+    for (i, (a, b)) in found.output.data.iter().zip(&expected.output.data).enumerate() {
+        let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        let at = (i % found.output.width, i / found.output.width);
+        assert!(off <= bound, "{name} at {at:?}: {a:?}, expected {b:?}");
+    }
+}
+
+/// Every way that has images of its own size.
+fn ways() -> Vec<(&'static str, Config)> {
+    let base = config(extent(SIZE.0, SIZE.1));
+    let sums = Config { thickness_level: 1, ..base };
+    vec![
+        ("tiles", Config { smoothing: Some(Smoothing::Tiles), ..base }),
+        ("fused", Config { smoothing: Some(Smoothing::Fused), smoothing_level: 0, ..base }),
+        ("query", Config { smoothing: Some(Smoothing::Query(Gate::VertexCull)), ..sums }),
+        ("depth", Config { depth_splat: Some(Splat::Raster), ..sums }),
+        ("coarser", Config { max_iterations: 3, ..base }),
+    ]
+}
+
+/// The view gets what it gets alone; what lies beside it is neither seen nor touched.
+#[test]
+fn a_view_may_be_a_part_of_the_images() {
+    let gpu = Gpu::shared();
+    for depth_extent in [SIZE, (122, 90), (40, 33)] {
+        for (way, config) in ways() {
+            for in_place in [true, false] {
+                let config = Config { in_place, ..config };
+                let mut rig = Rig::new(&gpu, &config);
+                let alone = rig.draw(&shot(depth_extent));
+                let part = Shot { margin: [13, 30, 7, 21], ..shot(depth_extent) };
+                let found = rig.draw(&part);
+                let name = format!("part-{way}-{in_place}-{}", depth_extent.0);
+                assert_same(&name, &found, &alone);
+                let (_, rect) = part.with_margin(part.size);
+                for (i, texel) in found.whole.data.iter().enumerate() {
+                    let (x, y) = ((i % found.whole.width) as i32, (i / found.whole.width) as i32);
+                    let (dx, dy) = (x - rect.offset.x, y - rect.offset.y);
+                    let inside =
+                        (0..SIZE.0 as i32).contains(&dx) && (0..SIZE.1 as i32).contains(&dy);
+                    assert!(inside || *texel == AROUND, "{name}: ({x}, {y}) was written");
+                }
+                let drawn = alone.output.data.iter().zip(&part.color).filter(|(a, b)| a != b);
+                assert!(drawn.count() > 100, "{name}: no water");
+            }
+        }
+    }
+}
+
+/// A renderer made for larger frames draws smaller ones as one made for them: a resolution that
+/// changes from frame to frame needs no resize.
+#[test]
+fn a_frame_may_be_smaller_than_the_renderer_is_made_for() {
+    let gpu = Gpu::shared();
+    for (way, config) in ways() {
+        let shot = shot(SIZE);
+        let expected = Rig::new(&gpu, &config).draw(&shot);
+        let mut rig = Rig::new(&gpu, &Config { extent: extent(150, 101), ..config });
+        // What a larger frame left behind is not seen.
+        let whole =
+            Shot::new(extent(150, 101), Lens::Standard, 0.5, &scenes::cloud(1, 900, 1.0, 9.0));
+        rig.draw(&whole);
+        let found = rig.draw(&shot);
+        assert_same(&format!("smaller-{way}"), &found, &expected);
+    }
+}
