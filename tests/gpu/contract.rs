@@ -693,6 +693,33 @@ fn ten_million_particles_have_room() {
     assert!(memory.buffers < 64 * u64::from(count), "{memory:?}");
 }
 
+/// The memory table of the crate's documentation: bytes a pixel and a particle. Images are padded
+/// and aligned as the driver likes; that is a hundredth, and some KiB an object.
+#[test]
+fn memory_is_as_documented() {
+    let gpu = Gpu::shared();
+    let needed = |width: u32, height: u32, count: u32, coarsening: u32| {
+        let format = vk::Format::R16G16B16A16_SFLOAT;
+        let config = Config { coarsening, ..Config::new(extent(width, height), format, count) };
+        // SAFETY: live handles.
+        let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+        let memory = renderer.memory();
+        // SAFETY: nothing was recorded.
+        unsafe { renderer.destroy() };
+        (memory.images + memory.buffers) as f64
+    };
+    for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
+        let (pixels, n) = (f64::from(width * height), f64::from(count));
+        let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
+        for (coarsening, smoothing) in [(3, 4.5), (0, 3.0)] {
+            let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0) + 32.0 * n + cube;
+            let found = needed(width, height, count, coarsening);
+            let off = (found - said).abs();
+            assert!(off < 0.01 * said + 512.0 * 1024.0, "{width}x{height}: {found}, said {said}");
+        }
+    }
+}
+
 /// Every pass has a scope; starts never fall, nothing is negative. Durations are no matter.
 #[test]
 fn timings_name_every_pass() {
@@ -706,8 +733,18 @@ fn timings_name_every_pass() {
         rig.draw(&shot);
         let timings = rig.renderer().timings(Slot(0)).to_vec();
         let names: Vec<&str> = timings.iter().map(|t| t.name).collect();
-        let wanted =
-            ["cull", "depth", "reduce", "tiles", "smooth", "thickness", "scene", "composite"];
+        let wanted = [
+            "cull",
+            "front",
+            "depth",
+            "reduce",
+            "level",
+            "tiles",
+            "smooth",
+            "thickness",
+            "scene",
+            "composite",
+        ];
         for name in wanted {
             assert!(names.contains(&name), "{name} is not among {names:?}");
         }
