@@ -83,17 +83,37 @@ bool stands_before(vec2 at, float z) {
     return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
 }
 
-// Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
-vec3 refracted(vec2 pixel, vec2 offset, float z) {
-    vec2 q = clamp(pixel + offset, vec2(0.5), frame.extent.xy - 0.5);
-    // Every texel of the scene's depth in or next to what filtering will touch.
-    vec2 reach = any(notEqual(frame.scene_depth.xy, vec2(1.0))) ? vec2(0.5) : vec2(0.0);
-    bool hidden = stands_before(q - reach, z);
-    if (reach.x > 0.0) {
-        hidden = hidden || stands_before(q + reach, z) || stands_before(q + reach * vec2(1.0, -1.0), z)
-              || stands_before(q + reach * vec2(-1.0, 1.0), z);
+// Whether scene stands before the water at a point of the view, in or next to what filtering of its
+// colour will touch. Loops here, not branches: a CPU runs branches whole.
+bool hidden_at(vec2 q, float z) {
+    bool same = all(equal(frame.scene_depth.xy, vec2(1.0)));
+    int corners = same ? 1 : 4;
+    bool hidden = false;
+    for (int i = 0; i < corners && !hidden; ++i) {
+        vec2 corner = same ? vec2(0.0) : vec2(i & 1, i >> 1) - 0.5;
+        hidden = stands_before(q + corner, z);
     }
-    q = hidden ? pixel : q;
+    return hidden;
+}
+
+// Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
+// The look-up goes half the way to where that begins, and no farther: dropping the offset there
+// would leave a seam, going all the way would smear what lies at the edge over what it hides.
+vec3 refracted(vec2 pixel, vec2 offset, float z) {
+    offset = clamp(pixel + offset, vec2(0.5), frame.extent.xy - 0.5) - pixel;
+    float far = length(offset);
+    // In offsets: the farthest place known to be free, and the nearest that is not.
+    float free = 0.0;
+    float blocked = 3.0;
+    do {
+        float part = blocked == 3.0 ? free + 1.0 : 0.5 * (free + blocked);
+        bool hidden = hidden_at(pixel + offset * part, z);
+        free = hidden ? free : part;
+        blocked = hidden ? part : blocked;
+    } while (free < 2.0 && (blocked - free) * far >= 0.5);
+    // A pixel and a half less: the edge may be smoothed into its neighbours.
+    float part = free < 2.0 ? clamp(0.5 * (free - 1.5 / max(far, 1.0)), 0.0, 1.0) : 1.0;
+    vec2 q = pixel + offset * part;
     vec2 texel = clamp(q * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
     texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
     return textureLod(scene_color, texel, 0.0).rgb;

@@ -130,6 +130,39 @@ pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
         .any(|&(x, y)| before(at + DVec2::new(x, y)))
 }
 
+/// The look-up, no farther than half the way to what stands before the water: that is asked for as
+/// far as twice the way, then found by halving to half a pixel, less a pixel and a half. And every
+/// place that was asked about.
+pub fn cut_look_up(
+    inputs: &Inputs<'_>,
+    z: f64,
+    pixel: DVec2,
+    displaced: DVec2,
+) -> (DVec2, Vec<DVec2>) {
+    let (at, far) = (|part: f64| pixel + (displaced - pixel) * part, pixel.distance(displaced));
+    let mut asked = Vec::new();
+    let mut ask = |part: f64| {
+        asked.push(at(part));
+        hidden(inputs, z, at(part))
+    };
+    let (mut free, mut blocked) = match (ask(1.0), far < 0.25) {
+        (true, _) => (0.0, 1.0),
+        // Too near to matter: what is free stays.
+        (false, true) => (1.0, 3.0),
+        (false, false) if ask(2.0) => (1.0, 2.0),
+        (false, false) => return (displaced, asked),
+    };
+    while (blocked - free) * far >= 0.5 {
+        let middle = 0.5 * (free + blocked);
+        if ask(middle) {
+            blocked = middle;
+        } else {
+            free = middle;
+        }
+    }
+    (at((0.5 * (free - 1.5 / far.max(1.0))).clamp(0.0, 1.0)), asked)
+}
+
 /// The scene's colour behind a surface, displaced but never onto what stands before the water.
 fn background(
     inputs: &Inputs<'_>,
@@ -139,7 +172,7 @@ fn background(
     pixel: DVec2,
 ) -> DVec3 {
     let q = look_up(settings, surface, view, pixel);
-    let q = if hidden(inputs, -surface.position.z, q) { pixel } else { q };
+    let (q, _) = cut_look_up(inputs, -surface.position.z, pixel, q);
     let color = |t: &(isize, isize, f64)| {
         let [r, g, b, _] = inputs.scene_color.clamped(t.0, t.1);
         DVec3::new(r, g, b) * t.2

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::View;
-use crate::reference::composite::{Fresnel, Inputs, Medium, Settings, look_up};
+use crate::reference::composite::{Fresnel, Inputs, Medium, Settings, cut_look_up, look_up};
 use crate::reference::surface::{Case, Surface};
 
 /// What filtering may do to what is looked up.
@@ -102,6 +102,7 @@ pub fn shaded(
     let rounding = 8.0 * U * view.extent().max_element();
     let moved = offset[0].e.max(offset[1].e) + rounding;
     let q = look_up(settings, surface, view, pixel);
+    let (q, _) = cut_look_up(inputs, -surface.position.z, pixel, q);
     let by = moved + 1.0 / f64::from(1 << filter.bits);
     let changes = changes(inputs, q);
     let behind = [0, 1, 2].map(|i| {
