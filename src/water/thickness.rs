@@ -99,11 +99,12 @@ impl Thickness {
         )
     }
 
+    /// Two words a pixel.
     fn sums(gpu: &Gpu, image: &Image) -> Result<Buffer, Error> {
         Buffer::new(
             gpu,
             "water/thickness/sums",
-            4 * u64::from(image.extent.width) * u64::from(image.extent.height),
+            8 * u64::from(image.extent.width) * u64::from(image.extent.height),
             vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryLocation::GpuOnly,
         )
