@@ -150,8 +150,7 @@ impl Thickness {
                     [0.0; 4],
                 );
                 draw_sprites(r, list, points, quads)?;
-                // SAFETY: the pass was begun above.
-                unsafe { gpu.device.cmd_end_render_pass(cmd) };
+                gpu.end_pass(cmd);
                 gpu.barriers(
                     cmd,
                     &[access::image(&self.image, COLOR_ATTACHMENT, FRAGMENT_SAMPLED)],
