@@ -92,19 +92,19 @@ pub const HEADLESS_SKY_VERT: Shader = Shader {
 pub const WATER_CULL_COMP: Shader = Shader {
     name: "water/cull.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.cull.comp.spv"))); &CODE.0 },
-    push_size: 36,
+    push_size: 32,
     local_size: [64, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "packet_word", 16), ("Push", "chunk_first", 20), ("Push", "capacity", 24), ("Push", "small_limit", 28), ("Push", "small_inside", 32), ("Positions", "positions", 0), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Densities", "densities", 0), ("Visible", "visible", 0), ("HostPackets", "packets", 0), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "chunk_first", 16), ("Push", "capacity", 20), ("Push", "small_limit", 24), ("Push", "small_inside", 28), ("Positions", "positions", 0), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Densities", "densities", 0), ("Visible", "visible", 0), ("HostPackets", "packets", 0), ],
 };
 /// `water/cull_begin.comp`
 pub const WATER_CULL_BEGIN_COMP: Shader = Shader {
     name: "water/cull_begin.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.cull_begin.comp.spv"))); &CODE.0 },
-    push_size: 28,
+    push_size: 24,
     local_size: [32, 1, 1],
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Push", "count", 0), ("Push", "word", 4), ("Push", "from_gpu", 8), ("Push", "chunks", 12), ("Push", "chunk_size", 16), ("Push", "packets", 20), ("Push", "group_size", 24), ("HostCount", "host_count", 0), ("AllCounts", "words", 0), ],
+    members: &[("Push", "count", 0), ("Push", "from_gpu", 4), ("Push", "chunks", 8), ("Push", "chunk_size", 12), ("Push", "packets", 16), ("Push", "group_size", 20), ("HostCount", "host_count", 0), ("AllCounts", "words", 0), ],
 };
 /// `water/cull_end.comp`
 pub const WATER_CULL_END_COMP: Shader = Shader {

@@ -70,7 +70,7 @@
 //! | depth | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | smoothing, two images, and the plan, at half resolution | 3 w h | 2.6 MiB | 5.9 MiB |
 //! | the same a level coarser, for near views (`coarsening`) | 1½ w h | 1.3 MiB | 3.0 MiB |
-//! | thickness and its sums at quarter resolution | ½ w h | 0.4 MiB | 1.0 MiB |
+//! | thickness and its sums at quarter resolution | ¾ w h | 0.7 MiB | 1.5 MiB |
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |

@@ -1,6 +1,10 @@
 // The thickness kernel: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
 // lacks the square). Its integral over the unit disc is pi J, J = 0.3400030.
 
+// Parts of a whole particle's amplitude that the compute path counts in: as fine as a float's own,
+// so that of a sprite widened from a hundredth of a pixel still 1700 are left.
+const float UNITS = 16777216.0;
+
 float thickness_kernel(float rho2) {
     return rho2 > 1.0 ? 0.0 : sqrt(1.0 - rho2) * exp(-2.0 * rho2);
 }

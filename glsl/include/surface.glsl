@@ -1,8 +1,16 @@
-// The smoothed water surface at a full-resolution pixel, from its reduced image: depth and
-// derivatives of the four texels around it that lie on the pixel's own surface (thesis Sec. 4.10,
-// Listings A.16-A.18). Where the source shades four neighbours at a border and blends their
-// colours, we blend the derivatives of those on the same surface and shade once: the colour of
-// another surface never bleeds in, which shows as dark seams.
+// The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.10,
+// Listings A.16-A.18). Two depths lie on one surface if they differ by the falloff at most.
+// - A texel's slope along an axis is the mean of its rises to those of its two neighbours that are
+//   on its surface. One that lacks any of the four is on the rim.
+// - A pixel sees those of the four texels around it that lie on the surface of its own depth, with
+//   bilinear weights; beyond the image's edge its texels are repeated.
+// - Its depth and slope are their means; in the slope, texels on the rim count for RIM. Where whole
+//   ones are 1/63 of the weight at most, the slope is no steeper than RIM_SLOPE.
+// - Where it sees none it faces the eye at its own depth, with the thickness of the one nearest in
+//   depth.
+// Where the source shades four neighbours at a border and blends their colours, we blend the
+// derivatives of those on the same surface and shade once: the colour of another surface never
+// bleeds in, which shows as dark seams.
 // Needs frame.glsl, level.glsl.
 
 struct Surface {
@@ -31,7 +39,7 @@ vec4 differences(vec4 before, vec4 z, vec4 after, float threshold, inout bvec4 w
 // of water curves away within a pixel or two: taken at its word it mirrors the horizon, and every
 // outline is beaded with white.
 const float RIM = 1.0 / 64.0;
-// Steepest slope of a surface that is all rim, a drop: depth per width.
+// Steepest slope, depth per width, of a drop: of what is all rim, or all but 1/63.
 const float RIM_SLOPE = 1.5;
 
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
@@ -81,22 +89,25 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
 
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     vec4 off = abs(z - front);
-    w *= vec4(lessThanEqual(off, vec4(threshold)));
-    float sum = w.x + w.y + w.z + w.w;
-    float least = min(min(off.x, off.y), min(off.z, off.w));
-    if (sum < 1.0e-4) {
-        w = off.x == least ? vec4(1, 0, 0, 0) : off.y == least ? vec4(0, 1, 0, 0)
+    vec4 own = w * vec4(lessThanEqual(off, vec4(threshold)));
+    float sum = own.x + own.y + own.z + own.w;
+    bool lost = sum == 0.0;
+    if (lost) {
+        // At full resolution three have no weight, all on one side of the pixel: none of them.
+        off = mix(off, vec4(2.0 * EMPTY), equal(w, vec4(0.0)));
+        float least = min(min(off.x, off.y), min(off.z, off.w));
+        own = off.x == least ? vec4(1, 0, 0, 0) : off.y == least ? vec4(0, 1, 0, 0)
           : off.z == least ? vec4(0, 0, 1, 0) : vec4(0, 0, 0, 1);
         sum = 1.0;
     }
-    s.weights = w / sum;
-    bool lost = least > threshold;
+    s.weights = own / sum;
     s.z = lost ? front : dot(s.weights, z);
     vec4 slopes = s.weights * trust;
     float trusted = slopes.x + slopes.y + slopes.z + slopes.w;
     // An edge is a power of two: this rounds nothing.
     s.dz = lost ? vec2(0.0) : vec2(dot(slopes, dx), dot(slopes, dy)) / (trusted * level.texel.z);
     vec2 steepest = frame.texel.xy * s.z * RIM_SLOPE;
+    // That is, whole texels weigh more than 1/63.
     s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
     return s;
 }

@@ -23,7 +23,6 @@ layout(push_constant, std430) uniform Push {
     uint position_stride; // in words
     uint density_word;
     uint density_stride;  // 0: no densities
-    uint packet_word;
     uint chunk_first;
     uint capacity;        // of the visible list
     float small_limit;    // largest sprite that counts as small, pixels
@@ -127,7 +126,7 @@ void main() {
         append(kind, sphere);
         return;
     }
-    uint at = push.packet_word + gl_WorkGroupID.x * 8u;
+    uint at = gl_WorkGroupID.x * 8u;
     // Part of the packet that lies in this chunk; in 32 bits, so clamped before it is added.
     uint first = max(packets[at], push.chunk_first);
     uint past = min(packets[at] + min(packets[at + 1u], ~packets[at]), push.chunk_first + here);

@@ -6,13 +6,12 @@
 
 layout(local_size_x = 32) in;
 
-layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count[]; };
+layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count; };
 // 256 bytes a chunk, so that each can be bound and used as arguments by itself.
 layout(set = 0, binding = 2, std430) writeonly buffer AllCounts { uint words[]; };
 
 layout(push_constant, std430) uniform Push {
     uint count;      // known to the host, or the most there may be
-    uint word;       // index of the host's count
     uint from_gpu;   // 1: the count is in the buffer
     uint chunks;
     uint chunk_size;
@@ -25,7 +24,7 @@ void main() {
     if (chunk >= push.chunks) {
         return;
     }
-    uint total = push.from_gpu == 1u ? min(host_count[push.word], push.count) : push.count;
+    uint total = push.from_gpu == 1u ? min(host_count, push.count) : push.count;
     uint first = min(chunk * push.chunk_size, total);
     uint here = min(total - first, push.chunk_size);
     uint groups = push.packets > 0u ? (here > 0u ? push.packets : 0u)

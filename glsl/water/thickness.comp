@@ -1,6 +1,8 @@
 #version 460
 // Pass `thickness`, compute path: sums of fixed-point numbers, so that their order is no matter.
-// Reads: Counts, visible, scene depth. Writes: sums (units of the amplitude / 2^12).
+// An addend is 2^26 at most (a particle of half the radius), 64 overflow a word: what they carry is
+// counted in a second one, as exact. Any number of particles may lie on one spot.
+// Reads: Counts, visible, scene depth. Writes: sums (UNITS of the amplitude).
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -13,14 +15,15 @@ layout(constant_id = 0) const uint LARGE = 0;
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3) uniform sampler2D scene_depth;
-layout(set = 0, binding = 4, std430) buffer Sums { uint sums[]; };
+// The sum's low word and its carries.
+layout(set = 0, binding = 4, std430) buffer Sums { uvec2 sums[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
 // A smaller sprite holds the same volume.
 float units(float radius) {
     float grown = frame.particle.x / radius;
-    return 4096.0 * grown * grown;
+    return UNITS * grown * grown;
 }
 
 // Bounds of the disc in the plane of the centre: exact, it is parallel to the image.
@@ -41,7 +44,11 @@ void splat(ivec2 pixel, vec4 sphere, float inverse_axis, float scale) {
         return;
     }
     uint unit = uint(thickness_kernel(rho2) * scale + 0.5);
-    atomicAdd(sums[uint(pixel.y) * uint(frame.thick_extent.x) + uint(pixel.x)], unit);
+    uint at = uint(pixel.y) * uint(frame.thick_extent.x) + uint(pixel.x);
+    // What the word held and the addend are more than it can hold.
+    if (atomicAdd(sums[at].x, unit) > ~unit) {
+        atomicAdd(sums[at].y, 1u);
+    }
 }
 
 void main() {

@@ -3,15 +3,17 @@
 // Reads: sums. Writes: thickness (R32F).
 
 #include "frame.glsl"
+#include "kernel.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-layout(set = 0, binding = 1, std430) readonly buffer Sums { uint sums[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };
 layout(set = 0, binding = 2, r32f) uniform writeonly image2D thickness;
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(p, ivec2(frame.thick_extent.xy)))) {
         uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
-        imageStore(thickness, p, vec4(float(sums[at]) * (frame.particle.w / 4096.0)));
+        vec2 sum = vec2(sums[at]);
+        imageStore(thickness, p, vec4((sum.y * 4294967296.0 + sum.x) * (frame.particle.w / UNITS)));
     }
 }

@@ -168,7 +168,6 @@ impl Gpu {
     }
 
     /// Ends the pass begun last.
-    #[cfg(feature = "headless")]
     pub fn end_pass(&self, cmd: vk::CommandBuffer) {
         // SAFETY: cmd is recording inside a render pass.
         unsafe { self.device.cmd_end_render_pass(cmd) };

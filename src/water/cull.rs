@@ -53,7 +53,6 @@ const MOST_LARGE_GROUPS: u32 = 4096;
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct BeginPush {
     count: u32,
-    word: u32,
     from_gpu: u32,
     chunks: u32,
     chunk_size: u32,
@@ -68,7 +67,6 @@ struct CullPush {
     position_stride: u32,
     density_word: u32,
     density_stride: u32,
-    packet_word: u32,
     chunk_first: u32,
     capacity: u32,
     small_limit: f32,
@@ -82,7 +80,6 @@ shader::assert_layout!(
         position_stride,
         density_word,
         density_stride,
-        packet_word,
         chunk_first,
         capacity,
         small_limit,
@@ -230,7 +227,6 @@ impl Cull {
             cmd,
             &BeginPush {
                 count,
-                word: 0,
                 from_gpu: u32::from(from_gpu),
                 chunks: list.chunks,
                 chunk_size: list.chunk_size,
@@ -384,7 +380,6 @@ impl Cull {
                 position_stride: particles.positions.stride / 4,
                 density_word,
                 density_stride,
-                packet_word: 0,
                 chunk_first: first,
                 capacity: chunk.capacity,
                 small_limit,

@@ -162,8 +162,7 @@ impl Depth {
                 let area = r.extent.into();
                 gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [EMPTY, 0.0, 0.0, 0.0]);
                 draw_sprites(r, list, points, quads)?;
-                // SAFETY: the pass was begun above.
-                unsafe { gpu.device.cmd_end_render_pass(cmd) };
+                gpu.end_pass(cmd);
                 gpu.barriers(
                     cmd,
                     &[access::image(&self.image, COLOR_ATTACHMENT, COMPUTE_READ_WRITE)],

@@ -315,8 +315,7 @@ impl Query {
 
     /// Ends it; the image is sampled next.
     fn end(&self, r: &Recording<'_>, image: &Image) {
-        // SAFETY: a pass was begun.
-        unsafe { r.gpu.device.cmd_end_render_pass(r.cmd) };
+        r.gpu.end_pass(r.cmd);
         let barrier = access::image(image, COLOR_ATTACHMENT, FRAGMENT_SAMPLED);
         r.gpu.barriers(r.cmd, &[barrier], &[]);
     }

@@ -101,11 +101,12 @@ impl Thickness {
         )
     }
 
+    /// Two words a pixel.
     fn sums(gpu: &Gpu, image: &Image) -> Result<Buffer, Error> {
         Buffer::new(
             gpu,
             "water/thickness/sums",
-            4 * u64::from(image.extent.width) * u64::from(image.extent.height),
+            8 * u64::from(image.extent.width) * u64::from(image.extent.height),
             vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryLocation::GpuOnly,
         )
@@ -146,8 +147,7 @@ impl Thickness {
                 let area = reduced(r.extent, self.level).into();
                 gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [0.0; 4]);
                 draw_sprites(r, list, points, quads)?;
-                // SAFETY: the pass was begun above.
-                unsafe { gpu.device.cmd_end_render_pass(cmd) };
+                gpu.end_pass(cmd);
                 gpu.barriers(
                     cmd,
                     &[access::image(&self.image, COLOR_ATTACHMENT, FRAGMENT_SAMPLED)],

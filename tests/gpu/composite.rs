@@ -115,7 +115,6 @@ struct Cases {
     part_rim: usize,
     rim: usize,
     steep_rim: usize,
-    nearest: usize,
     alone: usize,
     drop: usize,
     part_drop: usize,
@@ -131,7 +130,6 @@ impl Cases {
             Case::PartRim => &mut self.part_rim,
             Case::Rim => &mut self.rim,
             Case::SteepRim => &mut self.steep_rim,
-            Case::Nearest => &mut self.nearest,
             Case::Alone => &mut self.alone,
         } += 1;
         self.drop += usize::from(parts.drop == 1.0);
@@ -147,7 +145,6 @@ impl std::ops::AddAssign for Cases {
         self.part_rim += other.part_rim;
         self.rim += other.rim;
         self.steep_rim += other.steep_rim;
-        self.nearest += other.nearest;
         self.alone += other.alone;
         self.drop += other.drop;
         self.part_drop += other.part_drop;
@@ -295,9 +292,7 @@ fn every_rule_of_the_surface() {
             Config { smoothing_level: level, thickness_level, coarsening: 0, ..config(size) };
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
-        // At full resolution a surface smoothed by more than the falloff is left out.
-        let width_at_01 = if level == 0 { 0.0 } else { 0.5 };
-        for (falloff, width) in [(5.3, 1.5), (1.0, 0.0), (0.3, 0.0), (0.1, width_at_01)] {
+        for (falloff, width) in [(5.3, 1.5), (1.0, 0.0), (0.3, 0.0), (0.1, 0.5)] {
             let mut points = vec![[-1.2, 0.3, 5.0]; 5];
             points.extend([[1.6, -0.9, 6.0]; 3]);
             points.extend([[1.0, 1.2, 7.0], [0.4, -0.5, 4.0], [0.6, -0.3, 4.2]]);

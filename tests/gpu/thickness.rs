@@ -11,7 +11,8 @@ use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
-use crate::support::tolerance::{self, Sum, U};
+use crate::support::slow;
+use crate::support::tolerance::{self, Sum, U, UNITS};
 
 const PATHS: [(Splat, Sum); 2] = [(Splat::Raster, Sum::Float), (Splat::Compute, Sum::Fixed)];
 
@@ -107,12 +108,12 @@ fn the_volume_is_kept_at_every_distance() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let count = 4000;
-    for (splat, _) in PATHS {
+    for (splat, sum) in PATHS {
         for level in [0, 2] {
             let config =
                 Config { thickness_splat: Some(splat), thickness_level: level, ..config(size) };
             let mut rig = Rig::new(&gpu, &config);
-            for axis in [0.1, 0.4, 0.9, 1.0, 1.1, 1.7] {
+            for axis in [0.001, 0.01, 0.03, 0.1, 0.4, 0.9, 1.0, 1.1, 1.7] {
                 let depth = 8.0_f32;
                 let view = Shot::new(size, Lens::Standard, 1.0, &[]).view(size).reduced(level);
                 let pixel = view.c_x() * f64::from(depth);
@@ -129,10 +130,16 @@ fn the_volume_is_kept_at_every_distance() {
                 let found: f64 =
                     drawn.thickness.data.iter().map(|t| f64::from(*t) * area).sum::<f64>();
                 let volume = f64::from(shot.settings.water.spacing).powi(3) * f64::from(count);
-                let (mean, deviation) = sampled(axis.max(1.0));
+                let drawn_axis = axis.max(1.0);
+                let (mean, deviation) = sampled(drawn_axis);
                 assert!((mean - 1.0).abs() < 1e-3, "{mean}");
-                // Five deviations of the mean, and a thousandth for fixed point and rounding.
-                let most = 5.0 * deviation / f64::from(count).sqrt() + 1e-3;
+                // In fixed point each of pi h^2 addends is off by up to half a unit, 1/12 squared in
+                // the mean, of the pi J h^2 that they make; the unit is of the unwidened sprite.
+                let unit =
+                    if sum == Sum::Fixed { (drawn_axis / axis).powi(2) / UNITS } else { 0.0 };
+                let fixed = unit / (12.0 * PI).sqrt() / J / drawn_axis;
+                // Five deviations of the mean, and a thousandth for that of `sampled` and rounding.
+                let most = 5.0 * deviation.hypot(fixed) / f64::from(count).sqrt() + 1e-3;
                 let off = found / volume - 1.0;
                 if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
                     eprintln!("{splat:?}, level {level}, {axis} pixels: {off:.2e} of {most:.2e}");
@@ -165,4 +172,58 @@ fn the_sources_amplitude() {
         }
         assert!(volume.data.iter().any(|t| *t > 0.0));
     }
+}
+
+/// However many particles lie on one spot, no sum overflows: they are as many times one of them, to
+/// the rounding of floats. Slow: ten million, in chunks.
+#[test]
+fn any_number_of_particles_on_one_spot() {
+    let gpu = Gpu::shared();
+    let size = extent(17, 11);
+    let mut counts = vec![255_u32, 4000, 300_000];
+    if slow() {
+        counts.push(10_000_000);
+    }
+    for count in counts {
+        let mut rig = Rig::new(&gpu, &Config { max_particles: count, ..config(size) });
+        // Just no spray, a particle has half the radius and four times the amplitude.
+        for (name, density) in [("whole", 1000.0), ("half", 350.1)] {
+            let draw = |rig: &mut Rig<'_>, count: u32| {
+                let points = vec![[0.1, -0.2, 4.0]; count as usize];
+                let mut shot = Shot::new(size, Lens::Standard, 0.3, &points);
+                shot.densities = Some(vec![density; points.len()]);
+                rig.draw(&shot).thickness
+            };
+            let (one, many) = (draw(&mut rig, 1), draw(&mut rig, count));
+            assert!(one.data.iter().any(|t| *t > 0.0), "{name}: there is water");
+            for (one, many) in one.data.iter().zip(&many.data) {
+                let expected = f64::from(*one) * f64::from(count);
+                // Two conversions, a sum and a product each.
+                let off = (f64::from(*many) - expected).abs();
+                assert!(off <= 8.0 * U * expected, "{count} {name}: {many}, not {expected}");
+            }
+        }
+    }
+}
+
+/// Sums of more than a word, of sprites that all differ: the same bits in any order.
+#[test]
+fn carries_come_in_any_order() {
+    let gpu = Gpu::shared();
+    let size = extent(17, 11);
+    let points = scenes::cloud(5, 20_000, 3.0, 4.0);
+    let order = Random(7).order(points.len());
+    let mixed: Vec<_> = order.iter().map(|i| points[*i]).collect();
+    let max_particles = points.len() as u32;
+    let mut rig = Rig::new(&gpu, &Config { max_particles, ..config(size) });
+    let [first, second] = [points, mixed].map(|points| {
+        let shot = Shot::new(size, Lens::Standard, 1.0, &points);
+        let spacing = f64::from(shot.settings.water.spacing);
+        // A word holds 256 whole amplitudes, that of a volume over its sprite's integral.
+        let word = 256.0 * spacing.powi(3) / (PI * J * 4.0);
+        let thickness = rig.draw(&shot).thickness.data;
+        assert!(thickness.iter().any(|t| f64::from(*t) > 2.0 * word), "{thickness:?} {word}");
+        thickness
+    });
+    assert_eq!(first, second);
 }

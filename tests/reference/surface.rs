@@ -1,16 +1,7 @@
 //! Twin of the surface that `composite` shades: the smoothed depth of the reduced image, rebuilt in
-//! each pixel of the full one.
-//!
-//! A texel's slope along an axis is the mean of its rises to those of the two neighbours that are
-//! on its surface: not further than the falloff in depth, and in the image. A texel that lacks
-//! one of the four is on the *rim*. A pixel sees the texels round it that are on the surface of its
-//! own depth, weighed by the tent of bilinear filtering (the image's edge goes on beyond it):
-//! - its depth is their mean, its slope too, but with texels on the rim for a 64th of their
-//!   weight; where whole ones are less than a 63rd of it, no axis is steeper than 1.5;
-//! - where none weighs 1/10 000, the texel nearest in depth stands for all, and where even that
-//!   one is on another surface, the pixel faces the eye at its own depth;
-//! - where the thickness is less than 0.9 spacings, the slope passes over into that of the
-//!   unsmoothed depth, which never is steeper than 1.5, wholly from 0.6 down: a drop.
+//! each pixel of the full one by the rules at the head of glsl/include/surface.glsl. Where the
+//! thickness is less than 0.9 spacings, the slope passes over into that of the unsmoothed depth,
+//! which never is steeper than 1.5 on an axis, wholly from 0.6 down: a drop.
 //!
 //! With the ray s = (s_x, s_y, -1) and the depth d(s_x, s_y), P = s d, and P_x x P_y is d times
 //! `(d_x, d_y, d + s_x d_x + s_y d_y)`: the normal, which has P on its back.
@@ -65,9 +56,7 @@ pub enum Case {
     /// Hardly any that is not, and the slope is kept or cut.
     Rim,
     SteepRim,
-    /// None that weighs anything: the nearest in depth.
-    Nearest,
-    /// None.
+    /// None on its surface.
     Alone,
 }
 
@@ -141,7 +130,7 @@ impl<'a> Surfaces<'a> {
     }
 
     /// The texels of the smoothed image that a pixel sees, their weights of sum 1, and how many they
-    /// are on its surface.
+    /// are on its surface; where none is, the nearest in depth.
     fn seen(&self, x: usize, y: usize, margin: &mut f64) -> (Vec<(usize, usize, f64)>, Case) {
         let z = self.inputs.smoothed;
         let depth = self.inputs.depth.at(x, y);
@@ -150,7 +139,7 @@ impl<'a> Surfaces<'a> {
         let mut own: Vec<_> =
             all.iter().copied().filter(|t| self.near(z.at(t.0, t.1), depth, margin)).collect();
         let sum: f64 = own.iter().map(|t| t.2).sum();
-        if sum >= 1e-4 {
+        if !own.is_empty() {
             own.iter_mut().for_each(|t| t.2 /= sum);
             let case = if own.len() == all.len() { Case::Whole } else { Case::Border };
             return (own, case);
@@ -158,8 +147,7 @@ impl<'a> Surfaces<'a> {
         let away = |t: &&(usize, usize, f64)| (z.at(t.0, t.1) - depth).abs();
         let nearest = all.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let (i, j, _) = *nearest.expect("a tent touches a texel");
-        let own = self.near(z.at(i, j), depth, margin);
-        (vec![(i, j, 1.0)], if own { Case::Nearest } else { Case::Alone })
+        (vec![(i, j, 1.0)], Case::Alone)
     }
 
     /// Depth and slope (with that of absolute values) of the smoothed surface in a pixel.
@@ -179,7 +167,7 @@ impl<'a> Surfaces<'a> {
             whole += if texel.whole { weight } else { 0.0 };
         }
         let mut slope = slope.map(|s| s / trust);
-        if whole < 1.0 - 1e-9 && case != Case::Nearest {
+        if whole < 1.0 - 1e-9 {
             case = Case::PartRim;
         }
         if (whole - 1.0 / 63.0).abs() < 1e-6 {
@@ -187,9 +175,7 @@ impl<'a> Surfaces<'a> {
         }
         if whole <= 1.0 / 63.0 {
             let cut = self.not_steep(slope[0], z, self.inputs.level);
-            if case != Case::Nearest {
-                case = if cut == slope[0] { Case::Rim } else { Case::SteepRim };
-            }
+            case = if cut == slope[0] { Case::Rim } else { Case::SteepRim };
             slope[0] = cut;
         }
         (z, slope, case)

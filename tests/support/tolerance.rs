@@ -173,12 +173,15 @@ pub fn smoothing(
     (z, error)
 }
 
+/// Parts of a whole particle's amplitude that sums in fixed point count in.
+pub const UNITS: f64 = 16_777_216.0;
+
 /// How the sums of the thickness are made.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Sum {
     /// One rounding of the sum an addend.
     Float,
-    /// Each addend to a multiple of a 4096th of a whole particle's amplitude; one conversion.
+    /// Each addend to a multiple of 2^-24 of a whole particle's amplitude; one conversion.
     Fixed,
 }
 
@@ -202,7 +205,7 @@ pub fn thickness(
     let mut high = low.clone();
     let mut count = Image::new(view.width, view.height, 0_u32);
     let amplitude_of = |half: f64| volume / (std::f64::consts::PI * J * half * half);
-    let unit = amplitude_of(2.0 * radius) / 4096.0;
+    let unit = amplitude_of(2.0 * radius) / UNITS;
     for sphere in spheres {
         let (center, d) = (sphere.center.truncate(), -sphere.center.z);
         let whole = 2.0 * sphere.radius;

@@ -28,8 +28,8 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "tiles" => 8 * reduced / 256,
         // Each active pixel of each iteration: surface and plan in, surface out.
         "smooth" => 12 * drawn.iterations,
-        // Spheres in, sums cleared, added to, read, thickness out.
-        "thickness" => 16 * visible + 16 * thick,
+        // Spheres in, sums (two words) cleared, the first added to, both read, thickness out.
+        "thickness" => 16 * visible + 24 * thick,
         // A copy of half-float colour.
         "scene" => 16 * full,
         // Depth, thickness and surface shares, scene colour and depth in, colour out.
