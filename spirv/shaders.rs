@@ -88,6 +88,15 @@ pub const HEADLESS_SKY_VERT: Shader = Shader {
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
     members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ],
 };
+/// `water/classify.comp`
+pub const WATER_CLASSIFY_COMP: Shader = Shader {
+    name: "water/classify.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.classify.comp.spv"))); &CODE.0 },
+    push_size: 80,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "velocity_word", 0), ("Push", "velocity_stride", 4), ("Push", "density_word", 8), ("Push", "density_stride", 12), ("Push", "id_word", 16), ("Push", "id_stride", 20), ("Push", "first", 24), ("Push", "count", 28), ("Push", "from_gpu", 32), ("Push", "chunk_end", 36), ("Push", "rows", 40), ("Push", "seed", 44), ("Push", "scale", 48), ("Push", "threshold", 52), ("Push", "foam_lifetime", 56), ("Push", "dt", 60), ("Push", "air_x", 64), ("Push", "air_y", 68), ("Push", "air_z", 72), ("Push", "rest_density", 76), ("Velocities", "velocities", 0), ("Densities", "densities", 0), ("Row", "key", 0), ("Row", "phase", 4), ("Row", "timer", 8), ("Row", "lifetime", 12), ("Row", "age", 16), ("Old", "old_rows", 0), ("New", "new_rows", 0), ("HostCount", "host_count", 0), ("Foam", "foam", 0), ("Ids", "ids", 0), ],
+};
 /// `water/cull.comp`
 pub const WATER_CULL_COMP: Shader = Shader {
     name: "water/cull.comp",

@@ -7,8 +7,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::Mat4;
 use gpu_allocator::vulkan::Allocator;
 
+use crate::error::Error;
 pub use crate::gpu::access::Access;
-use crate::water::settings::{Rule, Smoothing, Splat, WaterSettings};
+use crate::water::settings::{FoamSettings, Rule, Smoothing, Splat, WaterSettings};
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
 pub struct Host<'a> {
@@ -158,6 +159,42 @@ pub struct Stream {
     pub stride: u32,
 }
 
+impl Stream {
+    /// What is wrong with it, for values of so many bytes.
+    pub(crate) fn check(
+        &self,
+        field: &'static str,
+        bytes: u64,
+        count: u32,
+        (most, max_stride): (&str, u32),
+    ) -> Result<(), Error> {
+        let Self { size, offset, stride, .. } = *self;
+        if !stride.is_multiple_of(4) || u64::from(stride) < bytes || !offset.is_multiple_of(4) {
+            let why = format!(
+                "stride {stride} and offset {offset}: multiples of 4 expected, stride at least {bytes}"
+            );
+            return Err(Error::bad(field, why));
+        }
+        if stride > max_stride {
+            return Err(Error::bad(
+                field,
+                format!("stride {stride} is more than {most}, {max_stride}"),
+            ));
+        }
+        // Of the last particle only the value itself has to be there.
+        let used = match u64::from(count) {
+            0 => 0,
+            count => (count - 1) * u64::from(stride) + bytes,
+        };
+        let end = offset.saturating_add(used);
+        if end > size {
+            let why = format!("{count} particles need {end} bytes, the buffer has {size}");
+            return Err(Error::bad(field, why));
+        }
+        Ok(())
+    }
+}
+
 /// How many particles there are.
 #[derive(Clone, Copy, Debug)]
 pub enum Count {
@@ -202,6 +239,32 @@ pub struct Particles {
     /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
     pub before: Access,
     /// First use of them after `record` (layout ignored).
+    pub after: Access,
+}
+
+/// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
+/// as they are after it, in any order. Only read.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// The slot; its earlier work is complete.
+    pub slot: Slot,
+    /// World-space velocities (3×f32, scene units per second).
+    pub velocities: Stream,
+    /// SPH densities (f32); `None`: every particle has the rest density.
+    pub densities: Option<Stream>,
+    /// Ids (u32), unique among the particles of a step and the same from step to step; not dense.
+    /// Of two with the same id the first to come keeps the state; 0xffff_ffff is never foam. `None`:
+    /// no phases, foam is a ramp of the Weber number from half the threshold to one and a half.
+    pub ids: Option<Stream>,
+    /// How many; at most [`StateConfig::max_particles`](crate::StateConfig).
+    pub count: Count,
+    /// Seconds since the step before, [0, ∞).
+    pub dt: f32,
+    /// Uniform settings.
+    pub settings: &'a FoamSettings,
+    /// Last use of all these buffers before the step (layout ignored).
+    pub before: Access,
+    /// First use of them after it (layout ignored).
     pub after: Access,
 }
 

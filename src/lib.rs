@@ -19,6 +19,9 @@
 //!
 //! `tools/embed` is the smallest host.
 //!
+//! What a body of water remembers, its foam, is a [`State`] of its own, which views share:
+//! [`State::record_step`] once per step of the simulation.
+//!
 //! # What `record` takes
 //!
 //! | input | what | needs | state |
@@ -117,6 +120,7 @@ pub mod headless;
 #[cfg(feature = "io")]
 pub mod io;
 mod renderer;
+mod state;
 pub mod water;
 
 pub use contract::*;
@@ -125,3 +129,4 @@ pub use error::Error;
 pub use gpu::requirements::{Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;
+pub use state::{State, StateConfig, state_memory};

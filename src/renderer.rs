@@ -469,41 +469,8 @@ fn check_particles(
         Count::Cpu(count) => count,
         Count::Gpu { .. } => 0,
     };
-    let stream = |field, stream: &Stream, bytes: u64| -> Result<(), Error> {
-        if !stream.stride.is_multiple_of(4)
-            || u64::from(stream.stride) < bytes
-            || !stream.offset.is_multiple_of(4)
-        {
-            return Err(Error::bad(
-                field,
-                format!(
-                    "stride {} and offset {}: multiples of 4 expected, stride at least {bytes}",
-                    stream.stride, stream.offset
-                ),
-            ));
-        }
-        if stream.stride > config.max_stride {
-            return Err(Error::bad(
-                field,
-                format!(
-                    "stride {} is more than Config.max_stride, {}",
-                    stream.stride, config.max_stride
-                ),
-            ));
-        }
-        // Of the last particle only the value itself has to be there.
-        let used = match u64::from(count) {
-            0 => 0,
-            count => (count - 1) * u64::from(stream.stride) + bytes,
-        };
-        let end = stream.offset.saturating_add(used);
-        if end > stream.size {
-            return Err(Error::bad(
-                field,
-                format!("{count} particles need {end} bytes, the buffer has {}", stream.size),
-            ));
-        }
-        Ok(())
+    let stream = |field, stream: &Stream, bytes: u64| {
+        stream.check(field, bytes, count, ("Config.max_stride", config.max_stride))
     };
     stream("Frame.particles.positions", &particles.positions, 12)?;
     if let Some(densities) = &particles.densities {

@@ -8,6 +8,8 @@
 mod reference;
 mod support;
 
+#[path = "gpu/classify.rs"]
+mod classify;
 #[path = "gpu/composite.rs"]
 mod composite;
 #[path = "gpu/contract.rs"]

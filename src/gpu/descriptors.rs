@@ -47,7 +47,7 @@ impl Descriptors {
             |ty, per_set: u32| vk::DescriptorPoolSize { ty, descriptor_count: sets * per_set };
         let sizes = [
             size(vk::DescriptorType::UNIFORM_BUFFER, 2),
-            size(vk::DescriptorType::STORAGE_BUFFER, 6),
+            size(vk::DescriptorType::STORAGE_BUFFER, 7),
             size(vk::DescriptorType::STORAGE_IMAGE, 4),
             size(vk::DescriptorType::COMBINED_IMAGE_SAMPLER, 6),
         ];

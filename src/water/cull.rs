@@ -298,7 +298,8 @@ impl Cull {
         host.push(buffer(list.spheres.handle, LIST_USE, COMPUTE_WRITE));
         gpu.barriers(cmd, &[], &host);
 
-        let most = streams.iter().flatten().map(capacity).fold(self.max_particles, u32::min);
+        let values = streams.iter().flatten().zip([12, 4]);
+        let most = values.map(capacity).fold(self.max_particles, u32::min);
         let (count, from_gpu, host_count) = match particles.count {
             Count::Cpu(count) => (count.min(most), false, Resource::buffer(&list.counts)),
             Count::Gpu { buffer, offset } => (most, true, Resource::Buffer(buffer, offset, 4)),
@@ -398,15 +399,17 @@ impl Cull {
     }
 }
 
-/// Particles a stream can hold.
-pub fn capacity(stream: &Stream) -> u32 {
-    let bytes = stream.size.saturating_sub(stream.offset);
-    u32::try_from(bytes / u64::from(stream.stride.max(4))).unwrap_or(u32::MAX)
+/// Particles of which a stream holds the value, of so many bytes: the last one needs no more.
+pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
+    match stream.size.saturating_sub(stream.offset).checked_sub(bytes) {
+        Some(left) => u32::try_from(left / u64::from(stream.stride.max(4)) + 1).unwrap_or(u32::MAX),
+        None => 0,
+    }
 }
 
 /// The part of a stream from a particle on that can be bound, and the word at which that particle
 /// lies in it; none when the stream ends before.
-fn window(gpu: &Gpu, stream: &Stream, first: u32) -> Option<(Resource, u32)> {
+pub fn window(gpu: &Gpu, stream: &Stream, first: u32) -> Option<(Resource, u32)> {
     let start = stream.offset + u64::from(first) * u64::from(stream.stride);
     let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
     let left = stream.size.checked_sub(aligned).filter(|left| *left >= 4)?;

@@ -1,6 +1,7 @@
 //! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green,
 //! Sainz, I3D 2009). A pass a file; `Water::record` lists them in order.
 
+mod classify;
 mod cull;
 mod depth;
 mod front;
@@ -24,9 +25,12 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 
+pub(crate) use classify::{Classify, ROW, rows as classify_rows};
 pub(crate) use cull::chunks;
 pub(crate) use level::MOST_COARSENING;
-pub use settings::{Amplitude, Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
+pub use settings::{
+    Amplitude, FoamSettings, Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings,
+};
 pub(crate) use tiles::COMPOSITE_DRAWS;
 
 /// What every pass records with.

@@ -172,3 +172,68 @@ pub enum Fresnel {
         power: f32,
     },
 }
+
+/// Foam formation: which particles are foam, by Weber number.
+///
+/// `We = scale·ρ·|v − air|²`; a particle foams while it is at the threshold or above, with times to
+/// come and go that differ from particle to particle (thesis, Sec. 3.2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoamSettings {
+    /// Weber number per density and squared speed, (0, ∞): the particle's diameter over the surface
+    /// tension ([`weber`](Self::weber)), or another reduced form.
+    pub scale: f32,
+    /// Weber number from which on a particle foams, (0, ∞). It does not transfer between
+    /// simulations: take it from the data, such as the 95th percentile over a sequence.
+    pub threshold: f32,
+    /// Mean seconds that foam takes to dissolve, (0, ∞), default 1; each particle 0.5 to 1.5 of it.
+    pub foam_lifetime: f32,
+    /// World velocity of the air, default 0.
+    pub air: [f32; 3],
+    /// Density where no stream gives one, default 1000.
+    pub rest_density: f32,
+    /// Of the random times.
+    pub seed: u32,
+}
+
+/// Surface tension of water in air at 20 °C, N/m.
+pub const SURFACE_TENSION: f32 = 0.0728;
+
+impl FoamSettings {
+    /// The full Weber number `ρ v² l / σ` of particles of a spacing (m), in SI units.
+    pub fn weber(spacing: f32, threshold: f32) -> Self {
+        Self { scale: spacing / SURFACE_TENSION, ..Self::reduced(1.0, threshold) }
+    }
+
+    /// The reduced form of the source's demo, `1e-5·ρ·v²` with v in 1/1.43 spacings per second; its
+    /// thresholds are 50 to 110, default 80.
+    pub fn reduced(spacing: f32, threshold: f32) -> Self {
+        let speed = 1.43 / spacing;
+        Self {
+            scale: 1.0e-5 * speed * speed,
+            threshold,
+            foam_lifetime: 1.0,
+            air: [0.0; 3],
+            rest_density: 1000.0,
+            seed: 0,
+        }
+    }
+
+    /// Checks the ranges; the message names the field.
+    pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
+        let bad = |field, why: String| Err(crate::error::Error::bad(field, why));
+        for (field, value) in [
+            ("FoamSettings.scale", self.scale),
+            ("FoamSettings.threshold", self.threshold),
+            ("FoamSettings.foam_lifetime", self.foam_lifetime),
+            ("FoamSettings.rest_density", self.rest_density),
+        ] {
+            if !value.is_finite() || value <= 0.0 {
+                return bad(field, format!("more than 0 expected, found {value}"));
+            }
+        }
+        if !self.air.iter().all(|v| v.is_finite()) {
+            return bad("FoamSettings.air", format!("{:?}: not finite", self.air));
+        }
+        Ok(())
+    }
+}

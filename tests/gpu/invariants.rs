@@ -461,3 +461,25 @@ fn the_unit_of_length_does_not_show() {
         compare::between(&format!("unit-thickness-{scale}"), &drawn.thickness, &bounds);
     }
 }
+
+/// Of the last particle of an interleaved buffer only its values are there.
+#[test]
+fn the_last_interleaved_particle_is_drawn() {
+    let gpu = Gpu::shared();
+    let size = extent(33, 21);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let mut shot = Shot::new(size, Lens::Standard, 0.3, &[[0.0, 0.0, 4.0], [0.6, 0.2, 4.0]]);
+    shot.densities = Some(vec![1000.0; 2]);
+    let expected = rig.draw(&shot);
+    let words: Vec<f32> =
+        shot.positions.iter().flat_map(|[x, y, z]| [*x, *y, *z, 1000.0]).collect();
+    let storage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
+    let data = rig.stub.data(bytemuck::cast_slice(&words), storage);
+    let particles = Particles {
+        positions: stream(&data, 0, 16),
+        densities: Some(stream(&data, 12, 16)),
+        ..rig.particles(&shot).particles()
+    };
+    let found = rig.draw_particles(&shot, &particles);
+    compare::same("interleaved-last", &found.depth, &expected.depth);
+}

@@ -1,0 +1,174 @@
+#version 460
+// Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up
+// by its id in the table of the step before, moved on, and entered in this step's table: order does
+// not matter, and ids that are gone are forgotten.
+// Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
+
+#include "random.glsl"
+
+layout(local_size_x = 64) in;
+
+// A row of the tables; an empty one has key 0, others id + 1.
+struct Row {
+    uint key;
+    uint phase; // phase in the lowest two bits, transitions above
+    float timer;
+    float lifetime;
+    float age;
+};
+
+layout(set = 0, binding = 1, std430) readonly buffer Velocities { float velocities[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Ids { uint ids[]; };
+layout(set = 0, binding = 4, std430) readonly buffer HostCount { uint host_count; };
+layout(set = 0, binding = 5, std430) readonly buffer Old { Row old_rows[]; };
+layout(set = 0, binding = 6, std430) buffer New { Row new_rows[]; };
+// Foam and age of each particle, in the order of the step's streams.
+layout(set = 0, binding = 7, std430) writeonly buffer Foam { vec2 foam[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint velocity_word;   // of the chunk's first particle
+    uint velocity_stride; // in words
+    uint density_word;
+    uint density_stride;  // 0: no densities
+    uint id_word;
+    uint id_stride;       // 0: no ids
+    uint first;           // particle of the chunk
+    uint count;           // most particles
+    uint from_gpu;        // 1: as many as the host's buffer says, at most count
+    uint chunk_end;       // first particle of the next chunk
+    uint rows;
+    uint seed;
+    float scale;          // Weber number per density and squared speed
+    float threshold;
+    float foam_lifetime;
+    float dt;
+    float air_x;
+    float air_y;
+    float air_z;
+    float rest_density;
+} push;
+
+const uint WATER = 0u;
+const uint WATER_TO_FOAM = 1u;
+const uint FOAM = 2u;
+const uint FOAM_TO_WATER = 3u;
+
+// `precise`: a twin on the CPU must come to the same phases, bit for bit.
+float weber(uint i) {
+    uint at = push.velocity_word + i * push.velocity_stride;
+    precise float x = velocities[at] - push.air_x;
+    precise float y = velocities[at + 1u] - push.air_y;
+    precise float z = velocities[at + 2u] - push.air_z;
+    precise float square = (x * x + y * y) + z * z;
+    float density = push.density_stride > 0u ? densities[push.density_word + i * push.density_stride]
+                                             : push.rest_density;
+    precise float number = (density * square) * push.scale;
+    return number;
+}
+
+uint slot_of(uint key) {
+    uint high;
+    uint low;
+    umulExtended(pcg(key), push.rows, high, low);
+    return high;
+}
+
+uint next(uint slot) {
+    return slot + 1u == push.rows ? 0u : slot + 1u;
+}
+
+// The particle's row of the step before; a new one is water.
+Row row_before(uint key) {
+    uint slot = slot_of(key);
+    for (uint n = 0u; n < push.rows && old_rows[slot].key != 0u; ++n) {
+        if (old_rows[slot].key == key) {
+            Row row = old_rows[slot];
+            row.age += push.dt;
+            return row;
+        }
+        slot = next(slot);
+    }
+    return Row(key, WATER, 0.0, 0.0, 0.0);
+}
+
+void enter(Row row) {
+    uint slot = slot_of(row.key);
+    for (uint n = 0u; n < push.rows; ++n) {
+        uint there = atomicCompSwap(new_rows[slot].key, 0u, row.key);
+        if (there == 0u) {
+            new_rows[slot].phase = row.phase;
+            new_rows[slot].timer = row.timer;
+            new_rows[slot].lifetime = row.lifetime;
+            new_rows[slot].age = row.age;
+            return;
+        }
+        // A second particle of the id: the first one keeps the row.
+        if (there == row.key) {
+            return;
+        }
+        slot = next(slot);
+    }
+}
+
+// One step of a row; what the particle is foam.
+float advance(inout Row row, uint id, float number) {
+    uint transitions = row.phase >> 2;
+    uint phase = row.phase & 3u;
+    float foam_now = 0.0;
+    bool foaming = number >= push.threshold;
+    if (phase == WATER) {
+        if (foaming) {
+            precise float lifetime = 0.25 + 0.25 * uniform_of(push.seed, id, transitions);
+            row.lifetime = lifetime;
+            row.timer = lifetime;
+            row.phase = ((transitions + 1u) << 2) | WATER_TO_FOAM;
+        }
+    } else if (phase == FOAM) {
+        foam_now = 1.0;
+        if (!foaming) {
+            precise float lifetime = push.foam_lifetime * (0.5 + uniform_of(push.seed, id, transitions));
+            row.lifetime = lifetime;
+            row.timer = lifetime;
+            row.phase = ((transitions + 1u) << 2) | FOAM_TO_WATER;
+        }
+    } else {
+        precise float timer = row.timer - push.dt;
+        row.timer = timer;
+        bool to_foam = phase == WATER_TO_FOAM;
+        if (timer <= 0.0) {
+            row.phase = (transitions << 2) | (to_foam ? FOAM : WATER);
+            foam_now = to_foam ? 1.0 : 0.0;
+        } else {
+            float left = timer / row.lifetime;
+            foam_now = to_foam ? 1.0 - left : left;
+        }
+    }
+    return foam_now;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    uint particle = push.first + i;
+    uint count = push.from_gpu == 1u ? min(host_count, push.count) : push.count;
+    if (particle >= min(count, push.chunk_end)) {
+        return;
+    }
+    float number = weber(i);
+    if (push.id_stride == 0u) {
+        // No ids, no memory: a ramp round the threshold. Comparisons with NaN are false.
+        float ramp = number / push.threshold - 0.5;
+        foam[particle] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
+        return;
+    }
+    uint id = ids[push.id_word + i * push.id_stride];
+    uint key = id + 1u;
+    if (key == 0u) {
+        foam[particle] = vec2(0.0);
+        return;
+    }
+    Row row = row_before(key);
+    float now = advance(row, id, number);
+    enter(row);
+    foam[particle] = vec2(now, row.age);
+}

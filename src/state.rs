@@ -1,0 +1,244 @@
+//! What a body of water remembers from step to step, whoever looks at it.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use crate::contract::{Count, Host, Slot, Step, Stream};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::descriptors::Descriptors;
+use crate::gpu::timing::{Timer, Timing};
+use crate::water::{Classify, ROW, classify_rows};
+
+/// What fixes the memory of a [`State`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StateConfig {
+    /// Most particles a step may have.
+    pub max_particles: u32,
+    /// Longest stride of the streams in bytes, a multiple of 4 (default 16).
+    pub max_stride: u32,
+}
+
+impl StateConfig {
+    /// The defaults for a number of particles.
+    pub fn new(max_particles: u32) -> Self {
+        Self { max_particles, max_stride: 16 }
+    }
+}
+
+struct StateSlot {
+    descriptors: Descriptors,
+    timer: Timer,
+}
+
+/// The memory of one body of water: foam phases by particle id. Views share it; each step of the
+/// simulation moves it on once.
+pub struct State {
+    gpu: Arc<Gpu>,
+    config: StateConfig,
+    classify: Classify,
+    slots: Vec<StateSlot>,
+    /// The odd table holds the state.
+    odd: bool,
+    /// Nothing was recorded yet: the tables hold anything.
+    fresh: bool,
+    /// Slot of the last step, until it is collected or abandoned.
+    last: Option<Slot>,
+}
+
+impl State {
+    /// Makes pipelines and memory: 60 bytes a particle and 8 for its foam.
+    ///
+    /// # Errors
+    /// Bad configuration, no memory, and what Vulkan reports.
+    ///
+    /// # Safety
+    /// As [`Renderer::new`](crate::Renderer::new).
+    pub unsafe fn new(host: &Host<'_>, config: &StateConfig) -> Result<Self, Error> {
+        if config.max_particles == 0 {
+            return Err(Error::bad("StateConfig.max_particles", "zero; it sizes the buffers"));
+        }
+        if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
+            let why = format!("{} is no multiple of 4", config.max_stride);
+            return Err(Error::bad("StateConfig.max_stride", why));
+        }
+        let gpu = Gpu::new(host)?;
+        let made = Classify::new(&gpu, config.max_particles, config.max_stride).and_then(|c| {
+            let slot = |_| {
+                let descriptors = Descriptors::new(&gpu, c.sets())?;
+                Ok(StateSlot { descriptors, timer: Timer::new(&gpu)? })
+            };
+            let slots = (0..gpu.slots).map(slot).collect::<Result<Vec<_>, Error>>()?;
+            Ok((c, slots))
+        });
+        match made {
+            Ok((classify, slots)) => Ok(Self {
+                gpu,
+                config: *config,
+                classify,
+                slots,
+                odd: false,
+                fresh: true,
+                last: None,
+            }),
+            Err(error) => {
+                // Nothing was submitted with what was made before the failure.
+                gpu.destroy();
+                Err(error)
+            }
+        }
+    }
+
+    /// Records one step of the simulation. Never submits, waits or allocates device memory.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] with the field, before the first command; after any other error discard
+    /// the command buffer and tell with [`abandon`](Self::abandon).
+    ///
+    /// # Safety
+    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
+    /// recorded, before the frames that show them.
+    pub unsafe fn record_step(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &Step<'_>,
+    ) -> Result<(), Error> {
+        self.check(step)?;
+        let slot = &mut self.slots[step.slot.0 as usize];
+        slot.descriptors.reset(&self.gpu)?;
+        self.gpu.begin_label(cmd, c"whitewater/step");
+        slot.timer.reset(&self.gpu, cmd);
+        if std::mem::take(&mut self.fresh) {
+            self.classify.record_clear(&self.gpu, cmd, self.odd);
+        }
+        let (gpu, timer) = (&self.gpu, &mut slot.timer);
+        self.classify.record(gpu, cmd, &slot.descriptors, timer, step, self.odd)?;
+        self.gpu.end_label(cmd);
+        self.odd = !self.odd;
+        self.last = Some(step.slot);
+        Ok(())
+    }
+
+    /// Records that all particles are water again.
+    ///
+    /// # Safety
+    /// As [`record_step`](Self::record_step).
+    pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
+        self.fresh = false;
+        self.classify.record_clear(&self.gpu, cmd, self.odd);
+    }
+
+    /// Bytes of a saved state.
+    pub fn size(&self) -> u64 {
+        u64::from(self.classify.rows) * ROW
+    }
+
+    /// Records a copy of the state after the last step into a buffer of the host's, from which
+    /// [`record_restore`](Self::record_restore) brings it back, here or in another run with the
+    /// same configuration: a sequence goes on as if it had not been cut.
+    ///
+    /// # Safety
+    /// The buffer has transfer-destination usage and [`size`](Self::size) bytes from `offset` (a
+    /// multiple of 4) on, and is ready; else as [`record_step`](Self::record_step).
+    pub unsafe fn record_save(&mut self, cmd: vk::CommandBuffer, to: vk::Buffer, offset: u64) {
+        if std::mem::take(&mut self.fresh) {
+            self.classify.record_clear(&self.gpu, cmd, self.odd);
+        }
+        self.classify.record_copy(&self.gpu, cmd, self.odd, (to, offset), true);
+    }
+
+    /// Records a copy of a saved state back.
+    ///
+    /// # Safety
+    /// As [`record_save`](Self::record_save), with transfer-source usage.
+    pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
+        self.fresh = false;
+        self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
+    }
+
+    /// Foam (0 to 1) and age (seconds) of each particle of the last step, two `f32` each, in its
+    /// order. Transfer source; last written by a compute shader, then free to be read.
+    pub fn foam(&self) -> vk::Buffer {
+        self.classify.foam.handle
+    }
+
+    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    pub fn timings(&mut self, slot: Slot) -> &[Timing] {
+        match self.slots.get_mut(slot.0 as usize) {
+            Some(state) => state.timer.timings(&self.gpu),
+            None => &[],
+        }
+    }
+
+    /// Says that the step recorded last, with this slot, was thrown away: the state is that before
+    /// it. Earlier steps cannot be taken back; [`record_restore`](Self::record_restore) can.
+    pub fn abandon(&mut self, slot: Slot) {
+        if let Some(state) = self.slots.get_mut(slot.0 as usize) {
+            state.timer.abandon();
+        }
+        if self.last == Some(slot) {
+            self.odd = !self.odd;
+            self.last = None;
+        }
+    }
+
+    /// Bytes of device memory in use.
+    pub fn memory(&self) -> u64 {
+        self.classify.memory()
+    }
+
+    /// Frees everything. A plain drop leaks it, safely.
+    ///
+    /// # Safety
+    /// The GPU is done with all recorded work, or it will never be submitted.
+    pub unsafe fn destroy(self) {
+        let gpu = self.gpu.clone();
+        drop(self);
+        gpu.destroy();
+    }
+
+    /// Everything that can be wrong with a step.
+    fn check(&self, step: &Step<'_>) -> Result<(), Error> {
+        if step.slot.0 as usize >= self.slots.len() {
+            let why = format!("{} of {} frames in flight", step.slot.0, self.slots.len());
+            return Err(Error::bad("Step.slot", why));
+        }
+        if !step.dt.is_finite() || step.dt < 0.0 {
+            return Err(Error::bad("Step.dt", format!("{}: seconds expected", step.dt)));
+        }
+        step.settings.check()?;
+        let count = match step.count {
+            Count::Cpu(count) if count > self.config.max_particles => {
+                let most = self.config.max_particles;
+                let why = format!("{count} is more than StateConfig.max_particles, {most}");
+                return Err(Error::bad("Step.count", why));
+            }
+            Count::Cpu(count) => count,
+            Count::Gpu { offset, .. } => {
+                let to = self.gpu.limits.min_storage_buffer_offset_alignment.max(4);
+                if !offset.is_multiple_of(to) {
+                    let why = format!("{offset} is no multiple of the device's {to}");
+                    return Err(Error::bad("Step.count.offset", why));
+                }
+                0
+            }
+        };
+        let stream = |field, stream: &Stream, bytes| {
+            stream.check(field, bytes, count, ("StateConfig.max_stride", self.config.max_stride))
+        };
+        stream("Step.velocities", &step.velocities, 12)?;
+        if let Some(densities) = &step.densities {
+            stream("Step.densities", densities, 4)?;
+        }
+        if let Some(ids) = &step.ids {
+            stream("Step.ids", ids, 4)?;
+        }
+        Ok(())
+    }
+}
+
+/// Bytes of device memory that a state needs.
+pub fn state_memory(config: &StateConfig) -> u64 {
+    2 * ROW * classify_rows(config.max_particles) + 8 * u64::from(config.max_particles)
+}

@@ -1,0 +1,332 @@
+//! Pass `classify`: foam phases by Weber number, once per step of the simulation (thesis Sec. 3.2;
+//! Listing A.14 culls hard where Sec. 3.2.1 lets a particle be both: here it is both).
+//!
+//! State follows the particle's id, in a hash table that each step writes anew from that of the
+//! step before: particles may be reordered, be born and vanish, and no step depends on their order.
+//! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::cull::{capacity, window};
+use super::settings::FoamSettings;
+use crate::contract::{Count, Step, Stream};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    Access, CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, COPY_WRITE,
+    VERTEX_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+use crate::gpu::timing::Timer;
+
+/// Bytes of a row of the tables.
+pub const ROW: u64 = 20;
+/// Particles of a dispatch at most: 64 a group, 65 535 groups.
+const MOST_CHUNK: u32 = 1 << 21;
+
+/// How foam is read by the passes that draw it, and copied.
+const FOAM_USE: Access = COMPUTE_READ.and(VERTEX_READ).and(COPY_READ);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    velocity_word: u32,
+    velocity_stride: u32,
+    density_word: u32,
+    density_stride: u32,
+    id_word: u32,
+    id_stride: u32,
+    first: u32,
+    count: u32,
+    from_gpu: u32,
+    chunk_end: u32,
+    rows: u32,
+    seed: u32,
+    scale: f32,
+    threshold: f32,
+    foam_lifetime: f32,
+    dt: f32,
+    air_x: f32,
+    air_y: f32,
+    air_z: f32,
+    rest_density: f32,
+}
+shader::assert_layout!(
+    shader::WATER_CLASSIFY_COMP,
+    "Push",
+    Push {
+        velocity_word,
+        velocity_stride,
+        density_word,
+        density_stride,
+        id_word,
+        id_stride,
+        first,
+        count,
+        from_gpu,
+        chunk_end,
+        rows,
+        seed,
+        scale,
+        threshold,
+        foam_lifetime,
+        dt,
+        air_x,
+        air_y,
+        air_z,
+        rest_density,
+    }
+);
+
+/// The pass.
+pub struct Classify {
+    pipeline: Pipeline,
+    /// Tables of the step before and of this one, in turn.
+    tables: [Buffer; 2],
+    /// Foam (0 to 1) and age (seconds) of each particle of the last step, in its order.
+    pub foam: Buffer,
+    /// Rows of a table.
+    pub rows: u32,
+    max_particles: u32,
+    chunk: u32,
+}
+
+/// Rows for as many particles: two of three taken keep the searches short.
+pub fn rows(max_particles: u32) -> u64 {
+    u64::from(max_particles) * 3 / 2 + 1
+}
+
+impl Classify {
+    pub fn new(gpu: &Gpu, max_particles: u32, max_stride: u32) -> Result<Self, Error> {
+        let range = u64::from(gpu.limits.max_storage_buffer_range);
+        let rows = rows(max_particles);
+        if rows * ROW > range {
+            let most = (range / ROW - 1) * 2 / 3;
+            return Err(Error::bad(
+                "StateConfig.max_particles",
+                format!("{max_particles}: the device binds state for {most} at most"),
+            ));
+        }
+        type Usage = vk::BufferUsageFlags;
+        let usage = Usage::STORAGE_BUFFER | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
+        let make = |name, size| Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly);
+        let fits = (range.saturating_sub(256) / u64::from(max_stride.max(4))) as u32;
+        Ok(Self {
+            pipeline: Pipeline::compute(gpu, shader::WATER_CLASSIFY_COMP, &[])?,
+            tables: [
+                make("water/classify/even", rows * ROW)?,
+                make("water/classify/odd", rows * ROW)?,
+            ],
+            foam: make("water/classify/foam", 8 * u64::from(max_particles))?,
+            rows: rows as u32,
+            max_particles,
+            chunk: fits.clamp(1, MOST_CHUNK),
+        })
+    }
+
+    /// The table that holds the state, when `odd` steps were recorded or not.
+    pub fn table(&self, odd: bool) -> &Buffer {
+        &self.tables[usize::from(odd)]
+    }
+
+    /// Empties the table that holds the state.
+    pub fn record_clear(&self, gpu: &Gpu, cmd: vk::CommandBuffer, odd: bool) {
+        let table = self.table(odd).handle;
+        gpu.barriers(cmd, &[], &[buffer(table, COMPUTE_READ_WRITE.and(COPY_READ), CLEAR)]);
+        // SAFETY: cmd is recording outside a render pass; the steps before are done (barrier).
+        unsafe { gpu.device.cmd_fill_buffer(cmd, table, 0, vk::WHOLE_SIZE, 0) };
+        gpu.barriers(cmd, &[], &[buffer(table, CLEAR, COMPUTE_READ_WRITE)]);
+    }
+
+    /// Copies the state out, or in.
+    pub fn record_copy(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        odd: bool,
+        (host, offset): (vk::Buffer, u64),
+        out: bool,
+    ) {
+        let table = self.table(odd).handle;
+        let size = u64::from(self.rows) * ROW;
+        let [from, to] = if out { [table, host] } else { [host, table] };
+        let [from_offset, to_offset] = if out { [0, offset] } else { [offset, 0] };
+        let region = vk::BufferCopy { src_offset: from_offset, dst_offset: to_offset, size };
+        let used = if out { COPY_READ } else { COPY_WRITE };
+        gpu.barriers(cmd, &[], &[buffer(table, COMPUTE_READ_WRITE.and(CLEAR), used)]);
+        // SAFETY: the host says that its buffer has room and is ready.
+        unsafe { gpu.device.cmd_copy_buffer(cmd, from, to, &[region]) };
+        gpu.barriers(cmd, &[], &[buffer(table, used, COMPUTE_READ_WRITE)]);
+    }
+
+    /// One step: from the table that holds the state to the other one.
+    pub fn record(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        timer: &mut Timer,
+        step: &Step<'_>,
+        odd: bool,
+    ) -> Result<(), Error> {
+        let scope = timer.begin(gpu, cmd, c"classify");
+        let (old, new) = (self.table(odd), self.table(!odd));
+        let streams = [Some(step.velocities), step.densities, step.ids];
+        let mut buffers: Vec<_> = streams
+            .iter()
+            .flatten()
+            .map(|s| s.buffer)
+            .chain(match step.count {
+                Count::Gpu { buffer, .. } => Some(buffer),
+                Count::Cpu(_) => None,
+            })
+            .map(|handle| buffer(handle, step.before, COMPUTE_READ))
+            .collect();
+        // Interleaved streams share a buffer: one barrier is enough.
+        buffers.sort_by_key(|barrier| vk::Handle::as_raw(barrier.buffer));
+        buffers.dedup_by_key(|barrier| barrier.buffer);
+        let host = buffers.len();
+        buffers.push(buffer(new.handle, COMPUTE_READ_WRITE.and(COPY_READ), CLEAR));
+        buffers.push(buffer(self.foam.handle, FOAM_USE, COMPUTE_WRITE));
+        gpu.barriers(cmd, &[], &buffers);
+        // SAFETY: cmd is recording outside a render pass; the steps before are done (barrier).
+        unsafe { gpu.device.cmd_fill_buffer(cmd, new.handle, 0, vk::WHOLE_SIZE, 0) };
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(new.handle, CLEAR, COMPUTE_READ_WRITE),
+                buffer(old.handle, COMPUTE_READ_WRITE, COMPUTE_READ),
+            ],
+        );
+
+        let values = streams.iter().flatten().zip([12, 4, 4]);
+        let most = values.map(capacity).fold(self.max_particles, u32::min);
+        let (count, from_gpu) = match step.count {
+            Count::Cpu(count) => (count.min(most), None),
+            Count::Gpu { buffer, offset } => (most, Some(Resource::Buffer(buffer, offset, 4))),
+        };
+        let mut first = 0;
+        while first < count {
+            let chunk = self.chunk.min(count - first);
+            let host_count = from_gpu.unwrap_or(Resource::buffer(&self.foam));
+            self.record_chunk(
+                gpu,
+                cmd,
+                descriptors,
+                step,
+                (old, new),
+                &Push {
+                    first,
+                    count,
+                    from_gpu: u32::from(from_gpu.is_some()),
+                    chunk_end: first + chunk,
+                    rows: self.rows,
+                    ..push(step.settings, step.dt)
+                },
+                host_count,
+            )?;
+            first += chunk;
+        }
+
+        let mut after = vec![buffer(self.foam.handle, COMPUTE_WRITE, FOAM_USE)];
+        for barrier in &buffers[..host] {
+            after.push(buffer(barrier.buffer, COMPUTE_READ, step.after));
+        }
+        gpu.barriers(cmd, &[], &after);
+        timer.end(gpu, cmd, scope);
+        Ok(())
+    }
+
+    #[allow(clippy::too_many_arguments)] // one caller, right above
+    fn record_chunk(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        step: &Step<'_>,
+        (old, new): (&Buffer, &Buffer),
+        push: &Push,
+        host_count: Resource,
+    ) -> Result<(), Error> {
+        let Some((velocities, velocity_word)) = window(gpu, &step.velocities, push.first) else {
+            return Ok(());
+        };
+        // A stream that is not there is never read: any buffer will do.
+        let optional = |stream: &Option<Stream>| match stream {
+            Some(s) => window(gpu, s, push.first).map(|(r, word)| (r, word, s.stride / 4)),
+            None => Some((velocities, 0, 0)),
+        };
+        let (Some(densities), Some(ids)) = (optional(&step.densities), optional(&step.ids)) else {
+            return Ok(());
+        };
+        descriptors.bind(
+            gpu,
+            cmd,
+            &self.pipeline,
+            &[
+                (1, velocities),
+                (2, densities.0),
+                (3, ids.0),
+                (4, host_count),
+                (5, Resource::buffer(old)),
+                (6, Resource::buffer(new)),
+                (7, Resource::buffer(&self.foam)),
+            ],
+        )?;
+        let push = Push {
+            velocity_word,
+            velocity_stride: step.velocities.stride / 4,
+            density_word: densities.1,
+            density_stride: densities.2,
+            id_word: ids.1,
+            id_stride: ids.2,
+            ..*push
+        };
+        self.pipeline.push(gpu, cmd, &push);
+        let groups = (push.chunk_end - push.first).div_ceil(self.pipeline.local_size[0]);
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+        Ok(())
+    }
+
+    pub fn memory(&self) -> u64 {
+        self.tables.iter().map(|table| table.size).sum::<u64>() + self.foam.size
+    }
+
+    /// Sets of a step.
+    pub fn sets(&self) -> u32 {
+        self.max_particles.div_ceil(self.chunk).max(1)
+    }
+}
+
+fn push(settings: &FoamSettings, dt: f32) -> Push {
+    let [air_x, air_y, air_z] = settings.air;
+    Push {
+        velocity_word: 0,
+        velocity_stride: 0,
+        density_word: 0,
+        density_stride: 0,
+        id_word: 0,
+        id_stride: 0,
+        first: 0,
+        count: 0,
+        from_gpu: 0,
+        chunk_end: 0,
+        rows: 0,
+        seed: settings.seed,
+        scale: settings.scale,
+        threshold: settings.threshold,
+        foam_lifetime: settings.foam_lifetime,
+        dt,
+        air_x,
+        air_y,
+        air_z,
+        rest_density: settings.rest_density,
+    }
+}

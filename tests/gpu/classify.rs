@@ -1,0 +1,420 @@
+//! Pass `classify`: foam phases by particle id, against the twin, over hundreds of steps.
+
+use ash::vk;
+use whitewater::water::FoamSettings;
+use whitewater::{Access, Count, Error, Slot, State, StateConfig, Step, Stream};
+
+use crate::reference::classify::{self as twin, Entry, NO_ID, Particle, Phase, Phases};
+use crate::support::device::Gpu;
+use crate::support::host::{Data, HOST_WRITE, Stub};
+use crate::support::rig::stream;
+use crate::support::scenes::Random;
+use crate::support::tolerance::U;
+
+const SLOTS: u32 = 2;
+
+/// A state in a host.
+struct Body<'g> {
+    gpu: &'g Gpu,
+    stub: Stub,
+    state: Option<State>,
+    steps: u32,
+}
+
+/// What the shader says of a step's particles.
+type Foam = Vec<[f32; 2]>;
+
+impl<'g> Body<'g> {
+    fn new(gpu: &'g Gpu, config: StateConfig) -> Self {
+        // SAFETY: the device outlives the body.
+        let state = unsafe { State::new(&gpu.host(SLOTS), &config) }.expect("a state");
+        Self { gpu, stub: Stub::new(gpu, SLOTS), state: Some(state), steps: 0 }
+    }
+
+    fn state(&mut self) -> &mut State {
+        self.state.as_mut().expect("only drop takes it")
+    }
+
+    /// A step of streams, in the slots' turn.
+    fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        let slot = self.steps % SLOTS;
+        self.steps += 1;
+        let cmd = self.stub.begin(slot);
+        let state = self.state.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+        let result = unsafe { state.record_step(cmd, &Step { slot: Slot(slot), ..*step }) };
+        self.stub.end(slot);
+        self.stub.wait(slot);
+        result
+    }
+
+    fn step(&mut self, settings: &FoamSettings, dt: f32, particles: &[Particle]) -> Foam {
+        let cloud = Cloud::new(&self.stub, particles);
+        self.record(&cloud.step(settings, dt)).expect("a step");
+        self.foam(particles.len())
+    }
+
+    fn foam(&mut self, count: usize) -> Foam {
+        let size = 8 * count.max(1) as u64;
+        let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+        let foam = self.state().foam();
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, foam, &back));
+        bytemuck::cast_slice(&back.bytes()[..8 * count]).to_vec()
+    }
+
+    /// The state as it is saved.
+    fn save(&mut self) -> Vec<u8> {
+        let size = self.state().size();
+        let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+        let state = self.state.as_mut().expect("only drop takes it");
+        // SAFETY: submitted at once; the buffer has the state's size.
+        self.stub.run(|cmd| unsafe { state.record_save(cmd, back.buffer, 0) });
+        back.bytes().to_vec()
+    }
+
+    fn restore(&mut self, saved: &[u8]) {
+        let from = self.stub.data(saved, vk::BufferUsageFlags::TRANSFER_SRC);
+        let state = self.state.as_mut().expect("only drop takes it");
+        // SAFETY: as above.
+        self.stub.run(|cmd| unsafe { state.record_restore(cmd, from.buffer, 0) });
+    }
+}
+
+impl Drop for Body<'_> {
+    fn drop(&mut self) {
+        for slot in 0..SLOTS {
+            self.stub.wait(slot);
+        }
+        if let Some(state) = self.state.take() {
+            // SAFETY: all work was waited for.
+            unsafe { state.destroy() };
+        }
+    }
+}
+
+/// Interleaved particles: velocity, density, id.
+struct Cloud {
+    data: Data,
+    count: u32,
+}
+
+impl Cloud {
+    fn new(stub: &Stub, particles: &[Particle]) -> Self {
+        let words: Vec<u32> = particles
+            .iter()
+            .flat_map(|p| {
+                let [x, y, z] = p.velocity.map(f32::to_bits);
+                [x, y, z, p.density.to_bits(), p.id]
+            })
+            .collect();
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Self { data: stub.data(bytemuck::cast_slice(&words), usage), count: particles.len() as u32 }
+    }
+
+    fn step<'a>(&self, settings: &'a FoamSettings, dt: f32) -> Step<'a> {
+        Step {
+            slot: Slot(0),
+            velocities: stream(&self.data, 0, 20),
+            densities: Some(stream(&self.data, 12, 20)),
+            ids: Some(stream(&self.data, 16, 20)),
+            count: Count::Cpu(self.count),
+            dt,
+            settings,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+        }
+    }
+}
+
+fn settings() -> FoamSettings {
+    FoamSettings { seed: 7, air: [0.5, 0.0, -0.25], ..FoamSettings::weber(0.05, 2500.0) }
+}
+
+fn twin_settings(settings: &FoamSettings) -> twin::Settings {
+    twin::Settings {
+        seed: settings.seed,
+        scale: settings.scale,
+        threshold: settings.threshold,
+        foam_lifetime: settings.foam_lifetime,
+        air: settings.air,
+    }
+}
+
+/// Ages and where nothing is divided: bit for bit. The division may be 2.5 ulp off, and is taken
+/// from one.
+fn assert_foam(name: &str, found: &Foam, expected: &[twin::Out]) {
+    assert_eq!(found.len(), expected.len());
+    for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let off = (found[0] - expected.foam).abs();
+        assert!(
+            f64::from(off) <= 6.0 * U,
+            "{name}, particle {i}: foam {}, expected {expected:?}",
+            found[0]
+        );
+        assert_eq!(found[1].to_bits(), expected.age.to_bits(), "{name}, particle {i}: age");
+    }
+}
+
+/// The saved rows hold the twin's entries, bit for bit, and no others.
+fn assert_state(name: &str, saved: &[u8], phases: &Phases) {
+    let words: &[u32] = bytemuck::cast_slice(saved);
+    let mut rows = 0;
+    for row in words.chunks_exact(5).filter(|row| row[0] != 0) {
+        rows += 1;
+        let id = row[0].wrapping_sub(1);
+        let entry = phases.entry(id).unwrap_or_else(|| panic!("{name}: {id} is forgotten"));
+        let Entry { phase, transitions, timer, lifetime, age } = *entry;
+        let phase = match phase {
+            Phase::Water => 0,
+            Phase::WaterToFoam => 1,
+            Phase::Foam => 2,
+            Phase::FoamToWater => 3,
+        };
+        let expected =
+            [transitions << 2 | phase, timer.to_bits(), lifetime.to_bits(), age.to_bits()];
+        assert_eq!(row[1..], expected, "{name}: state of {id}");
+    }
+    assert_eq!(rows, phases.map.len(), "{name}: rows");
+}
+
+/// Water that is torn now and then: particles come and go, and change places.
+struct Sea {
+    random: Random,
+    particles: Vec<Particle>,
+    next: u32,
+}
+
+impl Sea {
+    fn new(count: usize) -> Self {
+        let mut sea = Self { random: Random(5), particles: Vec::new(), next: 0 };
+        for _ in 0..count {
+            sea.bear();
+        }
+        sea
+    }
+
+    fn bear(&mut self) {
+        // Ids are not dense, and one of them is the last that is allowed.
+        let id = self.next.wrapping_mul(2_654_435_761).wrapping_add(NO_ID - 1);
+        self.next += 1;
+        if id != NO_ID {
+            self.particles.push(Particle { id, velocity: [0.0; 3], density: 1000.0 });
+        }
+    }
+
+    fn step(&mut self) -> &[Particle] {
+        for _ in 0..3 {
+            let gone = self.random.bits() % self.particles.len() as u64;
+            self.particles.swap_remove(gone as usize);
+            self.bear();
+        }
+        for p in &mut self.particles {
+            for v in &mut p.velocity {
+                *v = 0.93 * *v + self.random.between(-1.0, 1.0);
+            }
+            p.density = self.random.between(300.0, 1100.0);
+        }
+        let order = self.random.order(self.particles.len());
+        self.particles = order.iter().map(|i| self.particles[*i].clone()).collect();
+        &self.particles
+    }
+}
+
+#[test]
+fn phases_are_the_twins_over_hundreds_of_steps() {
+    let gpu = Gpu::shared();
+    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(700) });
+    let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));
+    let mut most = [0_usize; 4];
+    for step in 0..400 {
+        let dt = [1.0 / 60.0, 1.0 / 24.0, 0.0][step % 3];
+        let particles = sea.step().to_vec();
+        let expected = phases.step(&twin_settings(&settings), dt, &particles);
+        let found = body.step(&settings, dt, &particles);
+        let name = format!("step {step}");
+        assert_foam(&name, &found, &expected);
+        for (i, phase) in
+            [Phase::Water, Phase::WaterToFoam, Phase::Foam, Phase::FoamToWater].iter().enumerate()
+        {
+            most[i] = most[i].max(expected.iter().filter(|out| out.phase == *phase).count());
+        }
+        if step % 50 == 0 || step == 399 {
+            assert_state(&name, &body.save(), &phases);
+        }
+    }
+    assert!(most.iter().all(|n| *n > 30), "the sea is too calm or too wild: {most:?}");
+}
+
+/// However a sequence is cut into jobs, the foam is the same, bit for bit.
+#[test]
+fn a_saved_state_goes_on_as_if_uncut() {
+    let gpu = Gpu::shared();
+    let config = StateConfig { max_stride: 20, ..StateConfig::new(300) };
+    let settings = settings();
+    let mut whole = Body::new(&gpu, config);
+    let mut part = Body::new(&gpu, config);
+    let mut sea = Sea::new(300);
+    for step in 0..60 {
+        let particles = sea.step().to_vec();
+        let expected = whole.step(&settings, 0.05, &particles);
+        if step % 7 == 3 {
+            let saved = part.save();
+            part = Body::new(&gpu, config);
+            part.restore(&saved);
+        }
+        assert_eq!(part.step(&settings, 0.05, &particles), expected, "step {step}");
+    }
+}
+
+/// A step that was thrown away did not happen.
+#[test]
+fn an_abandoned_step_leaves_the_state_before_it() {
+    let gpu = Gpu::shared();
+    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(100) });
+    let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(100));
+    for _ in 0..9 {
+        let particles = sea.step().to_vec();
+        let cloud = Cloud::new(&body.stub, &particles);
+        body.stub.wait(0);
+        let cmd = body.stub.begin(0);
+        let state = body.state.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording and never submitted.
+        unsafe { state.record_step(cmd, &cloud.step(&settings, 0.1)) }.expect("a step");
+        state.abandon(Slot(0));
+        body.steps = 1;
+        let particles = sea.step().to_vec();
+        let expected = phases.step(&twin_settings(&settings), 0.1, &particles);
+        let found = body.step(&settings, 0.1, &particles);
+        assert_foam("after an abandoned step", &found, &expected);
+    }
+    assert_state("after abandoned steps", &body.save(), &phases);
+}
+
+/// Counts from the GPU, streams of their own, without densities, without ids, and no particles.
+#[test]
+fn every_kind_of_input() {
+    let gpu = Gpu::shared();
+    let mut body = Body::new(&gpu, StateConfig::new(400));
+    let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(400));
+    let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    for step in 0..40 {
+        let mut particles = sea.step().to_vec();
+        particles.truncate(if step % 9 == 4 { 0 } else { 300 + step });
+        let velocities: Vec<[f32; 3]> = particles.iter().map(|p| p.velocity).collect();
+        let ids: Vec<u32> = particles.iter().map(|p| p.id).collect();
+        let velocity_data = body.stub.data(bytemuck::cast_slice(&velocities), storage);
+        let id_data = body.stub.data(bytemuck::cast_slice(&ids), storage);
+        let counts = [0, 0, 0, 0, particles.len() as u32];
+        let from_gpu = body.gpu.limits().min_storage_buffer_offset_alignment <= 16;
+        let count_data = body.stub.data(bytemuck::cast_slice(&counts), storage);
+        for p in &mut particles {
+            p.density = settings.rest_density;
+        }
+        let count = match from_gpu && step % 2 == 0 {
+            true => Count::Gpu { buffer: count_data.buffer, offset: 16 },
+            false => Count::Cpu(particles.len() as u32),
+        };
+        let whole = Step {
+            slot: Slot(0),
+            velocities: stream(&velocity_data, 0, 12),
+            densities: None,
+            ids: Some(stream(&id_data, 0, 4)),
+            count,
+            dt: 0.03,
+            settings: &settings,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+        };
+        body.record(&whole).expect("a step");
+        let expected = phases.step(&twin_settings(&settings), 0.03, &particles);
+        let found = body.foam(particles.len());
+        assert_foam(&format!("step {step}"), &found, &expected);
+    }
+    assert_state("other streams", &body.save(), &phases);
+
+    let particles = sea.step().to_vec();
+    let cloud = Cloud::new(&body.stub, &particles);
+    let mut wide = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(400) });
+    let step = cloud.step(&settings, 0.1);
+    wide.record(&Step { ids: None, ..step }).expect("a step");
+    for (p, found) in particles.iter().zip(wide.foam(particles.len())) {
+        let expected = twin::stateless(&twin_settings(&settings), p.velocity, p.density);
+        // A division of 2.5 ulp, of numbers up to 1.5.
+        assert!(f64::from((found[0] - expected).abs()) <= 8.0 * U, "{found:?}, not {expected}");
+    }
+}
+
+/// NaN and infinite values are not foam by themselves, and harm no other particle.
+#[test]
+fn broken_particles() {
+    let gpu = Gpu::shared();
+    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(8) });
+    let (settings, mut phases) = (settings(), Phases::default());
+    let of = |id, speed, density| Particle { id, velocity: [speed, 0.0, 0.0], density };
+    let particles = [
+        of(1, f32::NAN, 1000.0),
+        of(2, f32::INFINITY, 1000.0),
+        of(3, 9.0, f32::NAN),
+        of(4, 9.0, 0.0),
+        of(5, 9.0, -1.0),
+        of(6, 9.0, 1000.0),
+        of(NO_ID, 9.0, 1000.0),
+        of(NO_ID, 9.0, 1000.0),
+    ];
+    for _ in 0..20 {
+        let expected = phases.step(&twin_settings(&settings), 0.05, &particles);
+        assert_foam("broken", &body.step(&settings, 0.05, &particles), &expected);
+    }
+    assert!(body.foam(6)[5][0] > 0.99, "the whole one is foam");
+    // Two of an id: no crash, and one of them is remembered.
+    let twins = [of(6, 9.0, 1000.0), of(6, 9.0, 1000.0)];
+    assert!(body.step(&settings, 0.05, &twins).iter().all(|foam| foam[0] > 0.99));
+}
+
+#[test]
+fn bad_steps_are_errors() {
+    let gpu = Gpu::shared();
+    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(10) });
+    let mut sea = Sea::new(10);
+    let cloud = Cloud::new(&body.stub, sea.step());
+    let settings = settings();
+    let good = cloud.step(&settings, 0.1);
+    body.record(&good).expect("a good step");
+    let wide = Stream { stride: 24, ..good.velocities };
+    let bad: [(&str, Step<'_>); 7] = [
+        ("Step.dt", Step { dt: f32::NAN, ..good }),
+        ("Step.dt", Step { dt: -0.1, ..good }),
+        ("Step.count", Step { count: Count::Cpu(11), ..good }),
+        ("Step.velocities", Step { velocities: wide, ..good }),
+        ("Step.ids", Step { ids: Some(Stream { offset: 18, ..good.velocities }), ..good }),
+        ("Step.densities", Step { densities: Some(Stream { size: 9, ..good.velocities }), ..good }),
+        (
+            "FoamSettings.threshold",
+            Step { settings: &FoamSettings { threshold: 0.0, ..settings }, ..good },
+        ),
+    ];
+    for (field, step) in bad {
+        match body.record(&step) {
+            Err(Error::BadInput { field: found, .. }) => assert_eq!(found, field),
+            other => panic!("{field}: {other:?}"),
+        }
+    }
+    let nothing = Access::new(
+        vk::PipelineStageFlags2::NONE,
+        vk::AccessFlags2::NONE,
+        vk::ImageLayout::UNDEFINED,
+    );
+    body.record(&Step { before: nothing, ..good }).expect("as before");
+    for config in [
+        StateConfig::new(0),
+        StateConfig { max_stride: 6, ..StateConfig::new(1) },
+        StateConfig::new(u32::MAX),
+    ] {
+        // SAFETY: live handles.
+        match unsafe { State::new(&gpu.host(1), &config) } {
+            Err(Error::BadInput { .. }) => {}
+            Err(other) => panic!("{config:?}: {other}"),
+            Ok(_) => panic!("{config:?} is accepted"),
+        }
+    }
+}
