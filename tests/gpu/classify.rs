@@ -215,7 +215,7 @@ impl Sea {
             p.density = self.random.between(300.0, 1100.0);
         }
         let order = self.random.order(self.particles.len());
-        self.particles = order.iter().map(|i| self.particles[*i].clone()).collect();
+        self.particles = order.iter().map(|i| self.particles[*i]).collect();
         &self.particles
     }
 }
