@@ -25,8 +25,8 @@ use crate::gpu::timing::{Scope, Timer};
 
 pub(crate) use cull::chunks;
 pub(crate) use level::MOST_COARSENING;
-pub use settings::{Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings};
-pub(crate) use tiles::COMPOSITE_DRAWS;
+pub use settings::{Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat, WaterSettings};
+pub(crate) use tiles::{COMPOSITE_DISPATCHES, COMPOSITE_DRAWS};
 
 /// What every pass records with.
 pub(crate) struct Recording<'a> {

@@ -1,7 +1,7 @@
 //! A renderer in a host: the host stub with the images and buffers of a frame, and what comes back.
 
 use ash::vk;
-use whitewater::water::Splat;
+use whitewater::water::{Shading, Splat};
 use whitewater::{
     Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
     Layer, Particles, Recorded, Renderer, Settings, Slot, SmoothingLevel, SmoothingLevels, Stream,
@@ -237,13 +237,21 @@ impl<'g> Rig<'g> {
         renderer.collect(Slot(0));
     }
 
+    /// Usage of outputs: as between the host's own passes, and what the composite's way needs.
+    fn output_usage(&self) -> vk::ImageUsageFlags {
+        let host = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        match self.config.composite {
+            Some(Shading::Compute) => host | vk::ImageUsageFlags::STORAGE,
+            _ => host,
+        }
+    }
+
     /// The images of a frame as its host has them: colour and depth of the scene, filled.
     pub fn scene(&self, shot: &Shot) -> (Texture, Texture) {
-        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let color = self.stub.uploaded(
             self.config.output_format,
             self.config.extent,
-            usage,
+            self.output_usage(),
             &color_bytes(self.config.output_format, &shot.color),
             COLOR,
         );
@@ -282,10 +290,9 @@ impl<'g> Rig<'g> {
     pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
         let (color, depth) = self.scene(shot);
         let apart = (!self.config.in_place).then(|| {
-            let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
             let bytes = color_bytes(self.config.output_format, &shot.color);
             let (format, extent) = (self.config.output_format, self.config.extent);
-            self.stub.uploaded(format, extent, usage, &bytes, COLOR)
+            self.stub.uploaded(format, extent, self.output_usage(), &bytes, COLOR)
         });
         let output = apart.as_ref().unwrap_or(&color).host_image();
         let frame = Frame {
