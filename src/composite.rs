@@ -175,10 +175,20 @@ impl Composite {
                 let hand = |from, to| images.map(|image| access::image(image, from, to));
                 gpu.barriers(cmd, &hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED), &[]);
                 let pipelines = if schlick { &pipelines[0] } else { &pipelines[1] };
+                let written = [vk::MemoryBarrier2::default()
+                    .src_stage_mask(COMPUTE_WRITE.stage)
+                    .src_access_mask(COMPUTE_WRITE.access)
+                    .dst_stage_mask(COMPUTE_WRITE.stage)
+                    .dst_access_mask(COMPUTE_WRITE.access)];
+                let written = vk::DependencyInfo::default().memory_barriers(&written);
                 for (pipeline, dispatch) in pipelines.iter().zip(COMPOSITE_DISPATCHES) {
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
                     // SAFETY: outside a render pass; the arguments are visible since `tiles`.
-                    unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch) };
+                    unsafe {
+                        gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
+                        // Both may write the output for all that a validation layer knows.
+                        gpu.device.cmd_pipeline_barrier2(cmd, &written);
+                    }
                 }
                 gpu.barriers(cmd, &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED), &[]);
             }
