@@ -30,6 +30,8 @@ mod limits;
 mod queries;
 #[path = "gpu/reduce.rs"]
 mod reduce;
+#[path = "gpu/shading.rs"]
+mod shading;
 #[path = "gpu/smooth.rs"]
 mod smooth;
 #[path = "gpu/spied.rs"]

@@ -227,6 +227,22 @@ impl<'g> Rig<'g> {
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
+    /// A renderer in an environment from 0 to 1. (Where it was only cleared, SwiftShader prepares it
+    /// for draws alone: compute reads garbage at the seams of the cube.)
+    pub fn lit(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
+        let mut rig = Self::with_slots(gpu, config, slots);
+        rig.light();
+        rig
+    }
+
+    /// That environment.
+    pub fn light(&mut self) {
+        let part = |i: u32, n: u32| (i * 37 % n) as f32 / (n - 1) as f32;
+        let texels: Vec<_> =
+            (0..128).map(|i| [part(i, 7), part(i, 11), part(i, 13), 1.0]).collect();
+        self.environment(extent(16, 8), &texels);
+    }
+
     /// An environment of any kind, whose images live to the end of this.
     pub fn any_environment(&mut self, source: &EnvironmentSource) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
