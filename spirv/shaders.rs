@@ -1,3 +1,12 @@
+/// `composite.comp`
+pub const COMPOSITE_COMP: Shader = Shader {
+    name: "composite.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/composite.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::UNIFORM_BUFFER), (8, vk::DescriptorType::STORAGE_IMAGE), (9, vk::DescriptorType::STORAGE_BUFFER), (10, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+};
 /// `composite.frag`
 pub const COMPOSITE_FRAG: Shader = Shader {
     name: "composite.frag",

@@ -1,23 +1,37 @@
 //! Pass `composite`: the only one that writes the output; takes the layers of all techniques.
 //!
-//! Drawn over the tiles that hold water alone, one instance each: pixels outside the fluid are not
-//! touched. Thesis Sec. 3.3 and 4.10; see glsl/composite.frag for what differs.
+//! Over the tiles that hold water alone: pixels outside the fluid are not touched. Two ways with
+//! the same shading: an instance a tile in a render pass, and a compute shader that stores to the
+//! output. Thesis Sec. 3.3 and 4.10; see glsl/include/shade.glsl for what differs.
 
 use ash::vk;
 
 use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED,
+};
 use crate::gpu::descriptors::Resource;
 use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
-use crate::water::settings::Fresnel;
-use crate::water::{COMPOSITE_DRAWS, Recording, WaterLayers};
+use crate::water::settings::{Fresnel, Shading};
+use crate::water::{COMPOSITE_DISPATCHES, COMPOSITE_DRAWS, Recording, WaterLayers};
+
+/// As fast as compute on lavapipe (docs/performance.md); GPUs are still to be measured.
+const DEFAULT_SHADING: Shading = Shading::Raster;
+
+/// The way a configuration takes.
+pub fn way(config: &Config) -> Shading {
+    config.composite.unwrap_or(DEFAULT_SHADING)
+}
 
 /// What the pass takes beside the layers.
 pub struct Surroundings {
-    /// Framebuffer of the output, in COLOR_ATTACHMENT_OPTIMAL.
+    /// View of the output, in the layout of [`Composite::output_use`].
+    pub output: vk::ImageView,
+    /// Its framebuffer; null where there is none.
     pub target: vk::Framebuffer,
     /// The part of it that is the view.
     pub area: vk::Rect2D,
@@ -29,49 +43,95 @@ pub struct Surroundings {
     pub fresnel: Fresnel,
 }
 
+/// [Fresnel::Schlick, Fresnel::Source]: of the configured level, of any other.
+type Pipelines = [[Pipeline; 2]; 2];
+
+enum Path {
+    Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
+    Compute { pipelines: Pipelines },
+}
+
 /// The pass.
 pub struct Composite {
-    pass: Owned<vk::RenderPass>,
-    /// [Fresnel::Schlick, Fresnel::Source]: of the configured level, of any other.
-    pipelines: [[Pipeline; 2]; 2],
+    path: Path,
+}
+
+fn pipelines(
+    config: &Config,
+    make: impl Fn(&[(u32, u32)]) -> Result<Pipeline, Error>,
+) -> Result<Pipelines, Error> {
+    let thickness = match config.thickness_level {
+        0 => 0,
+        level if level == config.smoothing_level => 1,
+        _ => 2,
+    };
+    let make = |schlick, configured| make(&[(0, thickness), (1, schlick), (2, configured)]);
+    Ok([[make(1, 1)?, make(1, 0)?], [make(0, 1)?, make(0, 0)?]])
 }
 
 impl Composite {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let pass = gpu.color_pass("composite", config.output_format, vk::AttachmentLoadOp::LOAD)?;
-        let thickness = match config.thickness_level {
-            0 => 0,
-            level if level == config.smoothing_level => 1,
-            _ => 2,
+        let path = match way(config) {
+            Shading::Raster => {
+                let format = config.output_format;
+                let pass = gpu.color_pass("composite", format, vk::AttachmentLoadOp::LOAD)?;
+                let pipelines = pipelines(config, |constants| {
+                    Pipeline::graphics(
+                        gpu,
+                        &Graphics {
+                            vertex: shader::COMPOSITE_VERT,
+                            fragment: shader::COMPOSITE_FRAG,
+                            topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                            pass: pass.handle,
+                            blend: no_blend(),
+                            constants,
+                        },
+                    )
+                })?;
+                Path::Raster { pass, pipelines }
+            }
+            Shading::Compute => Path::Compute {
+                pipelines: pipelines(config, |constants| {
+                    Pipeline::compute(gpu, shader::COMPOSITE_COMP, constants)
+                })?,
+            },
         };
-        let make = |schlick, configured| {
-            Pipeline::graphics(
-                gpu,
-                &Graphics {
-                    vertex: shader::COMPOSITE_VERT,
-                    fragment: shader::COMPOSITE_FRAG,
-                    topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                    pass: pass.handle,
-                    blend: no_blend(),
-                    constants: &[(0, thickness), (1, schlick), (2, configured)],
-                },
-            )
-        };
-        let pipelines = [[make(1, 1)?, make(1, 0)?], [make(0, 1)?, make(0, 0)?]];
-        Ok(Self { pass, pipelines })
+        Ok(Self { path })
     }
 
-    /// A framebuffer for the host's output; it lives as long as the slot's frame.
+    /// How the output is written.
+    pub fn output_use(&self) -> Access {
+        match self.path {
+            Path::Raster { .. } => COLOR_ATTACHMENT,
+            Path::Compute { .. } => COMPUTE_WRITE,
+        }
+    }
+
+    /// How the scene's colour is read.
+    pub fn scene_use(&self) -> Access {
+        match self.path {
+            Path::Raster { .. } => FRAGMENT_SAMPLED,
+            Path::Compute { .. } => COMPUTE_SAMPLED,
+        }
+    }
+
+    /// A framebuffer for the host's output, where one is needed; it lives as long as the slot's
+    /// frame.
     pub fn framebuffer(
         &self,
         gpu: &Gpu,
         view: vk::ImageView,
         extent: vk::Extent2D,
-    ) -> Result<Owned<vk::Framebuffer>, Error> {
-        gpu.framebuffer("composite/output", self.pass.handle, view, extent)
+    ) -> Result<Option<Owned<vk::Framebuffer>>, Error> {
+        match &self.path {
+            Path::Raster { pass, .. } => {
+                gpu.framebuffer("composite/output", pass.handle, view, extent).map(Some)
+            }
+            Path::Compute { .. } => Ok(None),
+        }
     }
 
-    /// All layers are sampled by fragments.
+    /// All layers come and go as sampled by fragments.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -80,37 +140,59 @@ impl Composite {
     ) -> Result<(), Error> {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let pipelines = match around.fresnel {
-            Fresnel::Schlick { .. } => &self.pipelines[0],
-            Fresnel::Source { .. } => &self.pipelines[1],
-        };
-        gpu.begin_pass(cmd, self.pass.handle, around.target, around.area, [0.0; 4]);
         let nearest = gpu.samplers.nearest;
-        // Their bindings are the same; one of the draws is empty.
-        for (pipeline, draw) in pipelines.iter().zip(COMPOSITE_DRAWS) {
-            r.descriptors.bind(
-                gpu,
-                cmd,
-                pipeline,
-                &[
-                    (0, r.uniforms),
-                    (1, Resource::Sampled(layers.smoothed.view, nearest)),
-                    (2, Resource::Sampled(layers.depth.view, nearest)),
-                    (3, Resource::Sampled(layers.thickness.view, nearest)),
-                    (4, around.scene_color),
-                    (5, r.scene_depth),
-                    (6, around.environment),
-                    (7, layers.level.resource()),
-                    (9, Resource::buffer(&layers.tiles.list)),
-                ],
-            )?;
-            pipeline.push(gpu, cmd, &layers.tiles.atlas.columns);
-            let arguments = layers.tiles.arguments.handle;
-            // SAFETY: inside the render pass; the arguments are visible since `tiles`.
-            unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::Sampled(layers.smoothed.view, nearest)),
+            (2, Resource::Sampled(layers.depth.view, nearest)),
+            (3, Resource::Sampled(layers.thickness.view, nearest)),
+            (4, around.scene_color),
+            (5, r.scene_depth),
+            (6, around.environment),
+            (7, layers.level.resource()),
+            (8, Resource::Storage(around.output)),
+            (9, Resource::buffer(&layers.tiles.list)),
+            (10, Resource::buffer(&layers.tiles.arguments)),
+        ];
+        let schlick = matches!(around.fresnel, Fresnel::Schlick { .. });
+        let arguments = layers.tiles.arguments.handle;
+        // Of the pipelines for the levels one has nothing to do.
+        match &self.path {
+            Path::Raster { pass, pipelines } => {
+                gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);
+                let pipelines = if schlick { &pipelines[0] } else { &pipelines[1] };
+                for (pipeline, draw) in pipelines.iter().zip(COMPOSITE_DRAWS) {
+                    r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+                    pipeline.push(gpu, cmd, &layers.tiles.atlas.columns);
+                    // SAFETY: inside the render pass; the arguments are visible since `tiles`.
+                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
+                }
+                // SAFETY: a pass was begun.
+                unsafe { gpu.device.cmd_end_render_pass(cmd) };
+            }
+            Path::Compute { pipelines } => {
+                let images = [layers.smoothed, layers.depth, layers.thickness];
+                let hand = |from, to| images.map(|image| access::image(image, from, to));
+                gpu.barriers(cmd, &hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED), &[]);
+                let pipelines = if schlick { &pipelines[0] } else { &pipelines[1] };
+                let written = [vk::MemoryBarrier2::default()
+                    .src_stage_mask(COMPUTE_WRITE.stage)
+                    .src_access_mask(COMPUTE_WRITE.access)
+                    .dst_stage_mask(COMPUTE_WRITE.stage)
+                    .dst_access_mask(COMPUTE_WRITE.access)];
+                let written = vk::DependencyInfo::default().memory_barriers(&written);
+                for (pipeline, dispatch) in pipelines.iter().zip(COMPOSITE_DISPATCHES) {
+                    r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+                    // SAFETY: outside a render pass; the arguments are visible since `tiles`.
+                    unsafe {
+                        gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
+                        // Both may write the output for all that a validation layer knows.
+                        gpu.device.cmd_pipeline_barrier2(cmd, &written);
+                    }
+                }
+                gpu.barriers(cmd, &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED), &[]);
+            }
         }
-        // SAFETY: a pass was begun.
-        unsafe { gpu.device.cmd_end_render_pass(cmd) };
         r.end(scope);
         Ok(())
     }

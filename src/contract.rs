@@ -9,7 +9,7 @@ use gpu_allocator::vulkan::Allocator;
 
 use crate::error::Error;
 pub use crate::gpu::access::Access;
-use crate::water::settings::{FoamSettings, Rule, Smoothing, Splat, WaterSettings};
+use crate::water::settings::{FoamSettings, Rule, Shading, Smoothing, Splat, WaterSettings};
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
 pub struct Host<'a> {
@@ -56,7 +56,8 @@ pub struct Config {
     /// Largest size of the output's part in pixels, 1 to the device's 2D image limit. Images are
     /// made for it; a frame may be smaller ([`HostImage::rect`]).
     pub extent: vk::Extent2D,
-    /// Format of the output: a colour attachment.
+    /// Format of the output: a colour attachment, or a storage image as
+    /// [`composite`](Self::composite) says.
     pub output_format: vk::Format,
     /// Most particles a frame may have.
     pub max_particles: u32,
@@ -74,6 +75,12 @@ pub struct Config {
     pub thickness_splat: Option<Splat>,
     /// Form of the smoothing; `None`: the measured fastest for the device.
     pub smoothing: Option<Smoothing>,
+    /// How the water is shaded; `None`: [`Shading::Raster`] on every device (GPUs are still to
+    /// be measured).
+    /// [`Shading::Compute`] writes the output as a storage image: its usage must allow that, and
+    /// its format be one that the device stores to without being told which; R16G16B16A16_SFLOAT
+    /// is nearly everywhere, those of sRGB are not. [`Offer`](crate::Offer) knows.
+    pub composite: Option<Shading>,
     /// Iteration rule of the smoothing.
     pub rule: Rule,
     /// Most iterations of the smoothing, 1 to 256 (default 256, as the source).
@@ -106,6 +113,7 @@ impl Config {
             depth_splat: None,
             thickness_splat: None,
             smoothing: None,
+            composite: None,
             rule: Rule::ConstantWidth,
             max_iterations: 256,
             coarsening: 3,
@@ -125,7 +133,7 @@ pub struct Slot(pub u32);
 #[derive(Clone, Copy, Debug)]
 pub struct HostImage {
     /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
-    /// (its read-only layout asks for it), an output as [`Config::in_place`] says.
+    /// (its read-only layout asks for it), an output as [`Config::in_place`] and [`Config::composite`] say.
     pub image: vk::Image,
     /// A 2D view of its first mip and layer; of depth-stencil images of the depth aspect alone.
     pub view: vk::ImageView,

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::frame::{FrameUniforms, Lens, check_settings};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer,
+    self, Access, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
@@ -161,8 +161,8 @@ impl Renderer {
         slot.begin(gpu)?;
         let framebuffer =
             self.composite.framebuffer(gpu, frame.output.view, frame.output.extent)?;
-        let target = framebuffer.handle;
-        slot.framebuffer = Some(framebuffer);
+        let target = framebuffer.as_ref().map_or(vk::Framebuffer::null(), |f| f.handle);
+        slot.framebuffer = framebuffer;
         self.retired.recorded(frame.slot.0);
         let uniforms = FrameUniforms::new(&lens, frame, &self.config);
         slot.uniforms.mapped_mut()[..size_of::<FrameUniforms>()]
@@ -171,7 +171,13 @@ impl Renderer {
         gpu.begin_label(cmd, c"whitewater");
         slot.timer.reset(gpu, cmd);
         let depth_layout = depth_layout(&frame.scene_depth);
-        let (acquire, acquired) = acquire(frame, in_place, depth_layout);
+        let uses = Uses {
+            in_place,
+            depth: depth_use(depth_layout),
+            output: self.composite.output_use(),
+            scene: self.composite.scene_use(),
+        };
+        let (acquire, acquired) = acquire(frame, &uses);
         gpu.barriers(cmd, &acquire[..acquired], &[]);
 
         let mut r = Recording {
@@ -191,7 +197,7 @@ impl Renderer {
         self.water.record(&mut r, &frame.particles)?;
         let scene_color = match &self.scene_copy {
             Some(copy) if in_place => {
-                copy_scene(&mut r, &frame.output, copy);
+                copy_scene(&mut r, &frame.output, copy, &uses);
                 copy.view
             }
             _ => frame.scene_color.view,
@@ -199,6 +205,7 @@ impl Renderer {
         self.composite.record(
             &mut r,
             &Surroundings {
+                output: frame.output.view,
                 target,
                 area: frame.output.rect,
                 scene_color: Resource::Sampled(scene_color, gpu.samplers.linear),
@@ -209,7 +216,7 @@ impl Renderer {
         )?;
 
         let cmd = r.cmd;
-        let (release, released) = release(frame, in_place, depth_layout);
+        let (release, released) = release(frame, &uses);
         let mut buffers = Vec::with_capacity(4);
         for handle in particle_buffers(&frame.particles) {
             let barrier = buffer(handle, COMPUTE_READ, frame.particles.after);
@@ -634,37 +641,48 @@ fn depth_use(layout: vk::ImageLayout) -> Access {
 
 type HostBarriers = ([vk::ImageMemoryBarrier2<'static>; 3], usize);
 
+/// How the host's images are used here.
+struct Uses {
+    /// The output is the scene's colour too.
+    in_place: bool,
+    depth: Access,
+    /// By `composite`.
+    output: Access,
+    /// The scene's colour, or its copy.
+    scene: Access,
+}
+
 /// The one barrier of each host image on its way in.
-fn acquire(frame: &Frame<'_>, in_place: bool, depth: vk::ImageLayout) -> HostBarriers {
+fn acquire(frame: &Frame<'_>, uses: &Uses) -> HostBarriers {
     let barrier =
         |image: &HostImage, to| access::raw_image(image.image, image.aspect, image.before, to);
-    let output = if in_place { COPY_READ } else { COLOR_ATTACHMENT };
+    let output = if uses.in_place { COPY_READ } else { uses.output };
     let all = [
-        barrier(&frame.scene_depth, depth_use(depth)),
+        barrier(&frame.scene_depth, uses.depth),
         barrier(&frame.output, output),
-        barrier(&frame.scene_color, FRAGMENT_SAMPLED),
+        barrier(&frame.scene_color, uses.scene),
     ];
-    (all, if in_place { 2 } else { 3 })
+    (all, if uses.in_place { 2 } else { 3 })
 }
 
 /// The one barrier of each host image on its way out.
-fn release(frame: &Frame<'_>, in_place: bool, depth: vk::ImageLayout) -> HostBarriers {
+fn release(frame: &Frame<'_>, uses: &Uses) -> HostBarriers {
     let barrier =
         |image: &HostImage, from| access::raw_image(image.image, image.aspect, from, image.after);
     let all = [
-        barrier(&frame.scene_depth, depth_use(depth)),
-        barrier(&frame.output, COLOR_ATTACHMENT),
-        barrier(&frame.scene_color, FRAGMENT_SAMPLED),
+        barrier(&frame.scene_depth, uses.depth),
+        barrier(&frame.output, uses.output),
+        barrier(&frame.scene_color, uses.scene),
     ];
-    (all, if in_place { 2 } else { 3 })
+    (all, if uses.in_place { 2 } else { 3 })
 }
 
 /// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.
-/// The output comes in TRANSFER_SRC_OPTIMAL and leaves as an attachment.
-fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image) {
+/// The output comes in TRANSFER_SRC_OPTIMAL and leaves as `composite` wants it.
+fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image, uses: &Uses) {
     let scope = r.begin(c"scene");
     let (gpu, cmd) = (r.gpu, r.cmd);
-    gpu.barriers(cmd, &[access::image(copy, FRAGMENT_SAMPLED.discarded(), COPY_WRITE)], &[]);
+    gpu.barriers(cmd, &[access::image(copy, uses.scene.discarded(), COPY_WRITE)], &[]);
     let layers = vk::ImageSubresourceLayers {
         aspect_mask: vk::ImageAspectFlags::COLOR,
         mip_level: 0,
@@ -691,8 +709,8 @@ fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image) {
     gpu.barriers(
         cmd,
         &[
-            access::image(copy, COPY_WRITE, FRAGMENT_SAMPLED),
-            access::raw_image(output.image, output.aspect, COPY_READ, COLOR_ATTACHMENT),
+            access::image(copy, COPY_WRITE, uses.scene),
+            access::raw_image(output.image, output.aspect, COPY_READ, uses.output),
         ],
         &[],
     );

@@ -34,6 +34,8 @@ mod queries;
 mod rect;
 #[path = "gpu/reduce.rs"]
 mod reduce;
+#[path = "gpu/shading.rs"]
+mod shading;
 #[path = "gpu/smooth.rs"]
 mod smooth;
 #[path = "gpu/spied.rs"]

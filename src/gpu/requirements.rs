@@ -6,7 +6,7 @@ use ash::vk;
 
 use crate::contract::Enabled;
 use crate::error::Error;
-use crate::water::settings::{Gate, Smoothing, Splat};
+use crate::water::settings::{Gate, Shading, Smoothing, Splat};
 
 /// One thing the host must or may enable, and why.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +77,8 @@ pub struct Offer {
     pub blend_r32f: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
+    /// The output format can be a storage image, written without its format being known.
+    pub output_storage: bool,
     /// The optional features it supports. A host that enables them all hands this on in
     /// [`Host::enabled`](crate::Host::enabled).
     pub optional: Enabled,
@@ -98,15 +100,16 @@ impl Offer {
             .push_next(&mut v12)
             .push_next(&mut v13)
             .push_next(&mut conditional);
-        // SAFETY: the handles are alive and belong together; the chain is well formed.
-        let (properties, output) = unsafe {
+        let mut output = vk::FormatProperties3::default();
+        let mut format = vk::FormatProperties2::default().push_next(&mut output);
+        // SAFETY: the handles are alive and belong together; the chains are well formed.
+        let properties = unsafe {
             instance.get_physical_device_features2(physical, &mut features);
-            (
-                instance.get_physical_device_properties(physical),
-                instance.get_physical_device_format_properties(physical, output_format),
-            )
+            instance.get_physical_device_format_properties2(physical, output_format, &mut format);
+            instance.get_physical_device_properties(physical)
         };
         let core = features.features;
+        let offers = |features| output.optimal_tiling_features.contains(features);
         Self {
             optional: Enabled {
                 // Of the instance, not of a device.
@@ -120,9 +123,11 @@ impl Offer {
             api_version: properties.api_version,
             synchronization2: v13.synchronization2 == vk::TRUE,
             blend_r32f: can_blend_r32f(instance, physical),
-            output_attachment: output
-                .optimal_tiling_features
-                .contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT),
+            output_attachment: offers(vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
+            output_storage: offers(
+                vk::FormatFeatureFlags2::STORAGE_IMAGE
+                    | vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT,
+            ),
             limits: properties.limits,
         }
     }
@@ -143,11 +148,24 @@ impl Offer {
         if !self.synchronization2 {
             return missing("synchronization2".into(), "every barrier needs it");
         }
-        if !self.output_attachment {
-            return missing(
-                format!("colour attachment use of the output format {:?}", config.output_format),
-                "the composite is drawn into it; choose another format",
-            );
+        match crate::composite::way(config) {
+            Shading::Raster if !self.output_attachment => {
+                return missing(
+                    format!(
+                        "colour attachment use of the output format {:?}",
+                        config.output_format
+                    ),
+                    "the composite is drawn into it; choose another format",
+                );
+            }
+            Shading::Compute if !self.output_storage => {
+                return missing(
+                    format!("storage use of the output format {:?}", config.output_format),
+                    "Shading::Compute stores to it; choose Shading::Raster, leave it to the \
+                     library, or choose another format, such as R16G16B16A16_SFLOAT (no sRGB)",
+                );
+            }
+            _ => {}
         }
         let raster = Some(Splat::Raster);
         if !self.blend_r32f && (config.depth_splat == raster || config.thickness_splat == raster) {

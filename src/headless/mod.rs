@@ -18,6 +18,7 @@ use scene::{Scene, SceneFrame, SceneRenderer};
 use submit::{Commands, Parts, begin, submit};
 use transfer::staging;
 
+use crate::composite::way;
 use crate::contract::{
     Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
     Slot, Stream,
@@ -33,6 +34,7 @@ use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::timing::Timing;
 use crate::renderer::Renderer;
+use crate::water::settings::Shading;
 
 /// Output format: linear, scene-referred.
 pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
@@ -109,7 +111,7 @@ impl Headless {
             Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };
         let host = device.host(1);
         let gpu = Gpu::new(&host)?;
-        let made = Self::own(&gpu, &device, config.extent).and_then(|own| {
+        let made = Self::own(&gpu, &device, &config).and_then(|own| {
             // SAFETY: the device is ours and outlives the renderer (field order, `finish`).
             Ok((own, unsafe { Renderer::new(&host, &config) }?))
         });
@@ -164,15 +166,16 @@ impl Headless {
     }
 
     /// What is ours beside the renderer.
-    fn own(
-        gpu: &Gpu,
-        device: &Device,
-        extent: vk::Extent2D,
-    ) -> Result<(Commands, Image, Image), Error> {
+    fn own(gpu: &Gpu, device: &Device, config: &Config) -> Result<(Commands, Image, Image), Error> {
+        let extent = config.extent;
         let usage = vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
-        let color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        let mut color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        // Only where it is needed: some devices do not compress what can be stored to.
+        if way(config) == Shading::Compute {
+            color |= vk::ImageUsageFlags::STORAGE;
+        }
         let depth = usage | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
         Ok((
             Commands::new(gpu, device.queue_family)?,

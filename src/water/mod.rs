@@ -29,9 +29,9 @@ pub(crate) use classify::{Classify, ROW, rows as classify_rows};
 pub(crate) use cull::chunks;
 pub(crate) use level::MOST_COARSENING;
 pub use settings::{
-    Amplitude, FoamSettings, Fresnel, Gate, Medium, Rule, Smoothing, Splat, WaterSettings,
+    Amplitude, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat, WaterSettings,
 };
-pub(crate) use tiles::COMPOSITE_DRAWS;
+pub(crate) use tiles::{COMPOSITE_DISPATCHES, COMPOSITE_DRAWS};
 
 /// What every pass records with.
 pub(crate) struct Recording<'a> {

@@ -13,6 +13,15 @@ pub enum Splat {
     Compute,
 }
 
+/// How the pixels with water are shaded. Both ways give the same picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shading {
+    /// A render pass over the tiles that hold water: the output is a colour attachment.
+    Raster,
+    /// A compute shader over the same tiles: the output is a storage image.
+    Compute,
+}
+
 /// How many iterations a pixel of the smoothing gets, and how large its steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::water::{Fresnel, Medium, Splat};
+use whitewater::water::{Fresnel, Medium, Shading, Splat};
 
 use crate::harness::fails;
 use crate::reduce::wide;
@@ -315,8 +315,14 @@ fn every_rule_of_the_surface() {
 fn every_medium_and_reflectance() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &Config { depth_splat: Some(Splat::Raster), ..config(size) });
-    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let make = |composite| {
+        let depth_splat = Some(Splat::Raster);
+        let config = Config { depth_splat, composite: Some(composite), ..config(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        rig
+    };
+    let mut rigs = [make(Shading::Raster), make(Shading::Compute)];
     let media = [
         ("clear", Medium::CLEAR),
         ("milk", Medium::MILK),
@@ -336,8 +342,10 @@ fn every_medium_and_reflectance() {
                 if flat {
                     shot.color.fill(FLAT);
                 }
-                let name = format!("composite-{medium_name}-{fresnel_name}-{flat}");
-                check(&name, &mut rig, &shot, Sky::Even);
+                for (rig, way) in rigs.iter_mut().zip(["raster", "compute"]) {
+                    let name = format!("composite-{medium_name}-{fresnel_name}-{flat}-{way}");
+                    check(&name, rig, &shot, Sky::Even);
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 //! kind of host image.
 
 use ash::vk;
-use whitewater::water::{Gate, Rule, Smoothing, Splat};
+use whitewater::water::{Gate, Rule, Shading, Smoothing, Splat};
 use whitewater::{
     Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Renderer, Settings,
     Slot, Stream,
@@ -58,16 +58,23 @@ fn output_of(rig: &Rig<'_>, flight: &Flight) -> Image<[f32; 4]> {
 /// Three frames are submitted before the first is waited for, over and over, with a resize between.
 #[test]
 fn three_slots_in_flight_with_a_resize() {
+    for composite in [Shading::Raster, Shading::Compute] {
+        in_flight(composite);
+    }
+}
+
+fn in_flight(composite: Shading) {
     let gpu = Gpu::shared();
+    let config = |size| Config { composite: Some(composite), ..config(size) };
     let sizes = [extent(96, 64), extent(61, 97), extent(128, 32), extent(33, 17)];
     let expected: Vec<Vec<Drawn>> = sizes
         .iter()
         .map(|size| {
-            let mut rig = Rig::new(&gpu, &config(*size));
+            let mut rig = Rig::lit(&gpu, &config(*size), 1);
             LENSES[..3].iter().map(|lens| rig.draw(&water(*size, *lens))).collect()
         })
         .collect();
-    let mut rig = Rig::with_slots(&gpu, &config(sizes[0]), 3);
+    let mut rig = Rig::lit(&gpu, &config(sizes[0]), 3);
     let mut flights: [Option<Flight>; 3] = [None, None, None];
     for frame in 0..24_usize {
         let slot = frame % 3;
@@ -176,9 +183,10 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { in_place: true, extent: extent(33, 17), max_particles: 1000, ..base },
         Config { environment_size: 32, rule: Rule::Fixed(12), ..base },
         Config { output_format: vk::Format::R16G16B16A16_SFLOAT, ..base },
+        Config { composite: Some(Shading::Compute), ..base },
         Config { smoothing: Some(Smoothing::Fused), max_iterations: 9, ..base },
     ];
-    let mut rig = Rig::with_slots(&gpu, &base, 2);
+    let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
     for (i, config) in configs.into_iter().chain([base]).enumerate() {
         let anew = rig.renderer().reconfigure(&config).expect("reconfigure");
@@ -187,9 +195,10 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         rig.config = config;
         if anew {
             rig.set_up();
+            rig.light();
         }
         let shot = water(config.extent, Lens::Standard);
-        let expected = Rig::new(&gpu, &config).draw(&shot);
+        let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
         let name = format!("reconfigure-{i}");
         let now = launch(&mut rig, i as u32 % 2, &shot, expected);
         // The frame before is still out when the configuration changes.
@@ -307,14 +316,20 @@ fn every_kind_of_scene_depth() {
 fn in_place_and_apart_give_the_same_picture() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    for format in [OUTPUT, vk::Format::R16G16B16A16_SFLOAT] {
+    for (output_format, composite) in [
+        (OUTPUT, Shading::Raster),
+        (OUTPUT, Shading::Compute),
+        (vk::Format::R16G16B16A16_SFLOAT, Shading::Raster),
+        (vk::Format::R16G16B16A16_SFLOAT, Shading::Compute),
+    ] {
         let shot = water(size, Lens::Reversed);
-        let make = |in_place| Config { in_place, output_format: format, ..config(size) };
-        let inside = Rig::new(&gpu, &make(true)).draw(&shot);
-        let apart = Rig::new(&gpu, &make(false)).draw(&shot);
+        let composite = Some(composite);
+        let make = |in_place| Config { in_place, output_format, composite, ..config(size) };
+        let inside = Rig::lit(&gpu, &make(true), 1).draw(&shot);
+        let apart = Rig::lit(&gpu, &make(false), 1).draw(&shot);
         compare::same_color("in-place", &inside.output, &apart.output);
         // A renderer for in-place frames draws others too.
-        let mut rig = Rig::new(&gpu, &make(true));
+        let mut rig = Rig::lit(&gpu, &make(true), 1);
         rig.config.in_place = false;
         compare::same_color("in-place-apart", &rig.draw(&shot).output, &apart.output);
     }
@@ -586,6 +601,14 @@ fn bad_configurations_are_errors() {
     assert!(matches!(result, Err(Error::BadInput { field: "Host.queue_family", .. })));
     let depth = Config { output_format: vk::Format::D32_SFLOAT, ..good };
     assert!(matches!(Rig::try_new(&gpu, &depth, 1), Err(Error::Missing { .. })));
+    let srgb = vk::Format::R8G8B8A8_SRGB;
+    let stored = Config { output_format: srgb, composite: Some(Shading::Compute), ..good };
+    let storage = vk::FormatFeatureFlags::STORAGE_IMAGE;
+    if !gpu.format_features(srgb).contains(storage) {
+        assert!(matches!(Rig::try_new(&gpu, &stored, 1), Err(Error::Missing { .. })));
+        let mut rig = Rig::new(&gpu, &good);
+        assert!(matches!(rig.renderer().reconfigure(&stored), Err(Error::Missing { .. })));
+    }
 
     let mut rig = Rig::new(&gpu, &good);
     for size in [extent(0, 4), extent(most + 1, 4)] {
@@ -608,10 +631,17 @@ fn what_a_device_lacks_is_named() {
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
     let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
     let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
+    let drawn = Config { composite: Some(Shading::Raster), ..config };
+    let stored = Config { composite: Some(Shading::Compute), ..config };
     let lacking = [
         (whitewater::Offer { api_version: vk::API_VERSION_1_2, ..offer }, config, "Vulkan 1.3"),
         (whitewater::Offer { synchronization2: false, ..offer }, config, "synchronization2"),
-        (whitewater::Offer { output_attachment: false, ..offer }, config, "output format"),
+        (
+            whitewater::Offer { output_attachment: false, ..offer },
+            drawn,
+            "attachment use of the output",
+        ),
+        (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
         (whitewater::Offer { blend_r32f: false, ..offer }, raster, "R32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
@@ -626,14 +656,25 @@ fn what_a_device_lacks_is_named() {
     }
     let unblended = whitewater::Offer { blend_r32f: false, ..offer };
     unblended.check(&config).expect("the compute paths need no blending");
+    let unattached = whitewater::Offer { output_attachment: false, ..offer };
+    unattached.check(&stored).expect("nothing is drawn into the output");
+    let unstored = whitewater::Offer { output_storage: false, ..offer };
+    unstored.check(&drawn).expect("nothing is stored to the output");
 }
 
 /// The host's images come back in the state that was asked for, from any they were in.
 #[test]
 fn images_are_taken_from_and_left_in_any_state() {
+    for composite in [Shading::Raster, Shading::Compute] {
+        in_any_state(composite);
+    }
+}
+
+fn in_any_state(composite: Shading) {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let mut rig = Rig::new(&gpu, &config(size));
+    let config = Config { composite: Some(composite), ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
     let shot = water(size, Lens::Standard);
     let expected = rig.draw(&shot);
     let sampled = Access::new(

@@ -2,6 +2,7 @@
 //! in how many pieces they are worked on, and the unit of length.
 
 use ash::vk;
+use whitewater::water::Shading::{Compute, Raster};
 use whitewater::water::Splat;
 use whitewater::{Config, Count, Packets, Particles, Stream};
 
@@ -44,8 +45,10 @@ fn no_particles_change_nothing() {
     let gpu = Gpu::shared();
     for (width, height) in TINY {
         let size = extent(width, height);
-        for in_place in [true, false] {
-            let mut rig = Rig::new(&gpu, &Config { in_place, ..exact(size) });
+        for (in_place, way) in [(true, Raster), (false, Raster), (true, Compute), (false, Compute)]
+        {
+            let composite = Some(way);
+            let mut rig = Rig::new(&gpu, &Config { in_place, composite, ..exact(size) });
             let mut shot = water(size);
             shot.positions.clear();
             // Another frame's water must not come back.
@@ -56,7 +59,7 @@ fn no_particles_change_nothing() {
                 height: height as usize,
                 data: shot.color.clone(),
             };
-            compare::same_color(&format!("zero-{width}-{in_place}"), &drawn.output, &scene);
+            compare::same_color(&format!("zero-{width}-{in_place}-{way:?}"), &drawn.output, &scene);
             assert!(drawn.depth.data.iter().all(|d| *d >= 1e9));
             assert!(drawn.thickness.data.iter().all(|t| *t == 0.0));
             assert!(drawn.plan.data.iter().all(|p| *p == 0));
@@ -69,9 +72,15 @@ fn pixels_outside_the_water_are_untouched() {
     let gpu = Gpu::shared();
     for (width, height) in TINY {
         let size = extent(width, height);
-        for (level, thickness_level) in [(0, 0), (1, 1), (2, 0)] {
-            let config = Config { smoothing_level: level, thickness_level, ..config(size) };
-            let mut rig = Rig::new(&gpu, &config);
+        let levels = [(0, 0), (1, 1), (2, 0)].map(|levels| [(levels, Raster), (levels, Compute)]);
+        for ((level, thickness_level), way) in levels.into_iter().flatten() {
+            let config = Config {
+                smoothing_level: level,
+                thickness_level,
+                composite: Some(way),
+                ..config(size)
+            };
+            let mut rig = Rig::lit(&gpu, &config, 1);
             let shot = water(size);
             let drawn = rig.draw(&shot);
             for (i, depth) in drawn.depth.data.iter().enumerate() {

@@ -1,10 +1,11 @@
 //! Pass `level`: near views are smoothed a level coarser, by the GPU's own choice.
 
 use whitewater::Config;
-use whitewater::water::{Gate, Rule, Smoothing};
+use whitewater::water::{Gate, Rule, Shading, Smoothing};
 
 use crate::reduce::{params, wide};
 use crate::reference::{self, smooth};
+use crate::shading::close;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
@@ -32,7 +33,7 @@ fn at(level: u32, coarsening: u32, cap: u32) -> Config {
 }
 
 fn draw(gpu: &Gpu, config: &Config) -> Drawn {
-    let mut rig = Rig::new(gpu, config);
+    let mut rig = Rig::lit(gpu, config, 1);
     let shot = shot();
     // The second frame starts from what the first one left.
     rig.draw(&shot);
@@ -134,6 +135,8 @@ fn the_coarser_level_fades_in() {
         compare::same(&name, &drawn.surface, &fine.surface);
         compare::same(&format!("{name}-coarser"), surface, &coarse.surface);
         assert!(plan.data == coarse.plan.data, "{name}: other plans");
+        let stored = Config { composite: Some(Shading::Compute), ..at(0, 3, cap) };
+        close(&name, stored.output_format, &draw(&gpu, &stored), &drawn);
         let from_fine = difference(&drawn, &fine);
         let way = from_fine / (from_fine + difference(&drawn, &coarse));
         assert!(way > last, "{name}: {way} of the way after {last}");

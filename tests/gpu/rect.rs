@@ -1,7 +1,7 @@
 //! Views that are a part of the host's images, and frames smaller than the renderer was made for.
 
 use whitewater::Config;
-use whitewater::water::{Gate, Smoothing, Splat};
+use whitewater::water::{Gate, Shading, Smoothing, Splat};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -46,6 +46,7 @@ fn ways() -> Vec<(&'static str, Config)> {
         ("fused", Config { smoothing: Some(Smoothing::Fused), smoothing_level: 0, ..base }),
         ("query", Config { smoothing: Some(Smoothing::Query(Gate::VertexCull)), ..sums }),
         ("depth", Config { depth_splat: Some(Splat::Raster), ..sums }),
+        ("stored", Config { composite: Some(Shading::Compute), ..sums }),
         ("coarser", Config { max_iterations: 3, ..base }),
     ]
 }

@@ -5,7 +5,7 @@ use std::mem;
 
 use ash::vk;
 use whitewater::headless::{Background, Headless};
-use whitewater::water::{Gate, Smoothing, Splat};
+use whitewater::water::{Gate, Shading, Smoothing, Splat};
 use whitewater::{Config, Error, Frame, Recorded, Slot};
 
 use crate::support::compare;
@@ -76,6 +76,7 @@ fn record_only_records() {
                 ..base
             },
         ),
+        ("compute composite", Config { composite: Some(Shading::Compute), ..base }),
         ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
         ("query", Config { smoothing: query, ..base }),
     ];

@@ -1,7 +1,7 @@
 //! A renderer in a host: the host stub with the images and buffers of a frame, and what comes back.
 
 use ash::vk;
-use whitewater::water::Splat;
+use whitewater::water::{Shading, Splat};
 use whitewater::{
     Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
     Layer, Particles, Recorded, Renderer, Settings, Slot, SmoothingLevel, SmoothingLevels, Stream,
@@ -257,6 +257,22 @@ impl<'g> Rig<'g> {
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
+    /// A renderer in an environment from 0 to 1. (Where it was only cleared, SwiftShader prepares it
+    /// for draws alone: compute reads garbage at the seams of the cube.)
+    pub fn lit(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
+        let mut rig = Self::with_slots(gpu, config, slots);
+        rig.light();
+        rig
+    }
+
+    /// That environment.
+    pub fn light(&mut self) {
+        let part = |i: u32, n: u32| (i * 37 % n) as f32 / (n - 1) as f32;
+        let texels: Vec<_> =
+            (0..128).map(|i| [part(i, 7), part(i, 11), part(i, 13), 1.0]).collect();
+        self.environment(extent(16, 8), &texels);
+    }
+
     /// An environment of any kind, whose images live to the end of this.
     pub fn any_environment(&mut self, source: &EnvironmentSource) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
@@ -267,13 +283,21 @@ impl<'g> Rig<'g> {
         renderer.collect(Slot(0));
     }
 
+    /// Usage of outputs: as between the host's own passes, and what the composite's way needs.
+    fn output_usage(&self) -> vk::ImageUsageFlags {
+        let host = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        match self.config.composite {
+            Some(Shading::Compute) => host | vk::ImageUsageFlags::STORAGE,
+            _ => host,
+        }
+    }
+
     /// The images of a frame as its host has them: colour and depth of the scene, filled.
     pub fn scene(&self, shot: &Shot) -> (Texture, Texture) {
-        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let color = self.stub.uploaded(
             self.config.output_format,
             shot.with_margin(shot.size).0,
-            usage,
+            self.output_usage(),
             &color_bytes(self.config.output_format, &shot.pad(shot.size, &shot.color, AROUND)),
             COLOR,
         );
@@ -313,11 +337,10 @@ impl<'g> Rig<'g> {
     pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
         let (color, depth) = self.scene(shot);
         let apart = (!self.config.in_place).then(|| {
-            let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
             let format = self.config.output_format;
             let bytes = color_bytes(format, &shot.pad(shot.size, &shot.color, AROUND));
             let extent = shot.with_margin(shot.size).0;
-            self.stub.uploaded(format, extent, usage, &bytes, COLOR)
+            self.stub.uploaded(format, extent, self.output_usage(), &bytes, COLOR)
         });
         let placed = |texture: &Texture, size| HostImage {
             rect: shot.with_margin(size).1,

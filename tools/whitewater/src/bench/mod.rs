@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
-use whitewater::water::{Gate, Rule, Smoothing, Splat};
+use whitewater::water::{Gate, Rule, Shading, Smoothing, Splat};
 use whitewater::{Camera, Config, Settings};
 
 use crate::failure::Outcome;
@@ -71,6 +71,10 @@ pub enum Path {
     QueryVertex,
     /// Smoothing: occlusion query read back by the host
     ReadBack,
+    /// Composite: a render pass over the tiles
+    RasterComposite,
+    /// Composite: a compute shader over the tiles
+    ComputeComposite,
     /// The source's iteration rule
     Source,
     /// The baseline: 40 iterations for every pixel
@@ -102,6 +106,8 @@ impl Path {
             Self::QueryCount => config.smoothing = query(Gate::DrawCount),
             Self::QueryPredicate => config.smoothing = query(Gate::Predicate),
             Self::QueryVertex | Self::ReadBack => config.smoothing = query(Gate::VertexCull),
+            Self::RasterComposite => config.composite = Some(Shading::Raster),
+            Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,
             Self::Baseline => config.rule = Rule::Fixed(40),
         }

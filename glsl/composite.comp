@@ -1,0 +1,50 @@
+#version 460
+// Pass `composite`, compute: shades the pixels with water of the tiles' groups. A tile is 16 texels
+// of its level wide, up to 512 pixels: groups of 8x8 pixels share it. More tiles than a dispatch
+// may have groups share those.
+// Reads: what shade.glsl reads, tile list and arguments. Writes: output.
+
+#include "frame.glsl"
+#include "level.glsl"
+#include "surface.glsl"
+#include "shade.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+// Its format is the host's choice: written without being told.
+layout(set = 0, binding = 8) uniform writeonly image2D target;
+layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
+layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[]; };
+
+void shade_pixel(ivec2 pixel) {
+    if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
+        return;
+    }
+    float front = texelFetch(depth, pixel, 0).x;
+    if (front < EMPTY) {
+        imageStore(target, pixel + ivec2(frame.target.xy), vec4(shade(vec2(pixel) + 0.5, front), 1.0));
+    }
+}
+
+void shade_block(int tile, int block) {
+    ivec2 texel = ivec2(tile % levels.atlas.z, tile / levels.atlas.z) * 16;
+    uint own = level_of(texel.y);
+    Level level = levels.level[own];
+    int edge = int(level.texel.z);
+    ivec2 corner = (texel - level.rect.xy) * edge + 8 * ivec2(block % (2 * edge), block / (2 * edge));
+    // While two levels are in use each covers all of the water: shade it once.
+    if (own == finer_level()) {
+        shade_pixel(corner + ivec2(gl_LocalInvocationID.xy));
+    }
+}
+
+void main() {
+    uint tiles = arguments[CONFIGURED == 1u ? 260 : 261].w;
+    uint i = gl_WorkGroupID.y;
+    // The condition last: after one at the top a CPU runs the rest once more, for no invocation.
+    // No group is without a tile.
+    do {
+        shade_block(int(list[i]), int(gl_WorkGroupID.x));
+        i += gl_NumWorkGroups.y;
+    } while (i < tiles);
+}

@@ -1,0 +1,156 @@
+//! Pass `composite`: a compute shader and a render pass give the same picture.
+//!
+//! Both compile the same source. What was measured is the same bits on SwiftShader, and on lavapipe
+//! but for the look-up in the environment, which rounds otherwise. (A driver that contracted the
+//! source otherwise in one of them would still owe each the twin's bounds, in tests of `composite`.)
+
+use ash::vk;
+use whitewater::water::{Fresnel, Shading};
+use whitewater::{Access, Config, Frame, HostImage, Layer, Recorded, Slot};
+
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, OUTPUT, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+
+fn water(size: vk::Extent2D, lens: Lens) -> Shot {
+    let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
+    points.extend(scenes::cloud(4, 40, 0.2, 12.0));
+    Shot::new(size, lens, 0.2, &points)
+}
+
+/// A point on a face of 16 texels is off by a few roundings, 4 of 16 / 2^24, on both axes; two
+/// texels differ by 1, all of which may be reflected; a few roundings of the colour are on top, and
+/// that of the output's format.
+pub fn close(name: &str, format: vk::Format, stored: &Drawn, drawn: &Drawn) {
+    let expected = drawn.output.map(|c| c.map(f64::from));
+    let rounding = if format == OUTPUT { 2_f64.powi(-22) } else { 2_f64.powi(-10) };
+    compare::close_color(name, &stored.output, &expected, |x, y| {
+        expected.at(x, y).map(|c| 2.0 * 4.0 * 16.0 * 2_f64.powi(-24) + rounding * c.abs())
+    });
+}
+
+/// Draws shots both ways, one after the other: each starts from what the one before left.
+fn same(gpu: &Gpu, name: &str, config: &Config, shots: &[&Shot]) -> Vec<Drawn> {
+    let [mut drawn, mut stored] = [Shading::Raster, Shading::Compute].map(|way| {
+        let config = Config { composite: Some(way), ..*config };
+        Rig::lit(gpu, &config, 1)
+    });
+    shots
+        .iter()
+        .map(|shot| {
+            let (drawn, stored) = (drawn.draw(shot), stored.draw(shot));
+            close(name, config.output_format, &stored, &drawn);
+            drawn
+        })
+        .collect()
+}
+
+/// Pixels of a picture that are not the scene's.
+fn written(drawn: &Drawn, shot: &Shot) -> usize {
+    drawn.output.data.iter().zip(&shot.color).filter(|(found, scene)| found != scene).count()
+}
+
+#[test]
+fn both_ways_give_the_same_picture() {
+    let gpu = Gpu::shared();
+    let half = vk::Format::R16G16B16A16_SFLOAT;
+    let kinds = [
+        (0, 2, false, OUTPUT),
+        (1, 1, true, half),
+        (0, 0, true, OUTPUT),
+        (1, 2, false, half),
+        (2, 0, true, OUTPUT),
+        (2, 3, false, OUTPUT),
+    ];
+    for (width, height) in [(97, 61), (1, 1), (1, 7), (3, 5), (17, 33), (130, 9)] {
+        let size = extent(width, height);
+        let few = if width == 97 { &kinds[..] } else { &kinds[..2] };
+        for &(smoothing_level, thickness_level, in_place, output_format) in few {
+            let levels = Config { smoothing_level, thickness_level, ..config(size) };
+            let config = Config { in_place, output_format, ..levels };
+            let (first, mut second) = (water(size, Lens::OffAxis), water(size, Lens::Reversed));
+            second.settings.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
+            let mut none = first.clone();
+            none.positions.clear();
+            let name = format!("ways-{width}-{smoothing_level}{thickness_level}-{in_place}");
+            let drawn = same(&gpu, &name, &config, &[&first, &second, &none, &first]);
+            if (width, output_format) == (97, OUTPUT) {
+                let [first, second, none] =
+                    [(0, &first), (1, &second), (2, &none)].map(|(i, s)| written(&drawn[i], s));
+                assert!(first > 500 && second > 500 && none == 0, "{first}, {second}, {none}");
+            }
+        }
+    }
+}
+
+/// Tiles of coarse levels are many groups wide, and reach beyond the picture.
+#[test]
+fn tiles_of_every_level_are_shaded_whole() {
+    let gpu = Gpu::shared();
+    for (width, height) in [(97, 61), (530, 21), (19, 300), (1, 1)] {
+        let size = extent(width, height);
+        for (smoothing_level, coarsening) in [(0, 3), (1, 2), (2, 1), (2, 2), (2, 3)] {
+            let config = Config { smoothing_level, coarsening, max_iterations: 3, ..config(size) };
+            let row: Vec<_> = (-30_i8..=30).map(|x| [f32::from(x), 0.0, 2.0]).collect();
+            let mut shot = Shot::new(size, Lens::Reversed, 1.0, &row);
+            shot.settings.water.smoothing_width = 40.0;
+            let name = format!("levels-{width}-{smoothing_level}{coarsening}");
+            let drawn = same(&gpu, &name, &config, &[&shot]);
+            let edge = f32::from(1_u8 << (smoothing_level + coarsening));
+            assert_eq!(drawn[0].levels.finer().texel[2], edge, "{name}");
+            assert!(written(&drawn[0], &shot) > 0, "{name}: no water");
+        }
+    }
+}
+
+/// What is stored to is no attachment, and need not be in a layout of one. The layers may be read
+/// right behind the record: they are in the state that it names.
+#[test]
+fn a_stored_output_need_not_be_an_attachment() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config { composite: Some(Shading::Compute), ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let shot = water(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    let written = Access::new(
+        vk::PipelineStageFlags2::COMPUTE_SHADER,
+        vk::AccessFlags2::SHADER_STORAGE_WRITE,
+        vk::ImageLayout::GENERAL,
+    );
+    let (_, depth) = rig.scene(&shot);
+    let usage = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED;
+    let texels = bytemuck::cast_slice(&shot.color);
+    let color = rig.stub.uploaded(OUTPUT, size, usage, texels, written);
+    let cloud = rig.particles(&shot);
+    let output = HostImage { after: written, ..color.host_image() };
+    let frame = Frame {
+        slot: Slot(0),
+        output,
+        scene_color: output,
+        scene_depth: depth.host_image(),
+        particles: cloud.particles(),
+        camera: shot.camera,
+        settings: &shot.settings,
+    };
+    let cmd = rig.stub.begin(0);
+    // SAFETY: cmd is recording; the handles live to the end of this.
+    let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+    let backs: Vec<_> = recorded
+        .layers
+        .iter()
+        .map(|layer| {
+            let (Layer { image, extent, access, .. }, aspect) = (*layer, color.aspect);
+            let bytes = 4 * u64::from(extent.width * extent.height);
+            let back = rig.stub.sized(bytes, vk::BufferUsageFlags::TRANSFER_DST);
+            rig.stub.record_download(cmd, image, aspect, extent.into(), access, &back);
+            back
+        })
+        .collect();
+    assert_eq!(backs.len(), 4);
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    let found = rig.read(&output, &Recorded::default());
+    compare::same_color("stored", &found.output, &expected.output);
+}
