@@ -82,11 +82,13 @@ bool stands_before(vec2 at, float z) {
 bool hidden_at(vec2 q, float z) {
     bool same = all(equal(frame.scene_depth.xy, vec2(1.0)));
     int corners = same ? 1 : 4;
-    bool hidden = false;
-    for (int i = 0; i < corners && !hidden; ++i) {
+    bool hidden;
+    int i = 0;
+    do {
         vec2 corner = same ? vec2(0.0) : vec2(i & 1, i >> 1) - 0.5;
         hidden = stands_before(q + corner, z);
-    }
+        ++i;
+    } while (i < corners && !hidden);
     return hidden;
 }
 

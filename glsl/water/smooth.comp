@@ -58,7 +58,9 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
     vec4 a;
     vec4 b;
     fetch_rows(p - ivec2(0, 1), first, last, a, b);
-    for (int k = 0; k < ROWS && p.y <= last.y; k += 2) {
+    int k = 0;
+    // The condition last, as in main; the first row is in the level.
+    do {
         vec4 c;
         vec4 d;
         fetch_rows(p + ivec2(0, 1), first, last, c, d);
@@ -70,12 +72,16 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
         a = c;
         b = d;
         p.y += 2;
-    }
+        k += 2;
+    } while (k < ROWS && p.y <= last.y);
 }
 
 void main() {
     uint tiles = arguments[push.iteration].w;
-    for (uint i = gl_WorkGroupID.x; i < tiles; i += gl_NumWorkGroups.x) {
+    uint i = gl_WorkGroupID.x;
+    // The condition last: with one at the top a CPU runs the body once more, for no invocation.
+    // No group is without a tile.
+    do {
         uint tile = list[i];
         ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
         Level level = levels.level[level_of(corner.y)];
@@ -84,5 +90,6 @@ void main() {
         if (p.x <= last.x && p.y <= last.y) {
             smooth_columns(level, p, last);
         }
-    }
+        i += gl_NumWorkGroups.x;
+    } while (i < tiles);
 }

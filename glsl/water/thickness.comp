@@ -67,11 +67,16 @@ void main() {
         float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
         float scale = units(sphere.w) / widened;
         ivec4 box = span(sphere, axis);
-        for (int y = box.y; y <= box.w; ++y) {
-            for (int x = box.x; x <= box.z; ++x) {
-                splat(ivec2(x, y), sphere, 1.0 / axis, scale);
-            }
+        if (box.x > box.z || box.y > box.w) {
+            return;
         }
+        // One loop with its condition last, not two: where invocations are lanes, all wait for the
+        // one with the most pixels once, not once a row, and none runs an empty round.
+        ivec2 p = box.xy;
+        do {
+            splat(p, sphere, 1.0 / axis, scale);
+            p = p.x < box.z ? ivec2(p.x + 1, p.y) : ivec2(box.x, p.y + 1);
+        } while (p.y <= box.w);
         return;
     }
     for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
