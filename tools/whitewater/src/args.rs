@@ -57,9 +57,9 @@ pub struct RenderArgs {
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,
-    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, spheres)
-    /// [default: a ground under the water]
-    #[arg(long, value_name = "FILE")]
+    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, spheres);
+    /// 'ground' [default: a basin round water that fills a box, else a ground under it]
+    #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
     #[command(flatten)]
     pub camera: CameraArgs,

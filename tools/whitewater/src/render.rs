@@ -220,9 +220,29 @@ fn look(
         progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
         camera
     });
+    let mut environment = environment;
     let mut scene = match &args.scene {
+        Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds),
         Some(path) => stage::read(path)?,
-        None => stage::ground_under(&bounds),
+        None => {
+            let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+            let view = camera.camera(args.draw.size)?.view;
+            let eye = view.inverse().transform_point3(Vec3::ZERO);
+            match stage::basin_round(&frames, &bounds, spacing, eye) {
+                Some(basin) => {
+                    progress
+                        .say("a basin round the water, which fills a box (--scene ground: none)");
+                    // A sun from the side, that its walls don't keep out.
+                    let sun = stage::side_light(eye - bounds.center());
+                    environment = session::environment(&args.draw, Some(sun))?;
+                    settings.light = environment.light();
+                    file.apply(&mut settings).map_err(Failure::input)?;
+                    settings.water.spacing = spacing;
+                    basin
+                }
+                None => stage::ground_under(&bounds),
+            }
+        }
     };
     scene.sun = environment.sun_light();
     Ok(Look { camera, settings, environment, scene })

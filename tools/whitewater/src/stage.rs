@@ -1,4 +1,5 @@
-//! What stands behind the water: a scene from a file, or a paved ground under it.
+//! What stands behind the water: a scene from a file, a basin round water that fills a box, or a paved
+//! ground under it.
 
 use std::path::Path;
 
@@ -43,6 +44,127 @@ pub fn ground_under(bounds: &Bounds) -> Scene {
     }
 }
 
+/// One side of a box of water.
+#[derive(Clone, Copy, Debug)]
+struct Side {
+    /// 0 or 2.
+    axis: usize,
+    /// -1 or 1: where it lies.
+    sign: f32,
+    /// Its place on the axis.
+    at: f32,
+    /// Heights that the water has there nearly always, and that nearly all of it stays below.
+    level: f32,
+    highest: f32,
+}
+
+/// The sides of the box that the particles fill; `None` where they fill none. Most solvers hold
+/// their water by walls that are in no file: bare, it looks like fog.
+fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side; 4]> {
+    let finite = || {
+        let all = frames.iter().copied().flatten();
+        all.copied().filter(|p| p.iter().all(|c| c.is_finite()))
+    };
+    let side = |axis: usize, sign: f32| {
+        let mut places: Vec<f32> = finite().map(|p| sign * p[axis]).collect();
+        places.sort_unstable_by(f32::total_cmp);
+        // Without strays.
+        let at = sign * *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
+        let across = 2 - axis;
+        let (low, length) = (bounds.min[across], bounds.size()[across]);
+        let count = ((length / (4.0 * spacing)) as usize).clamp(4, 64);
+        let mut held = vec![false; count];
+        let mut heights = Vec::new();
+        for frame in frames {
+            let mut bins = vec![(0, f32::MIN); count];
+            for p in frame.iter().filter(|p| (p[axis] - at).abs() < 2.0 * spacing) {
+                let bin = ((p[across] - low) / length * count as f32) as usize;
+                let bin = &mut bins[bin.min(count - 1)];
+                *bin = (bin.0 + 1, bin.1.max(p[1]));
+            }
+            for (bin, held) in bins.iter().zip(&mut held).filter(|(bin, _)| bin.0 >= 4) {
+                *held = true;
+                heights.push(bin.1);
+            }
+        }
+        // Water that stands at most of a side is held there.
+        let share = held.iter().filter(|held| **held).count() as f32 / count as f32;
+        heights.sort_unstable_by(f32::total_cmp);
+        let level = *heights.get(heights.len() / 4)?;
+        let highest = heights[heights.len() * 9 / 10];
+        (share >= 0.6).then_some(Side { axis, sign, at, level, highest })
+    };
+    Some([side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?])
+}
+
+/// A tiled basin round water that fills a box: low walls towards the eye, high ones behind. `None`
+/// where the particles fill no box.
+pub fn basin_round(
+    frames: &[&[[f32; 3]]],
+    bounds: &Bounds,
+    spacing: f32,
+    eye: glam::Vec3,
+) -> Option<Scene> {
+    let sides = sides(frames, bounds, spacing)?;
+    let mut scene = ground_under(bounds);
+    let longest = bounds.size().max_element();
+    let wide = bounds.size().x.max(bounds.size().z);
+    let (thick, lining) = (0.03 * wide, 0.006 * wide);
+    let floor = bounds.min.y;
+    let tile = Pattern::Tiles { size: round_length(longest / 30.0), band: None };
+    let tiles =
+        Material { base_color: [0.36, 0.60, 0.63], roughness: 0.22, pattern: tile, texture: None };
+    let concrete = Material::named("concrete")?;
+    // Inner faces, where the drawn spheres end.
+    let reach = 0.66 * spacing;
+    let face = |side: &Side| side.at + side.sign * reach;
+    let [left, right, back, front] = &sides;
+    let (low, high) = (
+        glam::Vec3::new(face(left), floor, face(back)),
+        glam::Vec3::new(face(right), floor, face(front)),
+    );
+    let middle = 0.5 * (low + high);
+    let mut push = |name: &str, from: glam::Vec3, to: glam::Vec3, material: &Material| {
+        let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let turn = [0.0, 0.0, 0.0, 1.0];
+        let mut mesh = Mesh::cuboid(centre.into(), half.into(), turn, material.clone());
+        mesh.name = name.into();
+        scene.meshes.push(mesh);
+    };
+    let sheet = 1.0e-3 * longest;
+    push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles);
+    for side in &sides {
+        let towards_eye = side.sign * (eye[side.axis] - face(side)) > 0.0;
+        // Not so high that they hide the water, or keep the sun from it.
+        let (water, most) =
+            if towards_eye { (side.level + spacing, 0.12) } else { (side.highest + thick, 0.2) };
+        let top = water.clamp(floor + thick, floor + most * wide);
+        let across = 2 - side.axis;
+        let wall = |inner: f32, outer: f32, top: f32, longer: f32| {
+            let mut from = middle;
+            let mut to = middle;
+            (from[side.axis], to[side.axis]) = (inner.min(outer), inner.max(outer));
+            (from[across], to[across]) = (low[across] - longer, high[across] + longer);
+            (from.y, to.y) = (floor - 2.0 * sheet, top);
+            (from, to)
+        };
+        let inner = face(side);
+        let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
+        push("basin lining", from, to, &tiles);
+        let (outer, cap) = (inner + side.sign * thick, top + 0.2 * lining);
+        let (from, to) = wall(inner + side.sign * lining, outer, cap, thick);
+        push("basin wall", from, to, &concrete);
+    }
+    Some(scene)
+}
+
+/// Towards a sun that stands high and to the left of one who looks along `-towards_eye`.
+pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
+    let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
+    let turned = glam::Quat::from_rotation_y(-80.0_f32.to_radians()) * level;
+    (0.6 * turned + 0.8 * glam::Vec3::Y).to_array()
+}
+
 /// 1, 2 or 5 by a power of ten, as people cut slabs.
 fn round_length(rough: f32) -> f32 {
     let power = 10.0_f32.powf(rough.log10().floor());
@@ -53,6 +175,38 @@ fn round_length(rough: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A block of water, spacing 0.1, with a corner cut off or not.
+    fn block(cut: bool) -> Vec<[f32; 3]> {
+        let cells = (0..20).flat_map(|x| (0..6).flat_map(move |y| (0..30).map(move |z| (x, y, z))));
+        cells
+            .filter(|(x, _, z)| !cut || x + z < 16)
+            .map(|(x, y, z)| [0.1 * x as f32, 0.1 * y as f32, 0.1 * z as f32])
+            .collect()
+    }
+
+    #[test]
+    fn water_that_fills_a_box_gets_a_basin() {
+        let eye = glam::Vec3::new(9.0, 5.0, 9.0);
+        let basin = |points: &[[f32; 3]]| {
+            let bounds = Bounds::of_bulk(points).unwrap();
+            basin_round(&[points], &bounds, 0.1, eye)
+        };
+        let scene = basin(&block(false)).unwrap();
+        let top = |mesh: &Mesh| {
+            let points =
+                mesh.positions.iter().map(|p| mesh.transform.transform_point3((*p).into()));
+            points.map(|p| p.y).fold(f32::MIN, f32::max)
+        };
+        let walls: Vec<f32> =
+            scene.meshes.iter().filter(|m| m.name == "basin wall").map(top).collect();
+        assert_eq!(walls.len(), 4);
+        // The far ones, at -x and -z, are as high as the water at least; the near ones hide little.
+        assert!(walls[0] > 0.5 && walls[2] > 0.5, "{walls:?}");
+        assert!(walls[1] < 0.4 && walls[3] < 0.4, "{walls:?}");
+        assert!(basin(&block(true)).is_none(), "a wedge fills no box");
+        assert!(basin(&[[0.0; 3]]).is_none());
+    }
 
     #[test]
     fn slabs_have_round_sizes() {
