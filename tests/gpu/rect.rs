@@ -59,7 +59,7 @@ fn a_view_may_be_a_part_of_the_images() {
         for (way, config) in ways() {
             for in_place in [true, false] {
                 let config = Config { in_place, ..config };
-                let mut rig = Rig::new(&gpu, &config);
+                let mut rig = Rig::lit(&gpu, &config, 1);
                 let alone = rig.draw(&shot(depth_extent));
                 let part = Shot { margin: [13, 30, 7, 21], ..shot(depth_extent) };
                 let found = rig.draw(&part);
@@ -87,8 +87,8 @@ fn a_frame_may_be_smaller_than_the_renderer_is_made_for() {
     let gpu = Gpu::shared();
     for (way, config) in ways() {
         let shot = shot(SIZE);
-        let expected = Rig::new(&gpu, &config).draw(&shot);
-        let mut rig = Rig::new(&gpu, &Config { extent: extent(150, 101), ..config });
+        let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
+        let mut rig = Rig::lit(&gpu, &Config { extent: extent(150, 101), ..config }, 1);
         // What a larger frame left behind is not seen.
         let whole =
             Shot::new(extent(150, 101), Lens::Standard, 0.5, &scenes::cloud(1, 900, 1.0, 9.0));
