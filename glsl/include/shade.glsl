@@ -77,11 +77,13 @@ bool stands_before(vec2 at, float z) {
     return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
 }
 
-// Whether scene stands before the water at a point of the view, in or next to what filtering of its
-// colour will touch. Loops here, not branches: a CPU runs branches whole.
+// Whether nothing can be seen of what is behind the water at a point: it is beyond the view, or
+// scene stands before it in or next to what filtering of its colour will touch. Loops here, not
+// branches: a CPU runs branches whole.
 bool hidden_at(vec2 q, float z) {
     bool same = all(equal(frame.scene_depth.xy, vec2(1.0)));
     int corners = same ? 1 : 4;
+    vec2 inside = clamp(q, vec2(0.5), frame.extent.xy - 0.5);
     bool hidden;
     int i = 0;
     do {
@@ -89,14 +91,13 @@ bool hidden_at(vec2 q, float z) {
         hidden = stands_before(q + corner, z);
         ++i;
     } while (i < corners && !hidden);
-    return hidden;
+    return hidden || any(notEqual(inside, q));
 }
 
 // Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
-// The look-up goes half the way to where that begins, and no farther: dropping the offset there
-// would leave a seam, going all the way would smear what lies at the edge over what it hides.
+// The look-up goes half the way to where that begins or the view ends, and no farther: dropping
+// the offset there would leave a seam, going all the way would smear what lies at the edge.
 vec3 refracted(vec2 pixel, vec2 offset, float z) {
-    offset = clamp(pixel + offset, vec2(0.5), frame.extent.xy - 0.5) - pixel;
     float far = length(offset);
     // In offsets: the farthest place known to be free, and the nearest that is not.
     float free = 0.0;

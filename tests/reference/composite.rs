@@ -112,15 +112,20 @@ pub fn look_up(settings: &Settings, surface: &Surface, view: &View, pixel: DVec2
     // Pixels per length at z, signed as the image's axes run.
     let scale = 1.0 / (view.slope_step() * -surface.position.z);
     let offset = -surface.normal.truncate() * surface.thickness * settings.refraction * scale;
-    (pixel + offset).clamp(DVec2::splat(0.5), view.extent() - 0.5)
+    pixel + offset
 }
 
-/// Whether any of the four texels of the scene's depth round a position stands before the water;
+/// Whether a position is beyond the view, or any of the four texels of the scene's depth round it
+/// stands before the water;
 /// where its size is another than the colour's, round the four corners of the pixel there.
 pub fn hidden(inputs: &Inputs<'_>, z: f64, at: DVec2) -> bool {
     let extent = |width: usize, height: usize| DVec2::new(width as f64, height as f64);
     let (scene, color) = (inputs.scene_depth, inputs.scene_color);
     let ratio = extent(scene.width, scene.height) / extent(color.width, color.height);
+    let edge = extent(color.width, color.height) - 0.5;
+    if at.cmplt(DVec2::splat(0.5)).any() || at.cmpgt(edge).any() {
+        return true;
+    }
     let before = |at: DVec2| scene.bilinear(at * ratio).iter().any(|t| scene.clamped(t.0, t.1) < z);
     if ratio == DVec2::ONE {
         return before(at);
