@@ -129,4 +129,4 @@ pub use error::Error;
 pub use gpu::requirements::{Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;
-pub use state::{State, StateConfig, state_memory};
+pub use state::{State, StateConfig};

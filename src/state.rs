@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
-use crate::water::{Classify, ROW, classify_rows};
+use crate::water::{Classify, ROW};
 
 /// What fixes the memory of a [`State`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +43,8 @@ pub struct State {
     odd: bool,
     /// Nothing was recorded yet: the tables hold anything.
     fresh: bool,
-    /// Slot of the last step, until it is collected or abandoned.
-    last: Option<Slot>,
+    /// The last step, until it is abandoned: its slot, and whether it was the first.
+    last: Option<(Slot, bool)>,
 }
 
 impl State {
@@ -105,18 +105,20 @@ impl State {
         step: &Step<'_>,
     ) -> Result<(), Error> {
         self.check(step)?;
+        // A step that fails below leaves nothing to take back.
+        self.last = None;
         let slot = &mut self.slots[step.slot.0 as usize];
         slot.descriptors.reset(&self.gpu)?;
         self.gpu.begin_label(cmd, c"whitewater/step");
         slot.timer.reset(&self.gpu, cmd);
-        if std::mem::take(&mut self.fresh) {
+        if self.fresh {
             self.classify.record_clear(&self.gpu, cmd, self.odd);
         }
         let (gpu, timer) = (&self.gpu, &mut slot.timer);
         self.classify.record(gpu, cmd, &slot.descriptors, timer, step, self.odd)?;
         self.gpu.end_label(cmd);
         self.odd = !self.odd;
-        self.last = Some(step.slot);
+        self.last = Some((step.slot, std::mem::take(&mut self.fresh)));
         Ok(())
     }
 
@@ -177,9 +179,9 @@ impl State {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();
         }
-        if self.last == Some(slot) {
+        if let Some((_, first)) = self.last.take_if(|(last, _)| *last == slot) {
             self.odd = !self.odd;
-            self.last = None;
+            self.fresh = first;
         }
     }
 
@@ -236,9 +238,4 @@ impl State {
         }
         Ok(())
     }
-}
-
-/// Bytes of device memory that a state needs.
-pub fn state_memory(config: &StateConfig) -> u64 {
-    2 * ROW * classify_rows(config.max_particles) + 8 * u64::from(config.max_particles)
 }

@@ -10,7 +10,6 @@ use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
 use super::cull::{capacity, window};
-use super::settings::FoamSettings;
 use crate::contract::{Count, Step, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -96,15 +95,11 @@ pub struct Classify {
     chunk: u32,
 }
 
-/// Rows for as many particles: two of three taken keep the searches short.
-pub fn rows(max_particles: u32) -> u64 {
-    u64::from(max_particles) * 3 / 2 + 1
-}
-
 impl Classify {
     pub fn new(gpu: &Gpu, max_particles: u32, max_stride: u32) -> Result<Self, Error> {
         let range = u64::from(gpu.limits.max_storage_buffer_range);
-        let rows = rows(max_particles);
+        // Two of three taken keep the searches short.
+        let rows = u64::from(max_particles) * 3 / 2 + 1;
         if rows * ROW > range {
             let most = (range / ROW - 1) * 2 / 3;
             return Err(Error::bad(
@@ -211,26 +206,68 @@ impl Classify {
             Count::Cpu(count) => (count.min(most), None),
             Count::Gpu { buffer, offset } => (most, Some(Resource::Buffer(buffer, offset, 4))),
         };
+        let settings = step.settings;
+        let [air_x, air_y, air_z] = settings.air;
         let mut first = 0;
         while first < count {
             let chunk = self.chunk.min(count - first);
-            let host_count = from_gpu.unwrap_or(Resource::buffer(&self.foam));
-            self.record_chunk(
+            // A stream that ends before the chunk has no particles in it: the count was clamped.
+            let Some((velocities, velocity_word)) = window(gpu, &step.velocities, first) else {
+                break;
+            };
+            // A stream that is not there is never read: any buffer will do.
+            let optional = |stream: &Option<Stream>| match stream {
+                Some(s) => window(gpu, s, first).map(|(r, word)| (r, word, s.stride / 4)),
+                None => Some((velocities, 0, 0)),
+            };
+            let (Some((densities, density_word, density_stride)), Some((ids, id_word, id_stride))) =
+                (optional(&step.densities), optional(&step.ids))
+            else {
+                break;
+            };
+            descriptors.bind(
                 gpu,
                 cmd,
-                descriptors,
-                step,
-                (old, new),
+                &self.pipeline,
+                &[
+                    (1, velocities),
+                    (2, densities),
+                    (3, ids),
+                    (4, from_gpu.unwrap_or(velocities)),
+                    (5, Resource::buffer(old)),
+                    (6, Resource::buffer(new)),
+                    (7, Resource::buffer(&self.foam)),
+                ],
+            )?;
+            self.pipeline.push(
+                gpu,
+                cmd,
                 &Push {
+                    velocity_word,
+                    velocity_stride: step.velocities.stride / 4,
+                    density_word,
+                    density_stride,
+                    id_word,
+                    id_stride,
                     first,
                     count,
                     from_gpu: u32::from(from_gpu.is_some()),
                     chunk_end: first + chunk,
                     rows: self.rows,
-                    ..push(step.settings, step.dt)
+                    seed: settings.seed,
+                    scale: settings.scale,
+                    threshold: settings.threshold,
+                    foam_lifetime: settings.foam_lifetime,
+                    dt: step.dt,
+                    air_x,
+                    air_y,
+                    air_z,
+                    rest_density: settings.rest_density,
                 },
-                host_count,
-            )?;
+            );
+            let groups = chunk.div_ceil(self.pipeline.local_size[0]);
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+            unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
             first += chunk;
         }
 
@@ -243,58 +280,6 @@ impl Classify {
         Ok(())
     }
 
-    #[allow(clippy::too_many_arguments)] // one caller, right above
-    fn record_chunk(
-        &self,
-        gpu: &Gpu,
-        cmd: vk::CommandBuffer,
-        descriptors: &Descriptors,
-        step: &Step<'_>,
-        (old, new): (&Buffer, &Buffer),
-        push: &Push,
-        host_count: Resource,
-    ) -> Result<(), Error> {
-        let Some((velocities, velocity_word)) = window(gpu, &step.velocities, push.first) else {
-            return Ok(());
-        };
-        // A stream that is not there is never read: any buffer will do.
-        let optional = |stream: &Option<Stream>| match stream {
-            Some(s) => window(gpu, s, push.first).map(|(r, word)| (r, word, s.stride / 4)),
-            None => Some((velocities, 0, 0)),
-        };
-        let (Some(densities), Some(ids)) = (optional(&step.densities), optional(&step.ids)) else {
-            return Ok(());
-        };
-        descriptors.bind(
-            gpu,
-            cmd,
-            &self.pipeline,
-            &[
-                (1, velocities),
-                (2, densities.0),
-                (3, ids.0),
-                (4, host_count),
-                (5, Resource::buffer(old)),
-                (6, Resource::buffer(new)),
-                (7, Resource::buffer(&self.foam)),
-            ],
-        )?;
-        let push = Push {
-            velocity_word,
-            velocity_stride: step.velocities.stride / 4,
-            density_word: densities.1,
-            density_stride: densities.2,
-            id_word: ids.1,
-            id_stride: ids.2,
-            ..*push
-        };
-        self.pipeline.push(gpu, cmd, &push);
-        let groups = (push.chunk_end - push.first).div_ceil(self.pipeline.local_size[0]);
-        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
-        Ok(())
-    }
-
     pub fn memory(&self) -> u64 {
         self.tables.iter().map(|table| table.size).sum::<u64>() + self.foam.size
     }
@@ -302,31 +287,5 @@ impl Classify {
     /// Sets of a step.
     pub fn sets(&self) -> u32 {
         self.max_particles.div_ceil(self.chunk).max(1)
-    }
-}
-
-fn push(settings: &FoamSettings, dt: f32) -> Push {
-    let [air_x, air_y, air_z] = settings.air;
-    Push {
-        velocity_word: 0,
-        velocity_stride: 0,
-        density_word: 0,
-        density_stride: 0,
-        id_word: 0,
-        id_stride: 0,
-        first: 0,
-        count: 0,
-        from_gpu: 0,
-        chunk_end: 0,
-        rows: 0,
-        seed: settings.seed,
-        scale: settings.scale,
-        threshold: settings.threshold,
-        foam_lifetime: settings.foam_lifetime,
-        dt,
-        air_x,
-        air_y,
-        air_z,
-        rest_density: settings.rest_density,
     }
 }

@@ -25,7 +25,7 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 
-pub(crate) use classify::{Classify, ROW, rows as classify_rows};
+pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::chunks;
 pub(crate) use level::MOST_COARSENING;
 pub use settings::{

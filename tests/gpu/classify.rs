@@ -290,6 +290,30 @@ fn an_abandoned_step_leaves_the_state_before_it() {
     assert_state("after abandoned steps", &body.save(), &phases);
 }
 
+/// Nor does a step that failed or was thrown away before any other leave memory as it was found.
+#[test]
+fn an_abandoned_first_step_leaves_an_empty_state() {
+    let gpu = Gpu::shared();
+    let config = StateConfig { max_stride: 20, ..StateConfig::new(100) };
+    let settings = settings();
+    // What the allocator hands out next.
+    let mut before = Body::new(&gpu, config);
+    let size = before.state().size() as usize;
+    before.restore(&vec![0x5a; size]);
+    drop(before);
+    let mut body = Body::new(&gpu, config);
+    let mut sea = Sea::new(100);
+    let cloud = Cloud::new(&body.stub, sea.step());
+    body.stub.wait(0);
+    let cmd = body.stub.begin(0);
+    let state = body.state.as_mut().expect("only drop takes it");
+    // SAFETY: cmd is recording and never submitted.
+    unsafe { state.record_step(cmd, &cloud.step(&settings, 0.1)) }.expect("a step");
+    state.abandon(Slot(0));
+    state.abandon(Slot(0));
+    assert!(body.save().iter().all(|byte| *byte == 0), "rows of another's");
+}
+
 /// Counts from the GPU, streams of their own, without densities, without ids, and no particles.
 #[test]
 fn every_kind_of_input() {
