@@ -167,8 +167,7 @@ impl Composite {
                     // SAFETY: inside the render pass; the arguments are visible since `tiles`.
                     unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
                 }
-                // SAFETY: a pass was begun.
-                unsafe { gpu.device.cmd_end_render_pass(cmd) };
+                gpu.end_pass(cmd);
             }
             Path::Compute { pipelines } => {
                 let images = [layers.smoothed, layers.depth, layers.thickness];
@@ -181,13 +180,17 @@ impl Composite {
                     .dst_stage_mask(COMPUTE_WRITE.stage)
                     .dst_access_mask(COMPUTE_WRITE.access)];
                 let written = vk::DependencyInfo::default().memory_barriers(&written);
-                for (pipeline, dispatch) in pipelines.iter().zip(COMPOSITE_DISPATCHES) {
+                for (i, (pipeline, dispatch)) in
+                    pipelines.iter().zip(COMPOSITE_DISPATCHES).enumerate()
+                {
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
                     // SAFETY: outside a render pass; the arguments are visible since `tiles`.
                     unsafe {
+                        if i > 0 {
+                            // Both may write the output for all that a validation layer knows.
+                            gpu.device.cmd_pipeline_barrier2(cmd, &written);
+                        }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
-                        // Both may write the output for all that a validation layer knows.
-                        gpu.device.cmd_pipeline_barrier2(cmd, &written);
                     }
                 }
                 gpu.barriers(cmd, &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED), &[]);
