@@ -36,12 +36,7 @@ fn launch(rig: &mut Rig<'_>, slot: u32, shot: &Shot, expected: Drawn) -> Flight 
     let cloud = rig.particles(shot);
     let frame = Frame {
         slot: Slot(slot),
-        output: color.host_image(),
-        scene_color: color.host_image(),
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
+        ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
     };
     let cmd = rig.stub.begin(slot);
     // SAFETY: cmd is recording, the slot was waited for, the handles live in the flight.
@@ -227,12 +222,7 @@ fn an_abandoned_frame_does_no_harm() {
         let cloud = rig.particles(&shot);
         let frame = Frame {
             slot: Slot(slot),
-            output: color.host_image(),
-            scene_color: color.host_image(),
-            scene_depth: depth.host_image(),
-            particles: cloud.particles(),
-            camera: shot.camera,
-            settings: &shot.settings,
+            ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
         };
         let cmd = rig.stub.begin(slot);
         // SAFETY: cmd is recording; the slot's work is done.
@@ -487,12 +477,7 @@ fn bad_frames_are_errors_before_any_command() {
     let mut cmd = rig.stub.begin(1);
     let good = Frame {
         slot: Slot(1),
-        output: color.host_image(),
-        scene_color: color.host_image(),
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
+        ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
     };
     let mut wrong = Vec::new();
     for (name, field, spoil) in spoils() {
@@ -543,15 +528,7 @@ fn the_output_as_scene_needs_in_place() {
     let shot = water(size, Lens::Standard);
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);
-    let frame = Frame {
-        slot: Slot(0),
-        output: color.host_image(),
-        scene_color: color.host_image(),
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
-    };
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording.
     let result = unsafe { rig.renderer().record(cmd, &frame) };
@@ -700,15 +677,7 @@ fn in_any_state(composite: Shading) {
         let cloud = rig.particles(&shot);
         let output = HostImage { after, ..color.host_image() };
         let scene_depth = HostImage { after: general, ..depth.host_image() };
-        let frame = Frame {
-            slot: Slot(0),
-            output,
-            scene_color: output,
-            scene_depth,
-            particles: cloud.particles(),
-            camera: shot.camera,
-            settings: &shot.settings,
-        };
+        let frame = shot.frame(output, scene_depth, cloud.particles());
         let cmd = rig.stub.begin(0);
         // SAFETY: cmd is recording; the handles live to the end of this.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use ash::vk;
 use glam::DVec3;
-use whitewater::{Access, Config, Frame, Slot};
+use whitewater::{Access, Config};
 
 use crate::depth::spheres;
 use crate::reference::Image;
@@ -125,15 +125,7 @@ fn mistaken(gpu: &Gpu, before: Access, write: bool, apart: bool) -> Vec<String> 
     let mut output = color.host_image();
     output.before = before;
     output.after = COLOR;
-    let frame = Frame {
-        slot: Slot(0),
-        output,
-        scene_color: output,
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
-    };
+    let frame = shot.frame(output, depth.host_image(), cloud.particles());
     let clear = |rig: &Rig<'_>, cmd| {
         rig.stub.barrier(cmd, color.image, color.aspect, COLOR, CLEARED);
         let range = vk::ImageSubresourceRange {

@@ -3,7 +3,7 @@
 
 use ash::vk;
 use whitewater::water::Splat;
-use whitewater::{Config, Count, Error, Frame, Packets, Particles, Slot};
+use whitewater::{Config, Count, Error, Packets, Particles, Slot};
 
 use crate::invariants::{exact, packet_bytes, same_drawn, water};
 use crate::support::device::Gpu;
@@ -135,15 +135,7 @@ fn offsets_that_the_device_cannot_bind_are_errors() {
             Particles { packets: Some(Packets { buffer, offset: 128, count: 1 }), ..good },
         ),
     ] {
-        let frame = Frame {
-            slot: Slot(0),
-            output: color.host_image(),
-            scene_color: color.host_image(),
-            scene_depth: depth.host_image(),
-            particles,
-            camera: shot.camera,
-            settings: &shot.settings,
-        };
+        let frame = shot.frame(color.host_image(), depth.host_image(), particles);
         let cmd = rig.stub.begin(0);
         // SAFETY: cmd is recording; nothing of a bad frame is used.
         let result = unsafe { rig.renderer().record(cmd, &frame) };

@@ -6,7 +6,7 @@
 
 use ash::vk;
 use whitewater::water::{Fresnel, Shading};
-use whitewater::{Access, Config, Frame, HostImage, Layer, Recorded, Slot};
+use whitewater::{Access, Config, HostImage, Layer, Recorded};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -125,15 +125,7 @@ fn a_stored_output_need_not_be_an_attachment() {
     let color = rig.stub.uploaded(OUTPUT, size, usage, texels, written);
     let cloud = rig.particles(&shot);
     let output = HostImage { after: written, ..color.host_image() };
-    let frame = Frame {
-        slot: Slot(0),
-        output,
-        scene_color: output,
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
-    };
+    let frame = shot.frame(output, depth.host_image(), cloud.particles());
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording; the handles live to the end of this.
     let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");

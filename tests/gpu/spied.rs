@@ -28,15 +28,7 @@ fn water(size: vk::Extent2D) -> Shot {
 fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot) {
     let (color, depth) = rig.scene(shot);
     let cloud = rig.particles(shot);
-    let frame = Frame {
-        slot: Slot(0),
-        output: color.host_image(),
-        scene_color: color.host_image(),
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
-    };
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
         spy::reset();
@@ -117,12 +109,7 @@ fn memory_is_steady() {
         let slot = i % 3;
         let frame = Frame {
             slot: Slot(slot),
-            output: color.host_image(),
-            scene_color: color.host_image(),
-            scene_depth: depth.host_image(),
-            particles: cloud.particles(),
-            camera: shot.camera,
-            settings: &shot.settings,
+            ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
         };
         let cmd = rig.stub.begin(slot);
         rig.renderer().collect(Slot(slot));
@@ -308,15 +295,7 @@ fn frames_are_refused_after_a_failed_resize() {
     spy::reset();
     spy::CREATE_IMAGE.fail(3, vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
     assert!(rig.renderer().resize(extent(96, 64)).is_err());
-    let frame = Frame {
-        slot: Slot(0),
-        output: color.host_image(),
-        scene_color: color.host_image(),
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
-    };
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     let cmd = rig.stub.begin(0);
     spy::reset();
     // SAFETY: cmd is recording.
@@ -369,15 +348,7 @@ fn a_failed_record_can_be_repeated() {
     let expected = rig.draw(&shot);
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);
-    let frame = Frame {
-        slot: Slot(0),
-        output: color.host_image(),
-        scene_color: color.host_image(),
-        scene_depth: depth.host_image(),
-        particles: cloud.particles(),
-        camera: shot.camera,
-        settings: &shot.settings,
-    };
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
     for (function, calls) in [
         (&spy::CREATE_FRAMEBUFFER, vec![1]),
         (&spy::RESET_DESCRIPTOR_POOL, vec![1]),

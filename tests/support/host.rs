@@ -421,25 +421,21 @@ impl Stub {
                 let mut region = region(color, extent.into());
                 region.image_subresource.mip_level = mip as u32;
                 region.image_subresource.layer_count = 6;
-                // SAFETY: the image is in the copy's layout and the buffer has its size.
-                unsafe {
-                    self.device.cmd_copy_image_to_buffer(
-                        cmd,
-                        image,
-                        COPIED_FROM.layout,
-                        back.buffer,
-                        &[region],
-                    );
-                }
-                self.to_host(cmd, back);
+                self.to_host(cmd, image, region, back);
             }
             self.barrier(cmd, image, color, COPIED_FROM, state);
         });
         back.iter().map(|mip| mip.bytes().to_vec()).collect()
     }
 
-    /// Makes what a copy wrote into a buffer visible to the CPU.
-    fn to_host(&self, cmd: vk::CommandBuffer, back: &Data) {
+    /// Copies a region into a buffer and makes it visible to the CPU.
+    fn to_host(
+        &self,
+        cmd: vk::CommandBuffer,
+        image: vk::Image,
+        region: vk::BufferImageCopy,
+        back: &Data,
+    ) {
         let to_host = [vk::BufferMemoryBarrier2::default()
             .buffer(back.buffer)
             .size(vk::WHOLE_SIZE)
@@ -450,8 +446,12 @@ impl Stub {
             .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
             .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)];
         let info = vk::DependencyInfo::default().buffer_memory_barriers(&to_host);
-        // SAFETY: cmd is recording, the buffer is alive.
-        unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
+        let layout = COPIED_FROM.layout;
+        // SAFETY: cmd is recording, the image in the copy's layout, and the buffer has its size.
+        unsafe {
+            self.device.cmd_copy_image_to_buffer(cmd, image, layout, back.buffer, &[region]);
+            self.device.cmd_pipeline_barrier2(cmd, &info);
+        }
     }
 
     /// Records the copy of an image into a buffer that the CPU reads.
@@ -465,17 +465,7 @@ impl Stub {
         back: &Data,
     ) {
         self.barrier(cmd, image, aspect, state, COPIED_FROM);
-        // SAFETY: the image is in the copy's layout and the buffer has its size.
-        unsafe {
-            self.device.cmd_copy_image_to_buffer(
-                cmd,
-                image,
-                COPIED_FROM.layout,
-                back.buffer,
-                &[region(aspect, area)],
-            );
-        }
-        self.to_host(cmd, back);
+        self.to_host(cmd, image, region(aspect, area), back);
         self.barrier(cmd, image, aspect, COPIED_FROM, state);
     }
 

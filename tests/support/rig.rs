@@ -74,6 +74,19 @@ impl Shot {
         shot
     }
 
+    /// A frame of it over its own scene, with slot 0.
+    pub fn frame(&self, output: HostImage, depth: HostImage, particles: Particles) -> Frame<'_> {
+        Frame {
+            slot: Slot(0),
+            output,
+            scene_color: output,
+            scene_depth: depth,
+            particles,
+            camera: self.camera,
+            settings: &self.settings,
+        }
+    }
+
     /// Size of an image round a view of a size, and where the view lies in it.
     pub fn with_margin(&self, view: vk::Extent2D) -> (vk::Extent2D, vk::Rect2D) {
         let [left, right, above, below] = self.margin;
@@ -348,13 +361,8 @@ impl<'g> Rig<'g> {
         };
         let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
         let frame = Frame {
-            slot: Slot(0),
-            output,
             scene_color: placed(&color, shot.size),
-            scene_depth: placed(&depth, shot.depth_extent),
-            particles: *particles,
-            camera: shot.camera,
-            settings: &shot.settings,
+            ..shot.frame(output, placed(&depth, shot.depth_extent), *particles)
         };
         let cmd = self.stub.begin(0);
         let renderer = self.renderer.as_mut().expect("only drop takes it");
