@@ -1,6 +1,6 @@
 #version 460
 // Pass `reduce`: hides water behind the scene, takes the nearest surface of each block of pixels
-// and plans its smoothing: iterations and step, fixed from here on (spec: Sec. 3.1, Listing A.12).
+// and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1, Listing A.12).
 // Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan,
 // work of every tile (its most iterations + 1; 0 without water), how many pixels pass the cap.
 

@@ -1,6 +1,5 @@
-//! Pass `level`: chooses the resolution of the smoothing on the GPU (spec of the smoothing: where
-//! the iterations would pass the cap, the whole image goes coarser; one resolution an image, no
-//! seams).
+//! Pass `level`: chooses the resolution of the smoothing on the GPU: where the iterations would
+//! pass the cap, the whole image goes coarser; one resolution an image, no seams.
 //!
 //! Not in the source, whose cap leaves near water rough. A level coarser needs a quarter of the
 //! iterations for the same width. Before the switch the coarser level fades in, by the share of
