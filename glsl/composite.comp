@@ -6,6 +6,7 @@
 
 #include "frame.glsl"
 #include "level.glsl"
+#include "sheets.glsl"
 #include "surface.glsl"
 #include "shade.glsl"
 
@@ -15,6 +16,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[]; };
+layout(push_constant, std430) uniform Push {
+    uint first; // of the list
+    uint which; // of the arguments
+} push;
 
 void shade_pixel(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
@@ -28,23 +33,19 @@ void shade_pixel(ivec2 pixel) {
 
 void shade_block(int tile, int block) {
     ivec2 texel = ivec2(tile % levels.atlas.z, tile / levels.atlas.z) * 16;
-    uint own = level_of(texel.y);
-    Level level = levels.level[own];
+    Level level = levels.level[level_of(texel)];
     int edge = int(level.texel.z);
     ivec2 corner = (texel - level.rect.xy) * edge + 8 * ivec2(block % (2 * edge), block / (2 * edge));
-    // While two levels are in use each covers all of the water: shade it once.
-    if (own == finer_level()) {
-        shade_pixel(corner + ivec2(gl_LocalInvocationID.xy));
-    }
+    shade_pixel(corner + ivec2(gl_LocalInvocationID.xy));
 }
 
 void main() {
-    uint tiles = arguments[CONFIGURED == 1u ? 260 : 261].w;
+    uint tiles = arguments[push.which].w;
     uint i = gl_WorkGroupID.y;
     // The condition last: after one at the top a CPU runs the rest once more, for no invocation.
     // No group is without a tile.
     do {
-        shade_block(int(list[i]), int(gl_WorkGroupID.x));
+        shade_block(int(list[push.first + i]), int(gl_WorkGroupID.x));
         i += gl_NumWorkGroups.y;
     } while (i < tiles);
 }

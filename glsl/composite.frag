@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "level.glsl"
+#include "sheets.glsl"
 #include "surface.glsl"
 #include "shade.glsl"
 

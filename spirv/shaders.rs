@@ -2,10 +2,10 @@
 pub const COMPOSITE_COMP: Shader = Shader {
     name: "composite.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/composite.comp.spv"))); &CODE.0 },
-    push_size: 0,
+    push_size: 8,
     local_size: [8, 8, 1],
-    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::UNIFORM_BUFFER), (8, vk::DescriptorType::STORAGE_IMAGE), (9, vk::DescriptorType::STORAGE_BUFFER), (10, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::UNIFORM_BUFFER), (8, vk::DescriptorType::STORAGE_IMAGE), (9, vk::DescriptorType::STORAGE_BUFFER), (10, vk::DescriptorType::STORAGE_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), (12, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Boundaries", "boundaries", 0), ("Arguments", "arguments", 0), ("Push", "first", 0), ("Push", "which", 4), ("List", "list", 0), ],
 };
 /// `composite.frag`
 pub const COMPOSITE_FRAG: Shader = Shader {
@@ -13,17 +13,17 @@ pub const COMPOSITE_FRAG: Shader = Shader {
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/composite.frag.spv"))); &CODE.0 },
     push_size: 0,
     local_size: [1, 1, 1],
-    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (5, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (6, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::UNIFORM_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), (12, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Boundaries", "boundaries", 0), ],
 };
 /// `composite.vert`
 pub const COMPOSITE_VERT: Shader = Shader {
     name: "composite.vert",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/composite.vert.spv"))); &CODE.0 },
-    push_size: 4,
+    push_size: 8,
     local_size: [1, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), (9, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("List", "list", 0), ("Push", "columns", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("List", "list", 0), ("Push", "first", 0), ("Push", "which", 4), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ],
 };
 /// `environment/equirect.comp`
 pub const ENVIRONMENT_EQUIRECT_COMP: Shader = Shader {
@@ -96,6 +96,33 @@ pub const HEADLESS_SKY_VERT: Shader = Shader {
     local_size: [1, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), ],
     members: &[("Scene", "clip", 0), ("Scene", "shadow", 64), ("Scene", "eye", 128), ("Scene", "ray_x", 144), ("Scene", "ray_y", 160), ("Scene", "ray_z", 176), ("Scene", "sun_direction", 192), ("Scene", "sun_color", 208), ("Scene", "shadow_texel", 224), ("Scene", "ground", 240), ],
+};
+/// `water/back.comp`
+pub const WATER_BACK_COMP: Shader = Shader {
+    name: "water/back.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.back.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_IMAGE), (4, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Boundaries", "boundaries", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Blocks", "blocks", 0), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Push", "capacity", 0), ],
+};
+/// `water/back_begin.comp`
+pub const WATER_BACK_BEGIN_COMP: Shader = Shader {
+    name: "water/back_begin.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.back_begin.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (3, vk::DescriptorType::STORAGE_IMAGE), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Boundaries", "boundaries", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Tiles", "tile_work", 0), ],
+};
+/// `water/back_plan.comp`
+pub const WATER_BACK_PLAN_COMP: Shader = Shader {
+    name: "water/back_plan.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.back_plan.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_IMAGE), (3, vk::DescriptorType::STORAGE_IMAGE), (4, vk::DescriptorType::STORAGE_IMAGE), (5, vk::DescriptorType::STORAGE_IMAGE), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Tiles", "tile_work", 0), ],
 };
 /// `water/classify.comp`
 pub const WATER_CLASSIFY_COMP: Shader = Shader {
@@ -178,14 +205,59 @@ pub const WATER_FRONT_COVER_COMP: Shader = Shader {
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
     members: &[("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "capacity", 0), ("Push", "columns", 4), ("Push", "rows", 8), ("Cells", "cells", 0), ],
 };
+/// `water/gaps.comp`
+pub const WATER_GAPS_COMP: Shader = Shader {
+    name: "water/gaps.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.gaps.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Cells", "cells", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Push", "capacity", 0), ],
+};
+/// `water/gaps_blocks.comp`
+pub const WATER_GAPS_BLOCKS_COMP: Shader = Shader {
+    name: "water/gaps_blocks.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.gaps_blocks.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Boundaries", "boundaries", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Blocks", "blocks", 0), ],
+};
+/// `water/gaps_find.comp`
+pub const WATER_GAPS_FIND_COMP: Shader = Shader {
+    name: "water/gaps_find.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.gaps_find.comp.spv"))); &CODE.0 },
+    push_size: 8,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Cells", "cells", 0), ("Push", "columns", 0), ("Push", "rows", 4), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Found", "found", 0), ],
+};
+/// `water/gaps_spread.comp`
+pub const WATER_GAPS_SPREAD_COMP: Shader = Shader {
+    name: "water/gaps_spread.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.gaps_spread.comp.spv"))); &CODE.0 },
+    push_size: 8,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "columns", 0), ("Push", "rows", 4), ("Found", "found", 0), ("Spread", "spread", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ],
+};
+/// `water/gaps_texels.comp`
+pub const WATER_GAPS_TEXELS_COMP: Shader = Shader {
+    name: "water/gaps_texels.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.gaps_texels.comp.spv"))); &CODE.0 },
+    push_size: 8,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "columns", 0), ("Push", "rows", 4), ("Spread", "spread", 0), ("Boundaries", "boundaries", 0), ],
+};
 /// `water/level.comp`
 pub const WATER_LEVEL_COMP: Shader = Shader {
     name: "water/level.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.level.comp.spv"))); &CODE.0 },
-    push_size: 20,
+    push_size: 24,
     local_size: [1, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "atlas", 0), ("Push", "coarsening", 16), ("Over", "over", 0), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Arguments", "arguments", 0), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "atlas", 0), ("Push", "coarsening", 16), ("Push", "back", 20), ("Over", "over", 0), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Arguments", "arguments", 0), ],
 };
 /// `water/level_reduce.comp`
 pub const WATER_LEVEL_REDUCE_COMP: Shader = Shader {
@@ -194,7 +266,7 @@ pub const WATER_LEVEL_REDUCE_COMP: Shader = Shader {
     push_size: 0,
     local_size: [16, 16, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_IMAGE), (3, vk::DescriptorType::STORAGE_IMAGE), (4, vk::DescriptorType::STORAGE_IMAGE), (5, vk::DescriptorType::STORAGE_IMAGE), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Tiles", "tile_work", 0), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Tiles", "tile_work", 0), ],
 };
 /// `water/reduce.comp`
 pub const WATER_REDUCE_COMP: Shader = Shader {
@@ -212,7 +284,7 @@ pub const WATER_SMOOTH_COMP: Shader = Shader {
     push_size: 8,
     local_size: [8, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::STORAGE_IMAGE), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "iteration", 0), ("Push", "columns", 4), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "iteration", 0), ("Push", "columns", 4), ("Arguments", "arguments", 0), ("List", "list", 0), ],
 };
 /// `water/smooth.frag`
 pub const WATER_SMOOTH_FRAG: Shader = Shader {
@@ -221,7 +293,7 @@ pub const WATER_SMOOTH_FRAG: Shader = Shader {
     push_size: 12,
     local_size: [1, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "block", 8), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "block", 8), ],
 };
 /// `water/smooth.vert`
 pub const WATER_SMOOTH_VERT: Shader = Shader {
@@ -230,7 +302,7 @@ pub const WATER_SMOOTH_VERT: Shader = Shader {
     push_size: 12,
     local_size: [1, 1, 1],
     bindings: &[(3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("List", "list", 0), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "block", 8), ("Predicates", "predicates", 0), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("List", "list", 0), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "block", 8), ("Predicates", "predicates", 0), ],
 };
 /// `water/smooth_fused.comp`
 pub const WATER_SMOOTH_FUSED_COMP: Shader = Shader {
@@ -239,7 +311,7 @@ pub const WATER_SMOOTH_FUSED_COMP: Shader = Shader {
     push_size: 12,
     local_size: [32, 8, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (2, vk::DescriptorType::STORAGE_IMAGE), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "arguments_index", 8), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Push", "iteration", 0), ("Push", "columns", 4), ("Push", "arguments_index", 8), ("Arguments", "arguments", 0), ("List", "list", 0), ],
 };
 /// `water/smooth_gate.comp`
 pub const WATER_SMOOTH_GATE_COMP: Shader = Shader {
@@ -250,14 +322,32 @@ pub const WATER_SMOOTH_GATE_COMP: Shader = Shader {
     bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
     members: &[("Predicates", "predicates", 0), ("Push", "block", 0), ("Results", "results", 0), ],
 };
+/// `water/split.comp`
+pub const WATER_SPLIT_COMP: Shader = Shader {
+    name: "water/split.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.split.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [8, 8, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Boundaries", "boundaries", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Lists", "lists", 0), ("Push", "tiles", 0), ("Lengths", "lengths", 0), ("Arguments", "arguments", 0), ("List", "list", 0), ],
+};
+/// `water/split_end.comp`
+pub const WATER_SPLIT_END_COMP: Shader = Shader {
+    name: "water/split_end.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.split_end.comp.spv"))); &CODE.0 },
+    push_size: 4,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Lengths", "lengths", 0), ("Arguments", "arguments", 0), ("Push", "most_groups", 0), ],
+};
 /// `water/thickness.comp`
 pub const WATER_THICKNESS_COMP: Shader = Shader {
     name: "water/thickness.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness.comp.spv"))); &CODE.0 },
     push_size: 4,
     local_size: [64, 1, 1],
-    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), ],
-    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Sums", "sums", 0), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Push", "capacity", 0), ],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Sums", "sums", 0), ("Boundaries", "boundaries", 0), ("Blocks", "blocks", 0), ("Counts", "small", 0), ("Counts", "points_instances", 4), ("Counts", "points_vertex", 8), ("Counts", "points_instance", 12), ("Counts", "quads_vertices", 16), ("Counts", "large", 20), ("Counts", "quads_vertex", 24), ("Counts", "quads_instance", 28), ("Counts", "small_groups", 32), ("Counts", "large_groups", 44), ("Counts", "cull_groups", 56), ("Counts", "particles", 68), ("Counts", "dropped", 72), ("Counts", "spray", 76), ("CountBuffer", "counts", 0), ("Visible", "visible", 0), ("Push", "capacity", 0), ],
 };
 /// `water/thickness.frag`
 pub const WATER_THICKNESS_FRAG: Shader = Shader {
@@ -277,6 +367,24 @@ pub const WATER_THICKNESS_VERT: Shader = Shader {
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), ],
     members: &[("Push", "capacity", 0), ("Visible", "visible", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ],
 };
+/// `water/thickness_apart.comp`
+pub const WATER_THICKNESS_APART_COMP: Shader = Shader {
+    name: "water/thickness_apart.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness_apart.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_IMAGE), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Sums", "sums", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Boundaries", "boundaries", 0), ],
+};
+/// `water/thickness_apart.frag`
+pub const WATER_THICKNESS_APART_FRAG: Shader = Shader {
+    name: "water/thickness_apart.frag",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness_apart.frag.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [1, 1, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Boundaries", "boundaries", 0), ],
+};
 /// `water/thickness_resolve.comp`
 pub const WATER_THICKNESS_RESOLVE_COMP: Shader = Shader {
     name: "water/thickness_resolve.comp",
@@ -293,5 +401,5 @@ pub const WATER_TILES_COMP: Shader = Shader {
     push_size: 8,
     local_size: [256, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 96), ("Tiles", "tile_work", 0), ("Push", "tiles", 0), ("Push", "most_groups", 4), ("Arguments", "arguments", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("List", "list", 0), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Tiles", "tile_work", 0), ("Push", "tiles", 0), ("Push", "most_groups", 4), ("Arguments", "arguments", 0), ("List", "list", 0), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ],
 };

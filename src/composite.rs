@@ -5,6 +5,7 @@
 //! output. Thesis Sec. 3.3 and 4.10; see glsl/include/shade.glsl for what differs.
 
 use ash::vk;
+use bytemuck::{Pod, Zeroable};
 
 use crate::contract::Config;
 use crate::error::Error;
@@ -17,7 +18,7 @@ use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
 use crate::water::settings::{Fresnel, Shading};
-use crate::water::{COMPOSITE_DISPATCHES, COMPOSITE_DRAWS, Recording, WaterLayers};
+use crate::water::{Recording, WaterLayers};
 
 /// As fast as compute on lavapipe (docs/performance.md); GPUs are still to be measured.
 const DEFAULT_SHADING: Shading = Shading::Raster;
@@ -43,8 +44,16 @@ pub struct Surroundings {
     pub fresnel: Fresnel,
 }
 
-/// [Fresnel::Schlick, Fresnel::Source]: of the configured level, of any other.
-type Pipelines = [[Pipeline; 2]; 2];
+/// [Fresnel::Schlick, Fresnel::Source]: of one sheet and of two at the configured level, and at any
+/// other; in the order of the arguments of `split`.
+type Pipelines = [[Option<Pipeline>; 4]; 2];
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Push {
+    first: u32,
+    which: u32,
+}
 
 enum Path {
     Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
@@ -65,8 +74,15 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
-    let make = |schlick, configured| make(&[(0, thickness), (1, schlick), (2, configured)]);
-    Ok([[make(1, 1)?, make(1, 0)?], [make(0, 1)?, make(0, 0)?]])
+    let make = |schlick, configured, sheets| {
+        (sheets <= config.sheets)
+            .then(|| make(&[(0, thickness), (1, schlick), (2, configured), (8, sheets)]))
+            .transpose()
+    };
+    let all = |schlick| {
+        Ok([make(schlick, 1, 1)?, make(schlick, 1, 2)?, make(schlick, 0, 1)?, make(schlick, 0, 2)?])
+    };
+    Ok([all(1)?, all(0)?])
 }
 
 impl Composite {
@@ -74,7 +90,7 @@ impl Composite {
         let path = match way(config) {
             Shading::Raster => {
                 let format = config.output_format;
-                let pass = gpu.color_pass("composite", format, vk::AttachmentLoadOp::LOAD)?;
+                let pass = gpu.color_pass("composite", &[format], vk::AttachmentLoadOp::LOAD)?;
                 let pipelines = pipelines(config, |constants| {
                     Pipeline::graphics(
                         gpu,
@@ -83,7 +99,7 @@ impl Composite {
                             fragment: shader::COMPOSITE_FRAG,
                             topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                             pass: pass.handle,
-                            blend: no_blend(),
+                            blend: &[no_blend()],
                             constants,
                         },
                     )
@@ -141,6 +157,8 @@ impl Composite {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let nearest = gpu.samplers.nearest;
+        // Where there are none they are not read: any buffer will do.
+        let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(layers.smoothed.view, nearest)),
@@ -151,46 +169,53 @@ impl Composite {
             (6, around.environment),
             (7, layers.level.resource()),
             (8, Resource::Storage(around.output)),
-            (9, Resource::buffer(&layers.tiles.list)),
-            (10, Resource::buffer(&layers.tiles.arguments)),
+            (9, Resource::buffer(&layers.split.lists)),
+            (10, Resource::buffer(&layers.split.arguments)),
+            (11, boundaries),
+            (12, Resource::Sampled(layers.sheets.unwrap_or(layers.thickness).view, nearest)),
         ];
-        let schlick = matches!(around.fresnel, Fresnel::Schlick { .. });
-        let arguments = layers.tiles.arguments.handle;
-        // Of the pipelines for the levels one has nothing to do.
+        let fresnel = usize::from(!matches!(around.fresnel, Fresnel::Schlick { .. }));
+        let arguments = layers.split.arguments.handle;
+        let middle = layers.split.middle();
+        // Of the pipelines half have nothing to do at the level.
         match &self.path {
             Path::Raster { pass, pipelines } => {
                 gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);
-                let pipelines = if schlick { &pipelines[0] } else { &pipelines[1] };
-                for (pipeline, draw) in pipelines.iter().zip(COMPOSITE_DRAWS) {
+                for (i, pipeline) in (0..).zip(&pipelines[fresnel]) {
+                    let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    pipeline.push(gpu, cmd, &layers.tiles.atlas.columns);
-                    // SAFETY: inside the render pass; the arguments are visible since `tiles`.
+                    pipeline.push(gpu, cmd, &Push { first: middle * (i % 2), which: i });
+                    let draw = 16 * u64::from(i);
+                    // SAFETY: inside the render pass; the arguments are visible since `split`.
                     unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
                 }
                 gpu.end_pass(cmd);
             }
             Path::Compute { pipelines } => {
                 let images = [layers.smoothed, layers.depth, layers.thickness];
-                let hand = |from, to| images.map(|image| access::image(image, from, to));
+                let images: Vec<_> = images.into_iter().chain(layers.sheets).collect();
+                let hand = |from, to| -> Vec<_> {
+                    images.iter().map(|image| access::image(image, from, to)).collect()
+                };
                 gpu.barriers(cmd, &hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED), &[]);
-                let pipelines = if schlick { &pipelines[0] } else { &pipelines[1] };
                 let written = [vk::MemoryBarrier2::default()
                     .src_stage_mask(COMPUTE_WRITE.stage)
                     .src_access_mask(COMPUTE_WRITE.access)
                     .dst_stage_mask(COMPUTE_WRITE.stage)
                     .dst_access_mask(COMPUTE_WRITE.access)];
                 let written = vk::DependencyInfo::default().memory_barriers(&written);
-                for (i, (pipeline, dispatch)) in
-                    pipelines.iter().zip(COMPOSITE_DISPATCHES).enumerate()
-                {
+                for (i, pipeline) in (0..).zip(&pipelines[fresnel]) {
+                    let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    // SAFETY: outside a render pass; the arguments are visible since `tiles`.
+                    let which = 4 + i;
+                    pipeline.push(gpu, cmd, &Push { first: middle * (i % 2), which });
+                    // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 {
-                            // Both may write the output for all that a validation layer knows.
+                            // All may write the output for all that a validation layer knows.
                             gpu.device.cmd_pipeline_barrier2(cmd, &written);
                         }
-                        gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
+                        gpu.device.cmd_dispatch_indirect(cmd, arguments, 16 * u64::from(which));
                     }
                 }
                 gpu.barriers(cmd, &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED), &[]);

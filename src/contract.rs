@@ -91,6 +91,10 @@ pub struct Config {
     /// frame, and fades. For [`Rule::ConstantWidth`] alone; 0 saves a third of the memory of the
     /// smoothing.
     pub coarsening: u32,
+    /// Sheets of water that are told apart where one stands before another with air between, as a
+    /// drop before a pool: 1 as the source, or 2 (default). Each has its own thickness, the farther
+    /// one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
+    pub sheets: u32,
     /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// The output is the scene's colour image itself (default): it is copied before it is written
@@ -117,6 +121,7 @@ impl Config {
             rule: Rule::ConstantWidth,
             max_iterations: 256,
             coarsening: 3,
+            sheets: 2,
             environment_size: 256,
             in_place: true,
             keep_layers: false,
@@ -348,7 +353,9 @@ impl Default for Light {
 /// An intermediate image after a record; the host may read it until the next record.
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
-    /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`.
+    /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`. With
+    /// [`Config::sheets`] of 2 there is `water.thickness.sheets`: of the front sheet, of the back
+    /// sheet, of the window between them.
     pub name: &'static str,
     /// The image; transfer source usage.
     pub image: vk::Image,
@@ -357,7 +364,8 @@ pub struct Layer {
     /// Its format.
     pub format: vk::Format,
     /// Its size; may be a reduced one. `water.surface` and `water.iterations`: of the configured
-    /// level; where the frame was smoothed coarser, [`Recorded::levels`] says what lies where.
+    /// level; where the frame was smoothed coarser, and for the back sheet, [`Recorded::levels`] says
+    /// what lies where.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
     pub access: Access,
@@ -377,15 +385,20 @@ pub struct Recorded {
     /// A buffer with one [`SmoothingLevels`]: at which resolutions the frame was smoothed. Transfer
     /// source; last written by a compute shader, read as a uniform buffer.
     pub levels: Option<vk::Buffer>,
+    /// With [`Config::sheets`] of 2: a buffer of one `f32` for each texel of the frame's thickness,
+    /// row by row, the eye depth between the two sheets; 1e10 where there is but one. Transfer source;
+    /// last written by a compute shader, read by compute and fragment shaders.
+    pub sheets: Option<vk::Buffer>,
 }
 
-/// Where two levels of the smoothing lie in the images `water.surface` and `water.iterations`.
-/// One has weight 1, or both have a part while the coarser one fades in.
+/// Where the levels of the smoothing lie in the images `water.surface` and `water.iterations`. Of
+/// the first two one has weight 1, or both have a part while the coarser one fades in. The third
+/// is the back sheet's, with weight 1 where [`Config::sheets`] is 2, else 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct SmoothingLevels {
-    /// One above the other.
-    pub level: [SmoothingLevel; 2],
+    /// The second below the first, the third to the right of the second.
+    pub level: [SmoothingLevel; 3],
     /// Size of the images, tiles a row, first row of the second level.
     pub atlas: [i32; 4],
 }
@@ -404,9 +417,9 @@ pub struct SmoothingLevel {
 }
 
 impl SmoothingLevels {
-    /// The finer level of those in use.
+    /// The finer level of the front sheet's in use.
     pub fn finer(&self) -> &SmoothingLevel {
-        let [a, b] = &self.level;
+        let [a, b, _] = &self.level;
         if b.texel[3] > 0.0 && (a.texel[3] == 0.0 || b.texel[2] < a.texel[2]) { b } else { a }
     }
 }

@@ -72,8 +72,9 @@
 //! |---|---|---|---|
 //! | depth | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | smoothing, two images, and the plan, at half resolution | 3 w h | 2.6 MiB | 5.9 MiB |
-//! | the same a level coarser, for near views (`coarsening`) | 1½ w h | 1.3 MiB | 3.0 MiB |
+//! | the same a level coarser, for near views (`coarsening`) and the farther sheet | 1½ w h | 1.3 MiB | 3.0 MiB |
 //! | thickness and its sums at quarter resolution | ¾ w h | 0.7 MiB | 1.5 MiB |
+//! | two sheets: thickness of each, boundaries, depth of the farther (`sheets`) | 2½ w h | 2.2 MiB | 4.9 MiB |
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
@@ -94,6 +95,9 @@
 //!   occlusion query's decision stays on the GPU.
 //! - Thickness is in metres of water: the integral of a sprite is the particle's volume.
 //! - Refraction bends towards the normal, as light does (the thesis has the sign the other way).
+//! - Where one body of water stands before another with air between, a drop before a pool say, each
+//!   has its own thickness and surface ([`Config::sheets`]); the thesis takes both for one (its
+//!   limitation, Fig. 5.13).
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -235,6 +235,7 @@ impl Renderer {
             active_samples: self.water.query_results(),
             counts: Some(self.water.counts()),
             levels: Some(self.water.levels()),
+            sheets: self.water.boundaries(),
         };
         Ok((recorded, cmd))
     }
@@ -529,6 +530,9 @@ fn check_config(config: &Config) -> Result<(), Error> {
     if config.coarsening > crate::water::MOST_COARSENING {
         return bad("Config.coarsening", format!("{} of 0 to 3", config.coarsening));
     }
+    if !(1..=2).contains(&config.sheets) {
+        return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
+    }
     let size = config.environment_size;
     if !size.is_power_of_two() || !(16..=2048).contains(&size) {
         return bad(
@@ -586,7 +590,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        70 + 8 * crate::water::chunks(&gpu.limits, config).1
+        76 + 16 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

@@ -36,6 +36,8 @@ mod rect;
 mod reduce;
 #[path = "gpu/shading.rs"]
 mod shading;
+#[path = "gpu/sheets.rs"]
+mod sheets;
 #[path = "gpu/smooth.rs"]
 mod smooth;
 #[path = "gpu/spied.rs"]

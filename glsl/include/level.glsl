@@ -1,5 +1,6 @@
-// The resolutions of the smoothing (pass `level` writes them). Two share the smoothing images and
-// the plan, one above the other; mostly only the first is in use. Needs nothing.
+// The resolutions of the smoothing (pass `level` writes them). Two of the front sheet share the
+// smoothing images and the plan, one above the other; mostly only the first is in use. The third,
+// of the back sheet, lies to the right of the second. Needs nothing.
 
 struct Level {
     ivec4 rect;  // in the images: first texel, size
@@ -8,16 +9,16 @@ struct Level {
 };
 
 layout(set = 0, binding = 7, std140) uniform Levels {
-    Level level[2];
+    Level level[3];
     ivec4 atlas; // size of the images; tiles a row; first row of the second level
 } levels;
 
-// The level that a row of the images belongs to.
-uint level_of(int row) {
-    return row >= levels.atlas.w ? 1u : 0u;
+// The level that a texel of the images belongs to.
+uint level_of(ivec2 texel) {
+    return texel.y < levels.atlas.w ? 0u : texel.x < levels.level[2].rect.x ? 1u : 2u;
 }
 
-// The finer one of those in use.
+// The finer one of the front sheet's in use.
 uint finer_level() {
     vec2 weight = vec2(levels.level[0].texel.w, levels.level[1].texel.w);
     vec2 edge = vec2(levels.level[0].texel.z, levels.level[1].texel.z);

@@ -1,8 +1,9 @@
 // What a pixel of water looks like (thesis Sec. 3.3 and 4.10, Listing A.20), for every way to reach
-// its pixels. Layers so far: water over the scene. Refraction in screen space, Beer's law along the
-// ray, Fresnel reflection of the environment, the sun's highlight.
-// Reads: smoothed, levels, depth, thickness, scene colour and depth, environment.
-// Needs frame.glsl, level.glsl, surface.glsl.
+// its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
+// Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
+// sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
+// Reads: smoothed, levels, depth, thickness, boundaries, scene colour and depth, environment.
+// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -16,6 +17,7 @@ layout(set = 0, binding = 3) uniform sampler2D thickness;
 layout(set = 0, binding = 4) uniform sampler2D scene_color;
 layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
+layout(set = 0, binding = 12) uniform sampler2D sheets;
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -31,14 +33,16 @@ vec2 drop_slope(ivec2 pixel, float front, float threshold) {
     return clamp(dz, -steepest, steepest);
 }
 
-// Upsampled with the weights of texels on the same surface.
-float thickness_at(Surface s, Level level, vec2 pixel, float threshold) {
+// Upsampled with the weights of texels on the same surface; which ones those were, and how much each.
+float thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2 base, out vec4 weights) {
+    base = s.base;
+    weights = s.weights;
     if (THICKNESS == 0u) {
-        return texelFetch(thickness, ivec2(pixel), 0).x;
+        base = ivec2(pixel);
+        weights = vec4(1.0, 0.0, 0.0, 0.0);
+        return texelFetch(thickness, base, 0).x;
     }
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
-    ivec2 base = s.base;
-    vec4 weights = s.weights;
     if (THICKNESS == 2u || (CONFIGURED == 0u && level.texel.z != frame.thick_extent.z)) {
         vec2 h = pixel / frame.thick_extent.z - 0.5;
         base = ivec2(floor(h));
@@ -56,12 +60,38 @@ float thickness_at(Surface s, Level level, vec2 pixel, float threshold) {
         float sum = same.x + same.y + same.z + same.w;
         weights = sum > 1.0e-3 ? same / sum : weights;
     }
+    // A texel without water has none to give: the scene hides its middle, not all of it.
     float sum = 0.0;
+    vec4 wet = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         if (weights[i] > 0.0) {
             ivec2 t = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
-            sum += weights[i] * texelFetch(thickness, t, 0).x;
+            float there = texelFetch(thickness, t, 0).x;
+            sum += weights[i] * there;
+            wet[i] = there > 0.0 ? weights[i] : 0.0;
         }
+    }
+    float share = wet.x + wet.y + wet.z + wet.w;
+    weights = share > 0.0 ? wet / share : weights;
+    return share > 0.0 ? sum / share : 0.0;
+}
+
+// How much the water in the window between two sheets leaves them two: 1 where there is air.
+float air(float window) {
+    return 1.0 - smoothstep(0.1 * frame.particle.y, 0.6 * frame.particle.y, window);
+}
+
+// Of the sheet that a surface belongs to; how much air is behind or before it (without air it is
+// both together); of the back sheet.
+vec3 sheet_thickness(ivec2 base, vec4 weights, float front) {
+    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
+        vec3 t = texelFetch(sheets, texel, 0).xyz;
+        vec2 own = front < boundary_of(texel) ? t.xy : t.yx;
+        float apart = air(t.z);
+        sum += weights[i] * vec3(own.x + (1.0 - apart) * own.y, apart, apart * t.y);
     }
     return sum;
 }
@@ -136,45 +166,113 @@ float fresnel(float cosine) {
     return clamp(frame.fresnel.x + frame.fresnel.y * pow(x, frame.fresnel.z), 0.0, 1.0);
 }
 
-// Colour of the water at a pixel (its centre, at +0.5) whose depth is not empty.
-vec3 shade(vec2 pixel, float front) {
-    float threshold = frame.surface.w;
-    uint finer = CONFIGURED == 1u ? 0u : finer_level();
-    Level level = levels.level[finer];
-    Surface surface = surface_at(level, pixel, front, threshold);
-    float t = thickness_at(surface, level, pixel, threshold);
-    Level coarser = levels.level[1u - finer];
-    if (CONFIGURED == 0u && coarser.texel.w > 0.0) {
-        Surface other = surface_at(coarser, pixel, front, threshold);
-        surface.z = mix(surface.z, other.z, coarser.texel.w);
-        surface.dz = mix(surface.dz, other.dz, coarser.texel.w);
-    }
-    // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
-    float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
-    surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
+// What a sheet of water does to the light from behind it.
+struct Sheet {
+    float path;    // metres through the water
+    vec2 offset;   // of what is seen through it, in pixels
+    float mirror;  // share of what it mirrors
+    vec3 mirrored;
+    vec3 shine;    // the sun's highlight
+};
+
+Sheet sheet_of(Surface surface, vec2 pixel, float t) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, position, n);
 
+    Sheet sheet;
     float away = length(position);
     vec3 v = -position / away;
-    float path = t * away / surface.z;
+    sheet.path = t * away / surface.z;
     // Light bends towards the water's normal: the look-up moves against it (the source has it the
     // other way, which shows things smaller under a bump).
-    vec2 offset = -n.xy * sign(frame.projection.xy) * t * frame.surface.x / (frame.texel.xy * surface.z);
-    vec3 c = through_medium(refracted(pixel, offset, surface.z), path);
+    // Of a torn surface as of a thin sheet: what hangs together with nothing round it is no lens.
+    float lens = frame.surface.x * mix(min(t, 2.0 * frame.particle.y), t, surface.found);
+    sheet.offset = -n.xy * sign(frame.projection.xy) * lens / (frame.texel.xy * surface.z);
 
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.
     float w = smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 reflected = mat3(frame.world) * reflect(-v, n);
     // What is mirrored from below the horizon is more water, not the environment's ground.
     float sky = smoothstep(-0.3, 0.0, reflected.y);
-    c = mix(c, textureLod(environment, reflected, 0.0).rgb, w * sky * fresnel(dot(n, v)));
+    sheet.mirror = w * sky * fresnel(dot(n, v));
+    sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
     vec3 h = normalize(v + frame.sun_direction.xyz);
     // pow() by hand: of tiny bases some drivers make NaN.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
-    float shine = exp2(max(lobe, -100.0));
-    c += w * frame.surface.y * shine * frame.sun_color.rgb;
-    return c;
+    sheet.shine = w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
+    return sheet;
+}
+
+// Light through a sheet and off it.
+vec3 over(Sheet sheet, vec3 background) {
+    return mix(through_medium(background, sheet.path), sheet.mirrored, sheet.mirror) + sheet.shine;
+}
+
+// The back sheet where the front one covers it. Near its edge, and where it is no other sheet for
+// want of air, less of its surface; its thickness knows by itself.
+Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
+    Sheet sheet = sheet_of(surface, pixel, t);
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    bool there = surface.covered > 0.0 && !(scene > 0.0 && surface.z >= scene);
+    float share = there ? surface.found : 0.0;
+    sheet.offset *= share;
+    sheet.mirror *= share * apart;
+    sheet.shine *= share * apart;
+    return sheet;
+}
+
+// Colour of the water at a pixel (its centre, at +0.5) whose depth is not empty.
+vec3 shade(vec2 pixel, float front) {
+    float threshold = frame.surface.w;
+    uint finer = CONFIGURED == 1u ? 0u : finer_level();
+    Level level = levels.level[finer];
+    Surface surface = surface_at(level, pixel, front, threshold);
+    ivec2 base;
+    vec4 weights;
+    float t = thickness_at(surface, level, pixel, threshold, base, weights);
+    Level coarser = levels.level[1u - finer];
+    if (CONFIGURED == 0u && coarser.texel.w > 0.0) {
+        Surface other = surface_at(coarser, pixel, front, threshold);
+        surface.z = mix(surface.z, other.z, coarser.texel.w);
+        surface.dz = mix(surface.dz, other.dz, coarser.texel.w);
+        surface.found = mix(surface.found, other.found, coarser.texel.w);
+        surface.widened = surface.widened || other.widened;
+    }
+
+    Sheet back = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
+    float beyond = 0.0; // depth of the back sheet
+    float boundary = SHEETS == 2u ? boundary_at(ivec2(pixel)) : EMPTY;
+    bool covers = false;
+    vec2 share = vec2(0.0);
+    if (boundary < EMPTY) {
+        vec3 thick = sheet_thickness(base, weights, front);
+        t = thick.x;
+        covers = front < boundary && thick.z > 0.0;
+        share = thick.yz;
+    }
+    if (SHEETS == 2u) {
+        Surface other = surface_at(levels.level[2], pixel, covers ? -1.0 : front, threshold);
+        if (covers) {
+            back = behind(other, pixel, share.y, share.x);
+            beyond = other.covered > 0.0 ? other.z : 0.0;
+        }
+        // The reduction widens what is in front by a texel, over what is behind: of that it leaves
+        // rims.
+        float lost = covers || !surface.widened ? 0.0 : (1.0 - surface.found) * other.found;
+        surface.z = mix(surface.z, other.z, lost);
+        surface.dz = mix(surface.dz, other.dz, lost);
+        surface.found += lost;
+    }
+
+    // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
+    float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
+    surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
+    Sheet sheet = sheet_of(surface, pixel, t);
+    vec3 c = refracted(pixel, sheet.offset + back.offset, max(surface.z, beyond));
+    if (back.path > 0.0) {
+        c = over(back, c);
+    }
+    return over(sheet, c);
 }

@@ -16,6 +16,9 @@
 struct Surface {
     float z;
     vec2 dz;        // per full-resolution pixel
+    bool widened;   // a texel is of a surface before the pixel's own
+    float found;    // weight of whole texels on the pixel's own surface, 0 to 1
+    float covered;  // weight of all texels on it
     vec4 weights;   // of the four texels, sum 1
     ivec2 base;     // the first of them, from the corner of the level
 };
@@ -42,6 +45,7 @@ const float RIM = 1.0 / 64.0;
 // Steepest slope, depth per width, of a drop: of what is all rim, or all but 1/63.
 const float RIM_SLOPE = 1.5;
 
+// front: depth of the pixel's own surface; negative: that of the nearest texel.
 Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     Surface s;
     vec2 h = pixel / level.texel.z - 0.5;
@@ -88,10 +92,14 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     if (base.y >= last.y) { z.zw = z.xy; dx.zw = dx.xy; dy.zw = dy.xy; trust.zw = trust.xy; }
 
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    front = front < 0.0 ? min(min(z.x, z.y), min(z.z, z.w)) : front;
     vec4 off = abs(z - front);
     vec4 own = w * vec4(lessThanEqual(off, vec4(threshold)));
     float sum = own.x + own.y + own.z + own.w;
     bool lost = sum == 0.0;
+    s.widened = any(lessThan(z, vec4(front - threshold)));
+    s.found = dot(own, vec4(whole));
+    s.covered = front < EMPTY ? sum : 0.0;
     if (lost) {
         // At full resolution three have no weight, all on one side of the pixel: none of them.
         off = mix(off, vec4(2.0 * EMPTY), equal(w, vec4(0.0)));

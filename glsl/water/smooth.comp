@@ -84,7 +84,7 @@ void main() {
     do {
         uint tile = list[i];
         ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
-        Level level = levels.level[level_of(corner.y)];
+        Level level = levels.level[level_of(corner)];
         ivec2 last = level.rect.xy + level.rect.zw - 1;
         ivec2 p = corner + ivec2(gl_LocalInvocationID.xy) * ivec2(2, ROWS);
         if (p.x <= last.x && p.y <= last.y) {

@@ -46,7 +46,7 @@ void main() {
         return;
     }
     if (active_here) {
-        Level level = levels.level[level_of(p.y)];
+        Level level = levels.level[level_of(p)];
         ivec4 rect = level.rect;
         Stencil s;
         s.z = moved;

@@ -19,7 +19,7 @@ layout(push_constant, std430) uniform Push {
 void main() {
     uint tile = list[gl_InstanceIndex];
     ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
-    ivec4 rect = levels.level[level_of(corner.y)].rect;
+    ivec4 rect = levels.level[level_of(corner)].rect;
     ivec2 pixel = min(corner + 16 * ivec2(gl_VertexIndex & 1, gl_VertexIndex >> 1), rect.xy + rect.zw);
     gl_Position = vec4(vec2(pixel) / vec2(levels.atlas.xy) * 2.0 - 1.0, 0.5, 1.0);
     // 256 bytes a predicate.

@@ -33,7 +33,7 @@ shared float window[2][SIDE * SIDE];
 
 void smooth_tile(uint tile) {
     ivec2 corner = ivec2(tile % push.columns, tile / push.columns) * 16;
-    Level level = levels.level[level_of(corner.y)];
+    Level level = levels.level[level_of(corner)];
     ivec2 first = level.rect.xy;
     ivec2 last = first + level.rect.zw - 1;
     corner -= STEPS;

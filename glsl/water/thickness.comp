@@ -2,21 +2,28 @@
 // Pass `thickness`, compute path: sums of fixed-point numbers, so that their order is no matter.
 // An addend is 2^26 at most (a particle of half the radius), 64 overflow a word: what they carry is
 // counted in a second one, as exact. Any number of particles may lie on one spot.
-// Reads: Counts, visible, scene depth. Writes: sums (UNITS of the amplitude).
+// A second time for the front of two sheets and the window between them: for few spheres, those that
+// do not lie well behind every boundary near.
+// Reads: Counts, visible, scene depth, boundaries, blocks. Writes: sums (UNITS of the amplitude).
 
 #include "frame.glsl"
 #include "sphere.glsl"
 #include "counts.glsl"
 #include "kernel.glsl"
+#include "sheets.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint LARGE = 0;
+// 0: all water. 1: front sheet and window.
+layout(constant_id = 1) const uint APART = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3) uniform sampler2D scene_depth;
-// The sum's low word and its carries.
+// The sum's low word and its carries: of all water, then of the front sheet, then of the windows.
 layout(set = 0, binding = 4, std430) buffer Sums { uvec2 sums[]; };
+// Of each block the farthest boundary.
+layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
@@ -33,22 +40,58 @@ ivec4 span(vec4 sphere, float axis) {
     return pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
 }
 
-void splat(ivec2 pixel, vec4 sphere, float inverse_axis, float scale) {
-    vec2 slope = ray_slope(vec2(pixel) + 0.5, frame.thick_slope);
-    float rho2 = thickness_rho2(slope, sphere.xyz, inverse_axis);
-    if (rho2 > 1.0) {
-        return;
-    }
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(pixel) + 0.5) * frame.thick_extent.z), 0).x);
-    if (scene > 0.0 && -sphere.z >= scene) {
-        return;
-    }
-    uint unit = uint(thickness_kernel(rho2) * scale + 0.5);
-    uint at = uint(pixel.y) * uint(frame.thick_extent.x) + uint(pixel.x);
+void add(uint at, float amount) {
+    uint unit = uint(amount + 0.5);
     // What the word held and the addend are more than it can hold.
     if (atomicAdd(sums[at].x, unit) > ~unit) {
         atomicAdd(sums[at].y, 1u);
     }
+}
+
+void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
+    vec2 slope = ray_slope(vec2(texel) + 0.5, frame.thick_slope);
+    float rho2 = thickness_rho2(slope, sphere.xyz, inverse_axis);
+    if (rho2 > 1.0) {
+        return;
+    }
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(texel) + 0.5) * frame.thick_extent.z), 0).x);
+    if (scene > 0.0 && -sphere.z >= scene) {
+        return;
+    }
+    float amount = thickness_kernel(rho2) * scale;
+    uint at = uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x);
+    if (APART == 0u) {
+        add(at, amount);
+        return;
+    }
+    uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
+    float boundary = boundaries[at];
+    if (boundary < EMPTY) {
+        vec3 shares = sheet_shares(-sphere.z, boundary);
+        if (shares.x > 0.0) {
+            add(at + texels, amount * shares.x);
+        }
+        if (shares.z > 0.0) {
+            add(at + 2u * texels, amount * shares.z);
+        }
+    }
+}
+
+// The part of a box of texels in whose blocks a sphere may add to a front sheet or a window.
+ivec4 before_boundary(vec4 sphere, ivec4 box) {
+    int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
+    int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of the texels of a block
+    ivec4 touched = box >> bits;
+    ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
+    for (int y = touched.y; y <= touched.w; ++y) {
+        for (int x = touched.x; x <= touched.z; ++x) {
+            if (-sphere.z < blocks[y * columns + x] + frame.particle.y) {
+                part = ivec4(min(part.xy, ivec2(x, y)), max(part.zw, ivec2(x, y)));
+            }
+        }
+    }
+    ivec4 texels = (ivec4(part.xy, part.zw + 1) << bits) - ivec4(0, 0, 1, 1);
+    return ivec4(max(box.xy, texels.xy), min(box.zw, texels.zw));
 }
 
 void main() {
@@ -69,6 +112,12 @@ void main() {
         ivec4 box = span(sphere, axis);
         if (box.x > box.z || box.y > box.w) {
             return;
+        }
+        if (APART == 1u) {
+            box = before_boundary(sphere, box);
+            if (box.x > box.z || box.y > box.w) {
+                return;
+            }
         }
         // One loop with its condition last, not two: where invocations are lanes, all wait for the
         // one with the most pixels once, not once a row, and none runs an empty round.

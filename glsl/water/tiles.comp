@@ -11,9 +11,8 @@ layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 1, std430) readonly buffer Tiles { uint tile_work[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer List { uint list[]; };
-// [0] all tiles with water: draw (4, n, 0, 0), then dispatches {x, 1, 1, n}: one an iteration; at
-// last all tiles for the composite, where smoothed at the configured level alone, and where not:
-// draws [258] and [259], dispatches [260] and [261].
+// [0] all tiles with water: draw (4, n, 0, 0), then dispatches {x, 1, 1, n}: one an iteration, and at
+// last all tiles.
 layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -24,7 +23,7 @@ layout(push_constant, std430) uniform Push {
 // Work of a tile; 0 of those that no level in use covers.
 uint work_of(uint tile) {
     ivec2 corner = ivec2(int(tile) % levels.atlas.z, int(tile) / levels.atlas.z) * 16;
-    Level level = levels.level[level_of(corner.y)];
+    Level level = levels.level[level_of(corner)];
     bool used = level.texel.w > 0.0 && all(lessThan(corner, level.rect.xy + level.rect.zw));
     return used ? tile_work[tile] : 0u;
 }
@@ -51,15 +50,7 @@ void main() {
             sum += histogram[n];
         }
         arguments[0] = uvec4(4u, sum, 0u, 0u);
-        Level level = levels.level[0];
-        bool configured = level.texel.w == 1.0 && level.texel.z == frame.thick_extent.w;
-        arguments[258] = uvec4(4u, configured ? sum : 0u, 0u, 0u);
-        arguments[259] = uvec4(4u, configured ? 0u : sum, 0u, 0u);
-        // Groups of 8x8 pixels for each tile of the level that is shaded.
-        uint groups = 2u * uint(levels.level[finer_level()].texel.z);
-        uvec4 dispatch = uvec4(groups * groups, min(sum, push.most_groups), 1u, sum);
-        arguments[260] = configured ? dispatch : uvec4(0u, 0u, 1u, 0u);
-        arguments[261] = configured ? uvec4(0u, 0u, 1u, 0u) : dispatch;
+        arguments[258] = uvec4(min(sum, push.most_groups), 1u, 1u, sum);
     }
     barrier();
     // Iteration i runs the tiles with at least i - 1: one more than they need, in which all their

@@ -76,7 +76,6 @@ pub const UNIFORM: Access = Access::new(
     Layout::GENERAL,
 );
 /// Fragment shader: storage buffer, read.
-#[cfg(feature = "headless")]
 pub const FRAGMENT_READ: Access =
     Access::new(Stage::FRAGMENT_SHADER, Mask::SHADER_STORAGE_READ, Layout::GENERAL);
 /// Vertices and indices.

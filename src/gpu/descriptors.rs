@@ -49,7 +49,7 @@ impl Descriptors {
             size(vk::DescriptorType::UNIFORM_BUFFER, 2),
             size(vk::DescriptorType::STORAGE_BUFFER, 7),
             size(vk::DescriptorType::STORAGE_IMAGE, 4),
-            size(vk::DescriptorType::COMBINED_IMAGE_SAMPLER, 6),
+            size(vk::DescriptorType::COMBINED_IMAGE_SAMPLER, 7),
         ];
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(sets).pool_sizes(&sizes);
         // SAFETY: valid create info.

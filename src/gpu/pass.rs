@@ -25,6 +25,8 @@ pub struct Attachment {
 pub struct Attachments {
     /// In COLOR_ATTACHMENT_OPTIMAL.
     pub color: Option<Attachment>,
+    /// A second one.
+    pub second: Option<Attachment>,
     /// In DEPTH_STENCIL_ATTACHMENT_OPTIMAL.
     pub depth: Option<Attachment>,
     /// What the samples of `color` are averaged into; in COLOR_ATTACHMENT_OPTIMAL.
@@ -40,7 +42,7 @@ impl Gpu {
     ) -> Result<Owned<vk::RenderPass>, Error> {
         let color = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
         let depth = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-        let mut descriptions = Vec::with_capacity(3);
+        let mut descriptions = Vec::with_capacity(4);
         let mut add = |attachment: &Option<Attachment>, layout| {
             attachment.map(|attachment| {
                 descriptions.push(
@@ -57,12 +59,15 @@ impl Gpu {
                 vk::AttachmentReference { attachment: descriptions.len() as u32 - 1, layout }
             })
         };
-        let color_reference = add(&attachments.color, color);
+        let color_references: Vec<_> = [&attachments.color, &attachments.second]
+            .into_iter()
+            .filter_map(|attachment| add(attachment, color))
+            .collect();
         let depth_reference = add(&attachments.depth, depth);
         let resolve_reference = add(&attachments.resolve, color);
         let mut subpass = vk::SubpassDescription::default()
             .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
-            .color_attachments(color_reference.as_slice());
+            .color_attachments(&color_references);
         if let Some(reference) = &depth_reference {
             subpass = subpass.depth_stencil_attachment(reference);
         }
@@ -79,17 +84,19 @@ impl Gpu {
         Ok(self.own(pass, Grave::RenderPass))
     }
 
-    /// A render pass of one colour attachment, which is kept.
+    /// A render pass of one or two colour attachments, which are kept.
     pub fn color_pass(
         &self,
         name: &str,
-        format: vk::Format,
+        formats: &[vk::Format],
         load: vk::AttachmentLoadOp,
     ) -> Result<Owned<vk::RenderPass>, Error> {
         let samples = vk::SampleCountFlags::TYPE_1;
         let store = vk::AttachmentStoreOp::STORE;
-        let color = Some(Attachment { format, samples, load, store });
-        self.render_pass(name, &Attachments { color, ..Attachments::default() })
+        let at =
+            |i: usize| formats.get(i).map(|&format| Attachment { format, samples, load, store });
+        let (color, second) = (at(0), at(1));
+        self.render_pass(name, &Attachments { color, second, ..Attachments::default() })
     }
 
     /// A framebuffer of one view.
@@ -124,7 +131,8 @@ impl Gpu {
         Ok(self.own(framebuffer, Grave::Framebuffer))
     }
 
-    /// Begins a colour pass over an area, with viewport and scissor set to it.
+    /// Begins a colour pass over an area, with viewport and scissor set to it; clears all to one
+    /// value.
     pub fn begin_pass(
         &self,
         cmd: vk::CommandBuffer,
@@ -134,7 +142,7 @@ impl Gpu {
         clear: [f32; 4],
     ) {
         let clear = vk::ClearValue { color: vk::ClearColorValue { float32: clear } };
-        self.begin_pass_with(cmd, pass, framebuffer, area, &[clear]);
+        self.begin_pass_with(cmd, pass, framebuffer, area, &[clear, clear]);
     }
 
     /// The same for any pass.

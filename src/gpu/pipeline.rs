@@ -42,7 +42,7 @@ pub struct Graphics<'a> {
     /// Render pass it is used in (or a compatible one).
     pub pass: vk::RenderPass,
     /// Blend state of the one attachment.
-    pub blend: vk::PipelineColorBlendAttachmentState,
+    pub blend: &'a [vk::PipelineColorBlendAttachmentState],
     /// Specialisation constants (id, value).
     pub constants: &'a [(u32, u32)],
 }
@@ -142,8 +142,7 @@ impl Pipeline {
             .line_width(1.0);
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
-        let attachments = [desc.blend];
-        let color = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+        let color = vk::PipelineColorBlendStateCreateInfo::default().attachments(desc.blend);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
         let state = vk::GraphicsPipelineCreateInfo::default()

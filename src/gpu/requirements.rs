@@ -58,14 +58,6 @@ pub fn requirements() -> Requirements {
     }
 }
 
-/// Whether R32_SFLOAT can be a blended colour attachment: the raster splat paths need it.
-pub fn can_blend_r32f(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
-    // SAFETY: the handles are alive and belong together.
-    let format =
-        unsafe { instance.get_physical_device_format_properties(physical, vk::Format::R32_SFLOAT) };
-    format.optimal_tiling_features.contains(vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND)
-}
-
 /// What a device offers, so that it can be mocked in tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Offer {
@@ -73,8 +65,8 @@ pub struct Offer {
     pub api_version: u32,
     /// `synchronization2` is supported.
     pub synchronization2: bool,
-    /// R32_SFLOAT can be blended.
-    pub blend_r32f: bool,
+    /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats.
+    pub blend_floats: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
     /// The output format can be a storage image, written without its format being known.
@@ -100,16 +92,24 @@ impl Offer {
             .push_next(&mut v12)
             .push_next(&mut v13)
             .push_next(&mut conditional);
-        let mut output = vk::FormatProperties3::default();
-        let mut format = vk::FormatProperties2::default().push_next(&mut output);
-        // SAFETY: the handles are alive and belong together; the chains are well formed.
+        // SAFETY: the handles are alive and belong together; the chain is well formed.
         let properties = unsafe {
             instance.get_physical_device_features2(physical, &mut features);
-            instance.get_physical_device_format_properties2(physical, output_format, &mut format);
             instance.get_physical_device_properties(physical)
         };
         let core = features.features;
-        let offers = |features| output.optimal_tiling_features.contains(features);
+        let offers = |format, features| {
+            let mut found = vk::FormatProperties3::default();
+            let mut chain = vk::FormatProperties2::default().push_next(&mut found);
+            // SAFETY: as above.
+            unsafe {
+                instance.get_physical_device_format_properties2(physical, format, &mut chain);
+            }
+            found.optimal_tiling_features.contains(features)
+        };
+        let blended = vk::FormatFeatureFlags2::COLOR_ATTACHMENT_BLEND;
+        let stored = vk::FormatFeatureFlags2::STORAGE_IMAGE
+            | vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT;
         Self {
             optional: Enabled {
                 // Of the instance, not of a device.
@@ -122,12 +122,10 @@ impl Offer {
             },
             api_version: properties.api_version,
             synchronization2: v13.synchronization2 == vk::TRUE,
-            blend_r32f: can_blend_r32f(instance, physical),
-            output_attachment: offers(vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
-            output_storage: offers(
-                vk::FormatFeatureFlags2::STORAGE_IMAGE
-                    | vk::FormatFeatureFlags2::STORAGE_WRITE_WITHOUT_FORMAT,
-            ),
+            blend_floats: offers(vk::Format::R32_SFLOAT, blended)
+                && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
+            output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
+            output_storage: offers(output_format, stored),
             limits: properties.limits,
         }
     }
@@ -168,9 +166,10 @@ impl Offer {
             _ => {}
         }
         let raster = Some(Splat::Raster);
-        if !self.blend_r32f && (config.depth_splat == raster || config.thickness_splat == raster) {
+        if !self.blend_floats && (config.depth_splat == raster || config.thickness_splat == raster)
+        {
             return missing(
-                "blending of R32_SFLOAT".into(),
+                "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
         }

@@ -155,21 +155,37 @@ impl Headless {
     }
 
     /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
-    /// smoothing come at the finest resolution in use.
+    /// smoothing come at the finest resolution in use; `water.back` is the smoothed back sheet, and
+    /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
     pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
-        let Some(layer) = self.layers.iter().find(|layer| layer.name == name).copied() else {
+        let image = match name {
+            "water.back" => "water.surface",
+            "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
+            name => name,
+        };
+        let Some(layer) = self.layers.iter().find(|layer| layer.name == image).copied() else {
             return Ok(None);
         };
         let mut area = vk::Rect2D::from(layer.extent);
-        if ["water.surface", "water.iterations"].contains(&name)
+        if ["water.surface", "water.iterations"].contains(&image)
             && let Some(levels) = self.levels()?
         {
-            let [x, y, width, height] = levels.finer().rect;
+            let level = if name == "water.back" { &levels.level[2] } else { levels.finer() };
+            if level.texel[3] == 0.0 {
+                return Ok(None);
+            }
+            let [x, y, width, height] = level.rect;
             area.offset = vk::Offset2D { x, y };
             area.extent = vk::Extent2D { width: width as u32, height: height as u32 };
+        }
+        if image == "water.thickness.sheets" {
+            let sheets: Picture<[f32; 4]> =
+                self.read(layer.image, layer.format, area, layer.access)?;
+            let channel = usize::from(name.ends_with(".back"));
+            return Ok(Some(sheets.map(|sheets| sheets[channel])));
         }
         if layer.format == vk::Format::R32_UINT {
             let plan: Picture<u32> = self.read(layer.image, layer.format, area, layer.access)?;

@@ -53,19 +53,12 @@ pub fn sprites(
     vertex: shader::Shader,
     fragment: shader::Shader,
     pass: vk::RenderPass,
-    op: vk::BlendOp,
+    blend: &[vk::PipelineColorBlendAttachmentState],
 ) -> Result<(Pipeline, Pipeline), Error> {
     let make = |topology, quads| {
         Pipeline::graphics(
             gpu,
-            &Graphics {
-                vertex,
-                fragment,
-                topology,
-                pass,
-                blend: blend(op),
-                constants: &[(0, quads)],
-            },
+            &Graphics { vertex, fragment, topology, pass, blend, constants: &[(0, quads)] },
         )
     };
     Ok((
@@ -80,13 +73,13 @@ impl Depth {
         let path = match config.depth_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
                 let pass =
-                    gpu.color_pass("water/depth", image.format, vk::AttachmentLoadOp::CLEAR)?;
+                    gpu.color_pass("water/depth", &[image.format], vk::AttachmentLoadOp::CLEAR)?;
                 let (points, quads) = sprites(
                     gpu,
                     shader::WATER_DEPTH_VERT,
                     shader::WATER_DEPTH_FRAG,
                     pass.handle,
-                    vk::BlendOp::MIN,
+                    &[blend(vk::BlendOp::MIN)],
                 )?;
                 let framebuffer =
                     gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
@@ -161,7 +154,7 @@ impl Depth {
                 );
                 let area = r.extent.into();
                 gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [EMPTY, 0.0, 0.0, 0.0]);
-                draw_sprites(r, list, points, quads)?;
+                draw_sprites(r, list, points, quads, &[])?;
                 gpu.end_pass(cmd);
                 gpu.barriers(
                     cmd,
@@ -217,16 +210,14 @@ pub fn draw_sprites(
     list: &SphereList,
     points: &Pipeline,
     quads: &Pipeline,
+    more: &[(u32, Resource)],
 ) -> Result<(), Error> {
     let (gpu, cmd) = (r.gpu, r.cmd);
     for (pipeline, offset) in [(points, cull::POINTS), (quads, cull::QUADS)] {
         for chunk in list.chunks() {
-            r.descriptors.bind(
-                gpu,
-                cmd,
-                pipeline,
-                &[(0, r.uniforms), (1, chunk.spheres), (2, r.scene_depth)],
-            )?;
+            let mut resources = vec![(0, r.uniforms), (1, chunk.spheres), (2, r.scene_depth)];
+            resources.extend_from_slice(more);
+            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
             pipeline.push(gpu, cmd, &chunk.capacity);
             // SAFETY: inside a render pass; the arguments are visible since `cull`.
             unsafe {

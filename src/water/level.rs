@@ -4,8 +4,9 @@
 //! Not in the source, whose cap leaves near water rough. A level coarser needs a quarter of the
 //! iterations for the same width. Before the switch the coarser level fades in, by the share of
 //! the picture that is capped, not by time, so that a frame looks the same however it was come to.
-//! Two levels share the smoothing images, one above the other; the tile list holds the tiles of
-//! those in use, so that every form of the smoothing runs both in its one dispatch or draw.
+//! The levels share the smoothing images, one above the other, and so does the back sheet's (pass
+//! `back`); the tile list holds the tiles of those in use, so that every form of the smoothing runs
+//! all in its one dispatch or draw.
 //! Reads: how many pixels pass the cap, depth. Writes: levels, and for the coarser ones both
 //! smoothing images, plan, each tile's work.
 
@@ -22,8 +23,8 @@ use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED, INDIRECT,
-    UNIFORM, buffer,
+    self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+    FRAGMENT_SAMPLED, INDIRECT, UNIFORM, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -35,7 +36,7 @@ use crate::water::settings::Rule;
 /// Most levels coarser than the configured one.
 pub const MOST_COARSENING: u32 = 3;
 
-/// How the two levels lie in the smoothing images.
+/// How the levels lie in the smoothing images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Atlas {
     /// Size of the images.
@@ -44,22 +45,29 @@ pub struct Atlas {
     pub columns: u32,
     /// Rows of tiles.
     pub rows: u32,
-    /// First row of texels of the second level, a multiple of the tile's edge.
+    /// First row of texels of the second level and the back sheet's, a multiple of the tile's edge.
     pub second: u32,
+    /// First column of the back sheet's level, a multiple of the tile's edge; the width where there
+    /// is none.
+    pub back: u32,
 }
 
 impl Atlas {
-    /// The configured level on top, room for one half its size below it.
+    /// The configured level on top, room for two half its size below it.
     pub fn new(config: &Config) -> Self {
         let first = reduced(config.extent, config.smoothing_level);
-        let columns = first.width.div_ceil(TILE);
-        let rows = first.height.div_ceil(TILE);
-        if coarsening(config) == 0 {
-            return Self { extent: first, columns, rows, second: rows * TILE };
+        let half = reduced(config.extent, config.smoothing_level + 1);
+        let second = first.height.next_multiple_of(TILE);
+        let (mut extent, mut back) = (first, first.width);
+        if coarsening(config) > 0 || config.sheets > 1 {
+            extent.height = second + half.height;
         }
-        let below = reduced(config.extent, config.smoothing_level + 1).height;
-        let extent = vk::Extent2D { width: first.width, height: rows * TILE + below };
-        Self { extent, columns, rows: rows + below.div_ceil(TILE), second: rows * TILE }
+        if config.sheets > 1 {
+            back = half.width.next_multiple_of(TILE);
+            extent.width = first.width.max(back + half.width);
+        }
+        let (columns, rows) = (extent.width.div_ceil(TILE), extent.height.div_ceil(TILE));
+        Self { extent, columns, rows, second, back }
     }
 
     /// Number of tiles.
@@ -80,6 +88,7 @@ shader::assert_layout!(shader::WATER_LEVEL_COMP, "Levels", SmoothingLevels { lev
 struct Push {
     atlas: [i32; 4],
     coarsening: u32,
+    back: i32,
 }
 
 /// The pass.
@@ -154,9 +163,10 @@ impl Level {
                 (3, Resource::buffer(&self.arguments)),
             ],
         )?;
-        let Atlas { extent, columns, second, .. } = tiles.atlas;
+        let Atlas { extent, columns, second, back, .. } = tiles.atlas;
         let atlas = [extent.width, extent.height, columns, second].map(|v| v as i32);
-        self.choose.push(gpu, cmd, &Push { atlas, coarsening: self.coarsening });
+        let back = back as i32;
+        self.choose.push(gpu, cmd, &Push { atlas, coarsening: self.coarsening, back });
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, 1, 1, 1) };
         if let Some(pipeline) = &self.reduce {
@@ -167,7 +177,7 @@ impl Level {
         gpu.barriers(
             cmd,
             &[
-                access::image(depth, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
+                access::image(depth, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED)),
                 access::image(&reduce.plan, COMPUTE_WRITE, PLAN_AFTER),
             ],
             &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ)],

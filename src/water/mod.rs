@@ -1,15 +1,18 @@
 //! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green,
 //! Sainz, I3D 2009). A pass a file; `Water::record` lists them in order.
 
+mod back;
 mod classify;
 mod cull;
 mod depth;
 mod front;
+mod gaps;
 mod level;
 mod reduce;
 pub mod settings;
 mod smooth;
 mod smooth_query;
+mod split;
 mod thickness;
 mod tiles;
 
@@ -20,6 +23,7 @@ use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::Access;
+use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
@@ -31,7 +35,6 @@ pub(crate) use level::MOST_COARSENING;
 pub use settings::{
     Amplitude, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat, WaterSettings,
 };
-pub(crate) use tiles::{COMPOSITE_DISPATCHES, COMPOSITE_DRAWS};
 
 /// What every pass records with.
 pub(crate) struct Recording<'a> {
@@ -79,8 +82,23 @@ pub(crate) struct WaterLayers<'a> {
     pub smoothed: &'a Image,
     pub depth: &'a Image,
     pub thickness: &'a Image,
-    pub tiles: &'a tiles::Tiles,
+    pub split: &'a split::Split,
     pub level: &'a level::Level,
+    /// Thickness of two sheets, and the depth between them; none where there is one everywhere.
+    pub sheets: Option<&'a Image>,
+    pub boundaries: Option<&'a Buffer>,
+}
+
+/// The passes that tell two sheets apart.
+struct Sheets {
+    gaps: gaps::Gaps,
+    back: back::Back,
+}
+
+impl Sheets {
+    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        Ok(Self { gaps: gaps::Gaps::new(gpu, config)?, back: back::Back::new(gpu, config)? })
+    }
 }
 
 /// The technique: its passes in the order of the frame.
@@ -90,9 +108,11 @@ pub(crate) struct Water {
     depth: depth::Depth,
     reduce: reduce::Reduce,
     level: level::Level,
+    sheets: Option<Sheets>,
     tiles: tiles::Tiles,
     smooth: smooth::Smooth,
     thickness: thickness::Thickness,
+    split: split::Split,
 }
 
 impl Water {
@@ -103,9 +123,11 @@ impl Water {
             depth: depth::Depth::new(gpu, config)?,
             reduce: reduce::Reduce::new(gpu, config)?,
             level: level::Level::new(gpu, config)?,
+            sheets: (config.sheets > 1).then(|| Sheets::new(gpu, config)).transpose()?,
             tiles: tiles::Tiles::new(gpu, config)?,
             smooth: smooth::Smooth::new(gpu, config)?,
             thickness: thickness::Thickness::new(gpu, config)?,
+            split: split::Split::new(gpu, config)?,
         })
     }
 
@@ -119,9 +141,14 @@ impl Water {
         self.front.resize(gpu, config, retired)?;
         self.depth.resize(gpu, config, retired)?;
         self.reduce.resize(gpu, config, retired)?;
+        if let Some(Sheets { gaps, back }) = &mut self.sheets {
+            gaps.resize(gpu, config, retired)?;
+            back.resize(gpu, config, retired)?;
+        }
         self.tiles.resize(gpu, config, retired)?;
         self.smooth.resize(gpu, config, retired)?;
-        self.thickness.resize(gpu, config, retired)
+        self.thickness.resize(gpu, config, retired)?;
+        self.split.resize(gpu, config, retired)
     }
 
     /// The passes of a frame.
@@ -129,12 +156,22 @@ impl Water {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         self.front.record(r, &self.cull)?;
         self.depth.record(r, &self.front.list)?;
+        let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
+        if let Some(gaps) = gaps {
+            gaps.record(r, &self.front.list, &self.cull.list)?;
+        }
+        self.thickness.record(r, &self.cull.list, gaps)?;
         self.reduce.record(r, &self.depth.image, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &self.depth.image, &self.reduce, &self.smooth, &self.tiles)?;
-        self.tiles.record(r, &self.level)?;
         let (plan, tiles, level) = (&self.reduce.plan, &self.tiles, &self.level);
+        if let Some(Sheets { gaps, back }) = &self.sheets {
+            let depth = &self.depth.image;
+            let into = back::Into { smooth: &self.smooth, plan, tiles, level };
+            back.record(r, depth, &self.cull.list, gaps, &into)?;
+        }
+        self.tiles.record(r, level)?;
         self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
-        self.thickness.record(r, &self.cull.list)
+        self.split.record(r, tiles, level, gaps)
     }
 
     /// What `composite` reads.
@@ -143,9 +180,16 @@ impl Water {
             smoothed: &self.smooth.a,
             depth: &self.depth.image,
             thickness: &self.thickness.image,
-            tiles: &self.tiles,
+            split: &self.split,
             level: &self.level,
+            sheets: self.thickness.sheets.as_ref(),
+            boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
         }
+    }
+
+    /// Depth between the two sheets of each cell.
+    pub fn boundaries(&self) -> Option<vk::Buffer> {
+        self.sheets.as_ref().map(|sheets| sheets.gaps.boundaries.handle)
     }
 
     /// Counts of all spheres and of those that can show, 256 bytes a chunk.
@@ -178,12 +222,16 @@ impl Water {
             access,
         };
         let (smoothing, plan) = (self.reduce.level, reduce::PLAN_AFTER);
-        vec![
+        let mut layers = vec![
             layer("water.depth", &self.depth.image, 0, access),
             layer("water.surface", &self.smooth.a, smoothing, access),
             layer("water.iterations", &self.reduce.plan, smoothing, plan),
-            layer("water.thickness.front", &self.thickness.image, self.thickness.level, access),
-        ]
+            layer("water.thickness", &self.thickness.image, self.thickness.level, access),
+        ];
+        if let Some(sheets) = &self.thickness.sheets {
+            layers.push(layer("water.thickness.sheets", sheets, self.thickness.level, access));
+        }
+        layers
     }
 
     pub fn memory(&self) -> MemoryUse {
@@ -194,14 +242,21 @@ impl Water {
             &self.reduce.plan,
             &self.thickness.image,
         ];
+        let (back, gaps) = match &self.sheets {
+            Some(Sheets { gaps, back }) => (back.image.size, gaps.memory()),
+            None => (0, 0),
+        };
+        let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
         MemoryUse {
-            images: images.iter().map(|image| image.size).sum(),
-            buffers: self.cull.list.memory()
+            images: images.iter().map(|image| image.size).sum::<u64>() + back + sheets,
+            buffers: gaps
+                + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()
                 + self.tiles.memory()
                 + self.smooth.memory()
-                + self.thickness.memory(),
+                + self.thickness.memory()
+                + self.split.memory(),
         }
     }
 }

@@ -86,7 +86,7 @@ impl Query {
             }
             _ => {}
         }
-        let pass = gpu.color_pass("water/smooth", a.format, vk::AttachmentLoadOp::LOAD)?;
+        let pass = gpu.color_pass("water/smooth", &[a.format], vk::AttachmentLoadOp::LOAD)?;
         let make = |task, blend| {
             let cull = u32::from(gate == Gate::VertexCull);
             Pipeline::graphics(
@@ -96,7 +96,7 @@ impl Query {
                     fragment: shader::WATER_SMOOTH_FRAG,
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                     pass: pass.handle,
-                    blend,
+                    blend: &[blend],
                     constants: &[(0, cull), (1, rule_constant(rule)), (2, task)],
                 },
             )

@@ -6,7 +6,10 @@
 //! particles resolve the same water. At half resolution by default, upsampled by `composite` with
 //! the weights of the surface. Two ways: additive sprites, and fixed-point atomic sums, whose
 //! order is no matter.
-//! Reads: the list of `cull`, scene depth. Writes: thickness, R32F.
+//! Where `gaps` has found two sheets a second image holds that of each, and of a window of a spacing
+//! round the boundary: water there says that they are one.
+//! Reads: the list of `cull`, scene depth, boundaries. Writes: thickness, R32F; sheets, RGBA32F
+//! (front, back, window).
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -14,6 +17,7 @@ use gpu_allocator::MemoryLocation;
 use super::Recording;
 use super::cull::SphereList;
 use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};
+use super::gaps::{self, Gaps, sheets_constant};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::reduced;
@@ -26,7 +30,7 @@ use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
-use crate::gpu::pipeline::Pipeline;
+use crate::gpu::pipeline::{Pipeline, blend};
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::settings::Splat;
@@ -44,16 +48,26 @@ enum Path {
     Compute {
         small: Pipeline,
         large: Pipeline,
+        apart: Option<Box<Apart>>,
         resolve: Pipeline,
         sums: Buffer,
     },
 }
 
+/// Pipelines of the compute path for the front sheet and the window.
+struct Apart {
+    small: Pipeline,
+    large: Pipeline,
+    resolve: Pipeline,
+}
+
 /// The pass.
 pub struct Thickness {
     path: Path,
-    /// Thickness along z.
+    /// Thickness along z, of all water.
     pub image: Image,
+    /// The same of each of two sheets.
+    pub sheets: Option<Image>,
     /// Times halved.
     pub level: u32,
 }
@@ -61,38 +75,79 @@ pub struct Thickness {
 impl Thickness {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let image = Self::image(gpu, config)?;
+        let sheets = Self::sheets(gpu, config)?;
+        let compute = |shader, large, apart| {
+            Pipeline::compute(gpu, shader, &[(0, large), (1, apart), sheets_constant(config)])
+        };
         let path = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
+                let formats: Vec<_> = [Some(&image), sheets.as_ref()]
+                    .into_iter()
+                    .flatten()
+                    .map(|i| i.format)
+                    .collect();
                 let pass =
-                    gpu.color_pass("water/thickness", image.format, vk::AttachmentLoadOp::CLEAR)?;
+                    gpu.color_pass("water/thickness", &formats, vk::AttachmentLoadOp::CLEAR)?;
                 let (points, quads) = sprites(
                     gpu,
                     shader::WATER_THICKNESS_VERT,
-                    shader::WATER_THICKNESS_FRAG,
+                    if sheets.is_some() {
+                        shader::WATER_THICKNESS_APART_FRAG
+                    } else {
+                        shader::WATER_THICKNESS_FRAG
+                    },
                     pass.handle,
-                    vk::BlendOp::ADD,
+                    &vec![blend(vk::BlendOp::ADD); formats.len()],
                 )?;
-                let framebuffer =
-                    gpu.framebuffer("water/thickness", pass.handle, image.view, image.extent)?;
+                let framebuffer = Self::framebuffer(gpu, pass.handle, &image, sheets.as_ref())?;
                 Path::Raster { points, quads, pass, framebuffer }
             }
             Splat::Compute => Path::Compute {
-                small: Pipeline::compute(gpu, shader::WATER_THICKNESS_COMP, &[(0, 0)])?,
-                large: Pipeline::compute(gpu, shader::WATER_THICKNESS_COMP, &[(0, 1)])?,
+                small: compute(shader::WATER_THICKNESS_COMP, 0, 0)?,
+                large: compute(shader::WATER_THICKNESS_COMP, 1, 0)?,
+                apart: (config.sheets > 1)
+                    .then(|| {
+                        Ok::<_, Error>(Box::new(Apart {
+                            small: compute(shader::WATER_THICKNESS_COMP, 0, 1)?,
+                            large: compute(shader::WATER_THICKNESS_COMP, 1, 1)?,
+                            resolve: Pipeline::compute(
+                                gpu,
+                                shader::WATER_THICKNESS_APART_COMP,
+                                &[],
+                            )?,
+                        }))
+                    })
+                    .transpose()?,
                 resolve: Pipeline::compute(gpu, shader::WATER_THICKNESS_RESOLVE_COMP, &[])?,
-                sums: Self::sums(gpu, &image)?,
+                sums: Self::sums(gpu, config, &image)?,
             },
         };
-        Ok(Self { path, image, level: config.thickness_level })
+        Ok(Self { path, image, sheets, level: config.thickness_level })
     }
 
     fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
+        Self::image_of(gpu, config, "water/thickness", vk::Format::R32_SFLOAT)
+    }
+
+    fn sheets(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
+        let format = vk::Format::R32G32B32A32_SFLOAT;
+        (config.sheets > 1)
+            .then(|| Self::image_of(gpu, config, "water/thickness/sheets", format))
+            .transpose()
+    }
+
+    fn image_of(
+        gpu: &Gpu,
+        config: &Config,
+        name: &str,
+        format: vk::Format,
+    ) -> Result<Image, Error> {
         Image::new(
             gpu,
             &ImageDesc::new(
-                "water/thickness",
+                name,
                 reduced(config.extent, config.thickness_level),
-                vk::Format::R32_SFLOAT,
+                format,
                 vk::ImageUsageFlags::STORAGE
                     | vk::ImageUsageFlags::SAMPLED
                     | vk::ImageUsageFlags::COLOR_ATTACHMENT
@@ -101,12 +156,23 @@ impl Thickness {
         )
     }
 
-    /// Two words a pixel.
-    fn sums(gpu: &Gpu, image: &Image) -> Result<Buffer, Error> {
+    fn framebuffer(
+        gpu: &Gpu,
+        pass: vk::RenderPass,
+        image: &Image,
+        sheets: Option<&Image>,
+    ) -> Result<Owned<vk::Framebuffer>, Error> {
+        let views: Vec<_> = [Some(image), sheets].into_iter().flatten().map(|i| i.view).collect();
+        gpu.framebuffer_of("water/thickness", pass, &views, image.extent)
+    }
+
+    /// Two words a texel: of all water, and with two sheets of the front one and of the window.
+    fn sums(gpu: &Gpu, config: &Config, image: &Image) -> Result<Buffer, Error> {
+        let texels = u64::from(image.extent.width) * u64::from(image.extent.height);
         Buffer::new(
             gpu,
             "water/thickness/sums",
-            8 * u64::from(image.extent.width) * u64::from(image.extent.height),
+            8 * texels * if config.sheets > 1 { 3 } else { 1 },
             vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryLocation::GpuOnly,
         )
@@ -119,57 +185,70 @@ impl Thickness {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let image = Self::image(gpu, config)?;
+        let sheets = Self::sheets(gpu, config)?;
         match &mut self.path {
             Path::Raster { pass, framebuffer, .. } => {
-                let new =
-                    gpu.framebuffer("water/thickness", pass.handle, image.view, image.extent)?;
+                let new = Self::framebuffer(gpu, pass.handle, &image, sheets.as_ref())?;
                 retired.retire(std::mem::replace(framebuffer, new));
             }
             Path::Compute { sums, .. } => {
-                let new = Self::sums(gpu, &image)?;
+                let new = Self::sums(gpu, config, &image)?;
                 retired.retire(std::mem::replace(sums, new));
             }
         }
         retired.retire(std::mem::replace(&mut self.image, image));
+        retired.retire(std::mem::replace(&mut self.sheets, sheets));
         Ok(())
     }
 
-    pub fn record(&self, r: &mut Recording<'_>, list: &SphereList) -> Result<(), Error> {
+    /// Without boundaries there is one sheet.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        list: &SphereList,
+        gaps: Option<&Gaps>,
+    ) -> Result<(), Error> {
         let scope = r.begin(c"thickness");
         let (gpu, cmd) = (r.gpu, r.cmd);
+        let images: Vec<_> =
+            [Some(&self.image), self.sheets.as_ref()].into_iter().flatten().collect();
+        let hand = |from, to| -> Vec<_> {
+            images.iter().map(|image| access::image(image, from, to)).collect()
+        };
+        // Where there are none they are not read: any buffer will do. The same of the image.
+        let boundaries =
+            gaps.map_or(Resource::buffer(&list.counts), |gaps| Resource::buffer(&gaps.boundaries));
         match &self.path {
             Path::Raster { points, quads, pass, framebuffer } => {
-                gpu.barriers(
-                    cmd,
-                    &[access::image(&self.image, BEFORE.discarded(), COLOR_ATTACHMENT)],
-                    &[],
-                );
+                gpu.barriers(cmd, &hand(BEFORE.discarded(), COLOR_ATTACHMENT), &[]);
                 let area = reduced(r.extent, self.level).into();
                 gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [0.0; 4]);
-                draw_sprites(r, list, points, quads)?;
+                draw_sprites(r, list, points, quads, &[(11, boundaries)])?;
                 gpu.end_pass(cmd);
-                gpu.barriers(
-                    cmd,
-                    &[access::image(&self.image, COLOR_ATTACHMENT, FRAGMENT_SAMPLED)],
-                    &[],
-                );
+                gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);
             }
-            Path::Compute { small, large, resolve, sums } => {
+            Path::Compute { small, large, apart, resolve, sums } => {
                 gpu.barriers(
                     cmd,
-                    &[access::image(&self.image, BEFORE.discarded(), COMPUTE_WRITE)],
+                    &hand(BEFORE.discarded(), COMPUTE_WRITE),
                     &[buffer(sums.handle, COMPUTE_READ, CLEAR)],
                 );
                 // SAFETY: cmd is recording outside a render pass.
                 unsafe { gpu.device.cmd_fill_buffer(cmd, sums.handle, 0, vk::WHOLE_SIZE, 0) };
                 gpu.barriers(cmd, &[], &[buffer(sums.handle, CLEAR, COMPUTE_READ_WRITE)]);
-                dispatch_sprites(
-                    r,
-                    list,
-                    small,
-                    large,
-                    &[(3, r.scene_depth), (4, Resource::buffer(sums))],
-                )?;
+                let blocks = gaps.map_or(boundaries, |gaps| Resource::buffer(&gaps.blocks[0]));
+                let bound = [
+                    (3, r.scene_depth),
+                    (4, Resource::buffer(sums)),
+                    (5, blocks),
+                    (11, boundaries),
+                ];
+                dispatch_sprites(r, list, small, large, &bound)?;
+                if let Some(apart) = apart {
+                    let Apart { small, large, .. } = &**apart;
+                    // Sums of their own: nothing to wait for.
+                    dispatch_sprites(r, list, small, large, &bound)?;
+                }
                 gpu.barriers(cmd, &[], &[buffer(sums.handle, COMPUTE_READ_WRITE, COMPUTE_READ)]);
                 r.descriptors.bind(
                     gpu,
@@ -182,11 +261,24 @@ impl Thickness {
                     ],
                 )?;
                 r.dispatch_over(reduced(r.extent, self.level), resolve.local_size);
-                gpu.barriers(
-                    cmd,
-                    &[access::image(&self.image, COMPUTE_WRITE, FRAGMENT_SAMPLED)],
-                    &[],
-                );
+                if let (Some(apart), Some(sheets), Some(gaps)) = (apart, &self.sheets, gaps) {
+                    let kept = gaps.boundaries.handle;
+                    gpu.barriers(cmd, &[], &[buffer(kept, gaps::READ, COMPUTE_READ_WRITE)]);
+                    r.descriptors.bind(
+                        gpu,
+                        cmd,
+                        &apart.resolve,
+                        &[
+                            (0, r.uniforms),
+                            (1, Resource::buffer(sums)),
+                            (2, Resource::storage(sheets)),
+                            (11, boundaries),
+                        ],
+                    )?;
+                    r.dispatch_over(reduced(r.extent, self.level), apart.resolve.local_size);
+                    gpu.barriers(cmd, &[], &[buffer(kept, COMPUTE_READ_WRITE, gaps::READ)]);
+                }
+                gpu.barriers(cmd, &hand(COMPUTE_WRITE, FRAGMENT_SAMPLED), &[]);
             }
         }
         r.end(scope);

@@ -24,15 +24,11 @@ use crate::gpu::shader;
 /// Edge of a tile in reduced pixels.
 pub const TILE: u32 = 16;
 /// Workgroups of a dispatch over tiles; more tiles share them.
-const MOST_GROUPS: u32 = 65_535;
-/// Arguments: the draw of all tiles, then 257 dispatches of 16 bytes, then two draws and two
-/// dispatches.
-const ARGUMENTS: u64 = 16 * 262;
-/// Offsets of the draws for `composite`: where the frame was smoothed at the configured level
-/// alone, and where it was not. One of them is empty.
-pub const COMPOSITE_DRAWS: [u64; 2] = [16 * 258, 16 * 259];
-/// The same of its dispatches, for the compute path.
-pub const COMPOSITE_DISPATCHES: [u64; 2] = [16 * 260, 16 * 261];
+pub const MOST_GROUPS: u32 = 65_535;
+/// Arguments of 16 bytes: the draw of all tiles, 257 dispatches, the dispatch of all tiles.
+const ARGUMENTS: u64 = 16 * 259;
+/// Offset of the last.
+pub const ALL_TILES: u64 = 16 * 258;
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]

@@ -18,7 +18,7 @@ use crate::support::tolerance::U;
 
 /// What the environment is, for the picture and its twin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Sky {
+pub enum Sky {
     /// A constant that half precision holds.
     Even,
     /// `0.5 + 0.25 d.y` and `0.5 + 0.25 d.x`, the third channel even.
@@ -26,12 +26,12 @@ enum Sky {
 }
 
 /// A scene of one colour: what filters may do to it is nothing, the bounds are those of arithmetic.
-const FLAT: [f32; 4] = [0.3, 0.5, 0.7, 0.75];
+pub const FLAT: [f32; 4] = [0.3, 0.5, 0.7, 0.75];
 const CUBE: f64 = 64.0;
 const SKY: (u32, u32) = (256, 128);
 
 impl Sky {
-    fn radiance(self, d: DVec3) -> DVec3 {
+    pub fn radiance(self, d: DVec3) -> DVec3 {
         match self {
             Self::Even => DVec3::new(0.5, 0.75, 1.25),
             Self::Slope => DVec3::new(0.5 + 0.25 * d.y, 0.5 + 0.25 * d.x, 0.5),
@@ -75,7 +75,7 @@ impl Sky {
     }
 }
 
-fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
+pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     let (water, light) = (&shot.settings.water, &shot.settings.light);
     let rgb = |c: [f32; 3]| c.map(f64::from);
     twin::Settings {

@@ -180,6 +180,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { output_format: vk::Format::R16G16B16A16_SFLOAT, ..base },
         Config { composite: Some(Shading::Compute), ..base },
         Config { smoothing: Some(Smoothing::Fused), max_iterations: 9, ..base },
+        Config { sheets: 2, ..base },
+        Config { sheets: 2, smoothing_level: 0, depth_splat: Some(Splat::Raster), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -555,6 +557,8 @@ fn bad_configurations_are_errors() {
         ("Config.max_iterations", Config { max_iterations: 0, ..good }),
         ("Config.max_iterations", Config { max_iterations: 257, ..good }),
         ("Config.coarsening", Config { coarsening: 4, ..good }),
+        ("Config.sheets", Config { sheets: 0, ..good }),
+        ("Config.sheets", Config { sheets: 3, ..good }),
         ("Config.environment_size", Config { environment_size: 8, ..good }),
         ("Config.environment_size", Config { environment_size: 100, ..good }),
         ("Config.environment_size", Config { environment_size: 4096, ..good }),
@@ -619,7 +623,7 @@ fn what_a_device_lacks_is_named() {
             "attachment use of the output",
         ),
         (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
-        (whitewater::Offer { blend_r32f: false, ..offer }, raster, "R32_SFLOAT"),
+        (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
@@ -631,7 +635,7 @@ fn what_a_device_lacks_is_named() {
             other => panic!("{needle}: {other:?}"),
         }
     }
-    let unblended = whitewater::Offer { blend_r32f: false, ..offer };
+    let unblended = whitewater::Offer { blend_floats: false, ..offer };
     unblended.check(&config).expect("the compute paths need no blending");
     let unattached = whitewater::Offer { output_attachment: false, ..offer };
     unattached.check(&stored).expect("nothing is drawn into the output");
@@ -708,9 +712,10 @@ fn ten_million_particles_have_room() {
 #[test]
 fn memory_is_as_documented() {
     let gpu = Gpu::shared();
-    let needed = |width: u32, height: u32, count: u32, coarsening: u32| {
+    let needed = |width: u32, height: u32, count: u32, (sheets, coarsening): (u32, u32)| {
         let format = vk::Format::R16G16B16A16_SFLOAT;
-        let config = Config { coarsening, ..Config::new(extent(width, height), format, count) };
+        let size = extent(width, height);
+        let config = Config { sheets, coarsening, ..Config::new(size, format, count) };
         // SAFETY: live handles.
         let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
         let memory = renderer.memory();
@@ -721,11 +726,16 @@ fn memory_is_as_documented() {
     for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
-        for (coarsening, smoothing) in [(3, 4.5), (0, 3.0)] {
-            let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0) + 32.0 * n + cube;
-            let found = needed(width, height, count, coarsening);
+        // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
+        // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
+        for (sheets, coarsening, smoothing, apart) in
+            [(1, 3, 4.5, 0.0), (1, 0, 3.0, 0.0), (2, 3, 4.5, 2.5), (2, 0, 4.5, 2.5)]
+        {
+            let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + apart) + 32.0 * n + cube;
+            let found = needed(width, height, count, (sheets, coarsening));
             let off = (found - said).abs();
-            assert!(off < 0.01 * said + 512.0 * 1024.0, "{width}x{height}: {found}, said {said}");
+            let name = format!("{width}x{height}, {sheets} sheets");
+            assert!(off < 0.01 * said + 512.0 * 1024.0, "{name}: {found}, said {said}");
         }
     }
 }
@@ -735,7 +745,7 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let mut rig = Rig::with_slots(&gpu, &config(size), 2);
+    let mut rig = Rig::with_slots(&gpu, &Config { sheets: 2, ..config(size) }, 2);
     let shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
     assert!(rig.renderer().timings(Slot(9)).is_empty(), "no such slot");
@@ -747,17 +757,18 @@ fn timings_name_every_pass() {
             "cull",
             "front",
             "depth",
+            "gaps",
+            "thickness",
             "reduce",
             "level",
+            "back",
             "tiles",
             "smooth",
-            "thickness",
+            "split",
             "scene",
             "composite",
         ];
-        for name in wanted {
-            assert!(names.contains(&name), "{name} is not among {names:?}");
-        }
+        assert_eq!(names, wanted);
         for t in &timings {
             assert!(t.start >= 0.0 && t.nanoseconds >= 0.0 && t.nanoseconds < 6e10, "{t:?}");
         }

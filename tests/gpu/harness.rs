@@ -1,6 +1,8 @@
 //! The checkers themselves: each is given a planted fault that it must see.
 
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
 
 use ash::vk;
 use glam::DVec3;
@@ -15,12 +17,22 @@ use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::tolerance;
 
-/// Whether a check panics; says nothing of it.
+/// Whether a check panics; says nothing of it. The hook is that of all threads, and put in once: other
+/// tests may panic meanwhile.
 pub fn fails(check: impl FnOnce()) -> bool {
-    let hook = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| ()));
+    thread_local!(static QUIET: Cell<bool> = const { Cell::new(false) });
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let hook = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            if !QUIET.get() {
+                hook(info);
+            }
+        }));
+    });
+    QUIET.set(true);
     let result = catch_unwind(AssertUnwindSafe(check));
-    std::panic::set_hook(hook);
+    QUIET.set(false);
     result.is_err()
 }
 

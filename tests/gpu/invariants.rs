@@ -11,7 +11,7 @@ use crate::reference::cull::{CullParams, cull};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
-use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
+use crate::support::rig::{Drawn, Rig, Sheets, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::{self, Sum};
 
@@ -35,7 +35,19 @@ pub fn same_drawn(name: &str, actual: &Drawn, expected: &Drawn) {
     compare::same(&format!("{name}-surface"), &actual.surface, &expected.surface);
     compare::same(&format!("{name}-thickness"), &actual.thickness, &expected.thickness);
     assert!(actual.plan == expected.plan, "{name}: the plans differ");
+    if let (Some(actual), Some(expected)) = (&actual.sheets, &expected.sheets) {
+        same_sheets(name, actual, expected);
+    }
     compare::same_color(name, &actual.output, &expected.output);
+}
+
+/// Where the sheets part, and how thick they are.
+pub fn same_sheets(name: &str, actual: &Sheets, expected: &Sheets) {
+    compare::same(&format!("{name}-boundaries"), &actual.boundaries, &expected.boundaries);
+    let [found, wanted] =
+        [actual, expected].map(|s| s.thickness.map(|[x, y, z]| [*x, *y, *z, 1.0]));
+    compare::same_color(&format!("{name}-sheets"), &found, &wanted);
+    compare::same(&format!("{name}-behind"), &actual.surface, &expected.surface);
 }
 
 const TINY: [(u32, u32); 5] = [(96, 64), (1, 1), (1, 7), (3, 5), (17, 33)];
@@ -131,9 +143,9 @@ fn the_order_of_the_particles_is_no_matter() {
 fn strays_do_no_harm() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    for splat in [Splat::Compute, Splat::Raster] {
+    for (splat, sheets) in [(Splat::Compute, 1), (Splat::Raster, 1), (Splat::Compute, 2)] {
         // Added in another order, floats would round otherwise.
-        let config = Config { depth_splat: Some(splat), ..exact(size) };
+        let config = Config { depth_splat: Some(splat), sheets, ..exact(size) };
         let mut rig = Rig::new(&gpu, &config);
         let clean = water(size);
         let expected = rig.draw(&clean);
@@ -160,7 +172,7 @@ fn strays_do_no_harm() {
             shot.positions.insert((i * 29) % (clean.positions.len() + i), stray);
         }
         let drawn = rig.draw(&shot);
-        same_drawn(&format!("strays-{splat:?}"), &drawn, &expected);
+        same_drawn(&format!("strays-{splat:?}-{sheets}"), &drawn, &expected);
         // The last one is a number that is only far away.
         assert_eq!((expected.dropped, drawn.dropped), (0, 12), "strays are counted");
     }
@@ -414,7 +426,7 @@ fn a_stream_longer_than_a_binding_is_read_whole() {
     same_drawn("long-stream", &data, &Rig::new(&gpu, &exact(size)).draw(&less));
 }
 
-fn scaled(shot: &Shot, scale: f32) -> Shot {
+pub fn scaled(shot: &Shot, scale: f32) -> Shot {
     use whitewater::water::Medium;
     let mut shot = shot.clone();
     for p in &mut shot.positions {

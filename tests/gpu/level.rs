@@ -122,7 +122,7 @@ fn the_coarser_level_fades_in() {
         let drawn = draw(&gpu, &at(0, 3, cap));
         let fine = draw(&gpu, &at(0, 0, cap));
         let coarse = draw(&gpu, &at(1, 0, cap));
-        let [_, second] = &drawn.levels.level;
+        let [_, second, _] = &drawn.levels.level;
         faded += 1;
         // The share is a quotient of whole numbers, the fade a cubic of it: a few roundings.
         assert!(

@@ -3,6 +3,7 @@
 use whitewater::Config;
 use whitewater::water::{Gate, Shading, Smoothing, Splat};
 
+use crate::invariants::same_sheets;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{AROUND, Drawn, Rig, Shot, config, extent};
@@ -29,6 +30,9 @@ fn assert_same(name: &str, found: &Drawn, expected: &Drawn) {
     compare::same(&format!("{name}-surface"), &found.surface, &expected.surface);
     compare::same(&format!("{name}-thickness"), &found.thickness, &expected.thickness);
     assert!(found.plan.data == expected.plan.data, "{name}: other plans");
+    if let (Some(found), Some(expected)) = (&found.sheets, &expected.sheets) {
+        same_sheets(name, found, expected);
+    }
     let bound = 2.0 * 2.0_f32.powi(-4) / 256.0;
     for (i, (a, b)) in found.output.data.iter().zip(&expected.output.data).enumerate() {
         let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
@@ -48,6 +52,7 @@ fn ways() -> Vec<(&'static str, Config)> {
         ("depth", Config { depth_splat: Some(Splat::Raster), ..sums }),
         ("stored", Config { composite: Some(Shading::Compute), ..sums }),
         ("coarser", Config { max_iterations: 3, ..base }),
+        ("sheets", Config { sheets: 2, ..base }),
     ]
 }
 

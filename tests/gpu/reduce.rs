@@ -4,7 +4,7 @@ use whitewater::Config;
 use whitewater::water::Rule;
 
 use crate::reference::smooth::{self, Params};
-use crate::reference::{self, EMPTY, Image, is_surface};
+use crate::reference::{self, EMPTY, Image, View, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
@@ -116,12 +116,60 @@ fn most(rule: smooth::Rule, params: &Params) -> f64 {
 
 /// Iterations and steps as the GPU planned them.
 pub fn decoded(drawn: &Drawn, rule: smooth::Rule, params: &Params) -> Image<(u32, f64)> {
-    let most = most(rule, params);
-    drawn.plan.map(|p| (p & 511, f64::from(p >> 9) / 8_388_607.0 * most))
+    decoded_plan(&drawn.plan, rule, params)
 }
 
-/// The step is a share in 23 bits of the most there is, from numbers that 16u are rounded by; the
-/// count may be the next one where it is as near to a whole number.
+/// The same of any level.
+pub fn decoded_plan(plan: &Image<u32>, rule: smooth::Rule, params: &Params) -> Image<(u32, f64)> {
+    let most = most(rule, params);
+    plan.map(|p| (p & 511, f64::from(p >> 9) / 8_388_607.0 * most))
+}
+
+/// Asserts that a plan is the twin's. The step is a share in 23 bits of the most there is, from
+/// numbers that 16u are rounded by; the count may be the next one where it is as near to a whole
+/// number.
+pub fn assert_planned(
+    name: &str,
+    found: &Image<(u32, f64)>,
+    reduced: &Image<f64>,
+    view: &View,
+    twin: smooth::Rule,
+    params: &Params,
+) {
+    let expected = smooth::plan(reduced, view, twin, params);
+    let whole = Params { cap: u32::MAX, ..*params };
+    let uncapped = smooth::plan(reduced, view, twin, &whole);
+    for (i, (n, step)) in found.data.iter().enumerate() {
+        let (want, want_step) = expected.data[i];
+        let at = (i % view.width, i / view.width);
+        let steps = f64::from(uncapped.data[i].0.max(1));
+        // The number that is rounded up: 2 kappa N steps of it are sigma squared.
+        let exact = match twin {
+            smooth::Rule::ConstantWidth => {
+                let s = view.ray(at.0, at.1).truncate();
+                let shape = view.c_x() / view.c_y();
+                let spread = 1.0 + s.x * s.x + (1.0 + s.y * s.y) * shape * shape;
+                2.0 * want_step * steps * spread
+            }
+            _ if is_surface(reduced.data[i]) => {
+                4.8 * params.radius / (view.c_x() * reduced.data[i])
+            }
+            _ => 0.5,
+        };
+        let near = (exact - exact.round()).abs() <= 32.0 * U * exact;
+        assert!(*n == want || near, "{name} at {at:?}: {n} iterations, expected {want}");
+        let share = most(twin, params) / 8_388_607.0 + 32.0 * U * want_step;
+        // One step less makes each larger by this.
+        let fewer = want_step / (steps - 1.0).max(1.0);
+        let share = if near { share + fewer } else { share };
+        let off = (step - want_step).abs();
+        assert!(
+            off <= share,
+            "{name} at {at:?}: step {step}, expected {want_step}; to be rounded up: {exact}"
+        );
+    }
+}
+
 #[test]
 fn the_plan_is_the_twins() {
     let gpu = Gpu::shared();
@@ -143,40 +191,9 @@ fn the_plan_is_the_twins() {
                 let params = params(&shot, cap);
                 let reduced = reference::reduce::reduce(&wide(&drawn.depth), level);
                 let view = shot.view(size).reduced(level);
-                let expected = smooth::plan(&reduced, &view, twin, &params);
-                let whole = Params { cap: u32::MAX, ..params };
-                let uncapped = smooth::plan(&reduced, &view, twin, &whole);
                 let found = decoded(&drawn, twin, &params);
-                for (i, (n, step)) in found.data.iter().enumerate() {
-                    let (want, want_step) = expected.data[i];
-                    let at = (i % view.width, i / view.width);
-                    let steps = f64::from(uncapped.data[i].0.max(1));
-                    // The number that is rounded up: 2 kappa N steps of it are sigma squared.
-                    let exact = match twin {
-                        smooth::Rule::ConstantWidth => {
-                            let s = view.ray(at.0, at.1).truncate();
-                            let shape = view.c_x() / view.c_y();
-                            let spread = 1.0 + s.x * s.x + (1.0 + s.y * s.y) * shape * shape;
-                            2.0 * want_step * steps * spread
-                        }
-                        _ if is_surface(reduced.data[i]) => {
-                            4.8 * params.radius / (view.c_x() * reduced.data[i])
-                        }
-                        _ => 0.5,
-                    };
-                    let near = (exact - exact.round()).abs() <= 32.0 * U * exact;
-                    let name = format!("{rule:?} {lens:?} level {level} at {at:?}");
-                    assert!(*n == want || near, "{name}: {n} iterations, expected {want}");
-                    let share = most(twin, &params) / 8_388_607.0 + 32.0 * U * want_step;
-                    // One step less makes each larger by this.
-                    let fewer = want_step / (steps - 1.0).max(1.0);
-                    let share = if near { share + fewer } else { share };
-                    let off = (step - want_step).abs();
-                    assert!(
-                        off <= share,
-                        "{name}: step {step}, expected {want_step}; to be rounded up: {exact}"
-                    );
-                }
+                let name = format!("{rule:?} {lens:?} level {level}");
+                assert_planned(&name, &found, &reduced, &view, twin, &params);
                 let busy = found.data.iter().filter(|p| p.0 > 0).count();
                 assert!(busy * 20 > found.data.len(), "{busy} pixels are planned");
             }

@@ -10,6 +10,7 @@ use whitewater::{Access, Config, HostImage, Layer, Recorded};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
+use crate::support::host;
 use crate::support::rig::{Drawn, OUTPUT, Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 
@@ -133,8 +134,8 @@ fn a_stored_output_need_not_be_an_attachment() {
         .layers
         .iter()
         .map(|layer| {
-            let (Layer { image, extent, access, .. }, aspect) = (*layer, color.aspect);
-            let bytes = 4 * u64::from(extent.width * extent.height);
+            let (Layer { image, extent, format, access, .. }, aspect) = (*layer, color.aspect);
+            let bytes = host::texel_size(format) * u64::from(extent.width * extent.height);
             let back = rig.stub.sized(bytes, vk::BufferUsageFlags::TRANSFER_DST);
             rig.stub.record_download(cmd, image, aspect, extent.into(), access, &back);
             back

@@ -17,6 +17,15 @@ pub fn hit(ray: DVec3, sphere: &Sphere) -> Option<f64> {
 /// The depth of the nearest sphere in each pixel. A hit nearer than the near plane counts for
 /// nothing; the far root never replaces it.
 pub fn splat(spheres: &[Sphere], view: &View) -> Image<f64> {
+    splat_where(spheres, view, |_, _, _| true)
+}
+
+/// The same of those spheres that count at a pixel.
+pub fn splat_where(
+    spheres: &[Sphere],
+    view: &View,
+    counts: impl Fn(usize, usize, &Sphere) -> bool,
+) -> Image<f64> {
     let near = view.near();
     let mut depth = Image::new(view.width, view.height, EMPTY);
     for sphere in spheres {
@@ -27,7 +36,7 @@ pub fn splat(spheres: &[Sphere], view: &View) -> Image<f64> {
         let (nearest, farthest) = (-center.z - r, -center.z + r);
         let (columns, rows) = view.footprint(center.truncate(), DVec2::splat(r), nearest, farthest);
         for y in rows {
-            for x in columns.clone() {
+            for x in columns.clone().filter(|x| counts(*x, y, sphere)) {
                 if let Some(t) = hit(view.ray(x, y), sphere).filter(|t| *t >= near) {
                     let pixel = depth.at_mut(x, y);
                     *pixel = pixel.min(t);

@@ -19,6 +19,7 @@ pub mod cull;
 pub mod depth;
 pub mod environment;
 pub mod reduce;
+pub mod sheets;
 pub mod smooth;
 pub mod surface;
 pub mod thickness;

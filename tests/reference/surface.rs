@@ -24,6 +24,8 @@ pub struct Surface {
     pub normal: DVec3,
     /// The thickness along z.
     pub thickness: f64,
+    /// What of it refracts: where the surface is torn no more than two spacings.
+    pub lens: f64,
     /// What it was made of.
     pub parts: Parts,
 }
@@ -40,6 +42,10 @@ pub struct Parts {
     pub drop: f64,
     /// The thickness is of texels on other surfaces.
     pub borrowed: bool,
+    /// How much of it is whole: of texels with their neighbours on the surface.
+    pub found: f64,
+    /// How much of it is of the back sheet's image: the front one's shows another surface here.
+    pub mixed: f64,
     /// How near to the falloff any difference was that decided: rounding may decide otherwise.
     pub margin: f64,
 }
@@ -58,6 +64,18 @@ pub enum Case {
     SteepRim,
     /// None on its surface.
     Alone,
+}
+
+/// The smoothed surface in a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Smooth {
+    pub z: f64,
+    /// Depth per texel, and the same mean of the rises' absolute values.
+    pub slope: [DVec2; 2],
+    pub case: Case,
+    /// What the texels on the surface weigh of all round the pixel, and those not on the rim.
+    pub covered: f64,
+    pub found: f64,
 }
 
 /// What a texel knows of its surface.
@@ -129,32 +147,44 @@ impl<'a> Surfaces<'a> {
         (a - b).abs() <= self.threshold
     }
 
-    /// The texels of the smoothed image that a pixel sees, their weights of sum 1, and how many they
-    /// are on its surface; where none is, the nearest in depth.
-    fn seen(&self, x: usize, y: usize, margin: &mut f64) -> (Vec<(usize, usize, f64)>, Case) {
+    /// The texels of the smoothed image round a pixel, with their weights of sum 1.
+    fn round(&self, x: usize, y: usize) -> Vec<(usize, usize, f64)> {
         let z = self.inputs.smoothed;
-        let depth = self.inputs.depth.at(x, y);
         let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << self.inputs.level);
-        let all = tent(z.width, z.height, at);
+        tent(z.width, z.height, at)
+    }
+
+    /// The texels of the smoothed image that a pixel of a depth sees, their weights of sum 1, and how
+    /// many they are on its surface; where none is, the nearest in depth. And what they weighed.
+    fn seen(
+        &self,
+        x: usize,
+        y: usize,
+        depth: f64,
+        margin: &mut f64,
+    ) -> (Vec<(usize, usize, f64)>, Case, f64) {
+        let z = self.inputs.smoothed;
+        let all = self.round(x, y);
         let mut own: Vec<_> =
             all.iter().copied().filter(|t| self.near(z.at(t.0, t.1), depth, margin)).collect();
         let sum: f64 = own.iter().map(|t| t.2).sum();
         if !own.is_empty() {
             own.iter_mut().for_each(|t| t.2 /= sum);
             let case = if own.len() == all.len() { Case::Whole } else { Case::Border };
-            return (own, case);
+            return (own, case, sum);
         }
         let away = |t: &&(usize, usize, f64)| (z.at(t.0, t.1) - depth).abs();
         let nearest = all.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let (i, j, _) = *nearest.expect("a tent touches a texel");
-        (vec![(i, j, 1.0)], Case::Alone)
+        (vec![(i, j, 1.0)], Case::Alone, 0.0)
     }
 
-    /// Depth and slope (with that of absolute values) of the smoothed surface in a pixel.
-    fn smooth(&self, x: usize, y: usize, margin: &mut f64) -> (f64, [DVec2; 2], Case) {
-        let (seen, mut case) = self.seen(x, y, margin);
+    /// The smoothed surface in a pixel of a depth.
+    pub fn smooth(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> Smooth {
+        let (seen, mut case, covered) = self.seen(x, y, depth, margin);
         if case == Case::Alone {
-            return (self.inputs.depth.at(x, y), [DVec2::ZERO; 2], case);
+            let slope = [DVec2::ZERO; 2];
+            return Smooth { z: depth, slope, case, covered, found: 0.0 };
         }
         let z: f64 = seen.iter().map(|t| t.2 * self.inputs.smoothed.at(t.0, t.1)).sum();
         let (mut slope, mut trust, mut whole) = ([DVec2::ZERO; 2], 0.0, 0.0);
@@ -178,7 +208,24 @@ impl<'a> Surfaces<'a> {
             case = if cut == slope[0] { Case::Rim } else { Case::SteepRim };
             slope[0] = cut;
         }
-        (z, slope, case)
+        Smooth { z, slope, case, covered, found: whole * covered }
+    }
+
+    /// The depth of the nearest texel of the smoothed image round a pixel.
+    pub fn nearest(&self, x: usize, y: usize) -> f64 {
+        let depths = self.round(x, y).into_iter().map(|t| self.inputs.smoothed.at(t.0, t.1));
+        depths.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether one of the four texels round a pixel lies before its surface; at full resolution of its
+    /// own and the next ones, whatever they weigh.
+    pub fn is_covered(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> bool {
+        let z = self.inputs.smoothed;
+        let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << self.inputs.level);
+        let four = z.bilinear(at).map(|(i, j, _)| z.clamped(i, j));
+        let before = depth - four.into_iter().fold(f64::INFINITY, f64::min);
+        *margin = margin.min((before - self.threshold).abs());
+        before > self.threshold
     }
 
     /// Limits a slope to a multiple of what a texel is wide at a depth.
@@ -188,23 +235,48 @@ impl<'a> Surfaces<'a> {
         slope.max(-most).min(most)
     }
 
-    /// Thickness in a pixel whose surface lies at a depth: its own texel, or the mean of the texels
-    /// that it sees of the smoothed image, or of those of the thickness over whose middle there is
-    /// its surface (if they weigh 1/1000), or of all.
-    fn thickness(&self, x: usize, y: usize, surface: f64, margin: &mut f64) -> (f64, bool) {
+    /// The texels of the thickness that a pixel goes by, whose surface lies at a depth, with their
+    /// weights: its own, or those that it sees of the smoothed image, or those over whose middle there
+    /// is its surface (if they weigh 1/1000), or all; of those the ones with water, if any. And whether
+    /// they are on other surfaces.
+    pub fn texels_of_thickness(
+        &self,
+        x: usize,
+        y: usize,
+        surface: f64,
+        margin: &mut f64,
+    ) -> (Vec<(usize, usize, f64)>, bool) {
+        let (texels, borrowed) = self.texels_near(x, y, surface, margin);
+        let thickness = self.inputs.thickness;
+        let mut wet: Vec<_> =
+            texels.iter().copied().filter(|t| thickness.at(t.0, t.1) > 0.0).collect();
+        let sum: f64 = wet.iter().map(|t| t.2).sum();
+        if wet.is_empty() {
+            return (texels, borrowed);
+        }
+        wet.iter_mut().for_each(|t| t.2 /= sum);
+        (wet, borrowed)
+    }
+
+    fn texels_near(
+        &self,
+        x: usize,
+        y: usize,
+        surface: f64,
+        margin: &mut f64,
+    ) -> (Vec<(usize, usize, f64)>, bool) {
         let Inputs { thickness, thickness_level, smoothed, level, .. } = self.inputs;
         if thickness_level == 0 {
-            return (thickness.at(x, y), false);
+            return (vec![(x, y, 1.0)], false);
         }
         if thickness_level == level {
-            let (seen, case) = self.seen(x, y, margin);
-            let mean = seen.iter().map(|t| t.2 * thickness.at(t.0, t.1)).sum();
-            return (mean, case == Case::Alone);
+            let (seen, case, _) = self.seen(x, y, self.inputs.depth.at(x, y), margin);
+            return (seen, case == Case::Alone);
         }
         let size = f64::from(1 << thickness_level);
         let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / size;
         let mut mean = |own: bool| {
-            let (mut sum, mut weights) = (0.0, 0.0);
+            let mut texels = Vec::new();
             // Tent weights by hand: the middle of a texel beyond the edge is there, not on it.
             for j in -1..=thickness.height as isize {
                 for i in -1..=thickness.width as isize {
@@ -213,12 +285,15 @@ impl<'a> Surfaces<'a> {
                     let over = middle * size / f64::from(1 << level);
                     let z = smoothed.clamped(over.x.floor() as isize, over.y.floor() as isize);
                     if tent.x * tent.y > 0.0 && (!own || self.near(z, surface, margin)) {
-                        sum += tent.x * tent.y * thickness.clamped(i, j);
-                        weights += tent.x * tent.y;
+                        let inside = |i: isize, n: usize| i.clamp(0, n as isize - 1) as usize;
+                        let (i, j) = (inside(i, thickness.width), inside(j, thickness.height));
+                        texels.push((i, j, tent.x * tent.y));
                     }
                 }
             }
-            (weights > if own { 1e-3 } else { 0.0 }).then(|| sum / weights)
+            let sum: f64 = texels.iter().map(|t| t.2).sum();
+            texels.iter_mut().for_each(|t| t.2 /= sum);
+            (sum > if own { 1e-3 } else { 0.0 }).then_some(texels)
         };
         match mean(true) {
             Some(own) => (own, false),
@@ -233,20 +308,43 @@ impl<'a> Surfaces<'a> {
             return None;
         }
         let mut margin = self.raw.at(x, y).margin;
-        let (z, smooth, case) = self.smooth(x, y, &mut margin);
-        let (thickness, borrowed) = self.thickness(x, y, z, &mut margin);
-        let spacing = self.radius / 0.656;
-        let mut sphere = self.raw.at(x, y).slope;
-        sphere[0] = self.not_steep(sphere[0], depth, 0);
-        let texel = f64::from(1 << self.inputs.level);
-        let sphere = sphere.map(|s| s * texel);
-        let drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, thickness);
-        let slope = smooth[0].lerp(sphere[0], drop);
+        let smooth = self.smooth(x, y, depth, &mut margin);
+        let (texels, borrowed) = self.texels_of_thickness(x, y, smooth.z, &mut margin);
+        let of = |t: &(usize, usize, f64)| t.2 * self.inputs.thickness.at(t.0, t.1);
+        let thickness = texels.iter().map(of).sum();
+        let mut surface = self.made_of((x, y), &smooth, thickness, Some(depth), margin);
+        surface.parts.borrowed = borrowed;
+        Some(surface)
+    }
 
+    /// The surface in a pixel from its smoothed one; a drop if it is thin and has an unsmoothed depth.
+    pub fn made_of(
+        &self,
+        (x, y): (usize, usize),
+        smooth: &Smooth,
+        thickness: f64,
+        depth: Option<f64>,
+        margin: f64,
+    ) -> Surface {
+        let texel = f64::from(1 << self.inputs.level);
+        let spacing = self.radius / 0.656;
+        let mut sphere = [DVec2::ZERO; 2];
+        let mut drop = 0.0;
+        if let Some(depth) = depth {
+            sphere = self.raw.at(x, y).slope;
+            sphere[0] = self.not_steep(sphere[0], depth, 0);
+            sphere = sphere.map(|s| s * texel);
+            drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, thickness);
+        }
+        let Smooth { z, slope: smooth, case, found, .. } = *smooth;
+        let slope = smooth[0].lerp(sphere[0], drop);
         let ray = self.view.ray(x, y);
         let d = slope / (self.view.slope_step() * texel);
         let normal = DVec3::new(d.x, d.y, z + ray.x * d.x + ray.y * d.y).normalize();
-        let parts = Parts { case, smooth, sphere, drop, borrowed, margin };
-        Some(Surface { position: ray * z, normal, thickness, parts })
+        let parts =
+            Parts { case, smooth, sphere, drop, borrowed: false, found, mixed: 0.0, margin };
+        let torn = thickness.min(2.0 * spacing);
+        let lens = torn + (thickness - torn) * found;
+        Surface { position: ray * z, normal, thickness, lens, parts }
     }
 }

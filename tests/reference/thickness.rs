@@ -43,6 +43,17 @@ pub fn splat(
     scene: Option<&Image<f64>>,
     amplitude: Amplitude,
 ) -> Image<f64> {
+    splat_where(spheres, view_of_the_image, scene, amplitude, |_, _, _| 1.0)
+}
+
+/// The same of the share of each sphere that counts at a pixel.
+pub fn splat_where(
+    spheres: &[Sphere],
+    view_of_the_image: &View,
+    scene: Option<&Image<f64>>,
+    amplitude: Amplitude,
+    share: impl Fn(usize, usize, &Sphere) -> f64,
+) -> Image<f64> {
     let view = view_of_the_image;
     let near = view.near();
     let mut thickness = Image::new(view.width, view.height, 0.0);
@@ -68,7 +79,8 @@ pub fn splat(
                 let q = view.ray(x, y).truncate() * depth;
                 let rho_squared = (q - center).length_squared() / (half * half);
                 if rho_squared <= 1.0 {
-                    *thickness.at_mut(x, y) += amplitude * kernel(rho_squared);
+                    let splat = amplitude * kernel(rho_squared);
+                    *thickness.at_mut(x, y) += splat * share(x, y, sphere);
                 }
             }
         }

@@ -132,7 +132,7 @@ pub struct Stub {
 pub fn texel_size(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32G32B32A32_SFLOAT => 16,
-        vk::Format::R16G16B16A16_SFLOAT => 8,
+        vk::Format::R16G16B16A16_SFLOAT | vk::Format::R32G32_SFLOAT => 8,
         vk::Format::D16_UNORM => 2,
         _ => 4,
     }

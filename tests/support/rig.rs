@@ -20,13 +20,15 @@ pub fn extent(width: u32, height: u32) -> vk::Extent2D {
     vk::Extent2D { width, height }
 }
 
-/// A configuration for tests: small environment, layers kept, and sums whose order is no matter.
+/// A configuration for tests: small environment, layers kept, sums whose order is no matter, and all
+/// water in one sheet, as most twins have it.
 pub fn config(size: vk::Extent2D) -> Config {
     Config {
         environment_size: 16,
         keep_layers: true,
         depth_splat: Some(Splat::Compute),
         thickness_splat: Some(Splat::Compute),
+        sheets: 1,
         ..Config::new(size, OUTPUT, 4096)
     }
 }
@@ -188,10 +190,25 @@ pub struct Drawn {
     /// Of the coarser level, while it fades in.
     pub coarser: Option<(Image<f32>, Image<u32>)>,
     pub levels: SmoothingLevels,
+    /// Of all water.
     pub thickness: Image<f32>,
+    /// With two sheets.
+    pub sheets: Option<Sheets>,
     /// Particles dropped for their positions, and set aside as spray.
     pub dropped: u32,
     pub spray: u32,
+}
+
+/// What a frame with two sheets gave besides.
+#[derive(Clone)]
+pub struct Sheets {
+    /// Depth between them, for each texel of the thickness.
+    pub boundaries: Image<f32>,
+    /// Thickness of the front one, of the back one and of the window between them.
+    pub thickness: Image<[f32; 3]>,
+    /// Surface and plan of the back one.
+    pub surface: Image<f32>,
+    pub plan: Image<u32>,
 }
 
 /// A renderer and its host.
@@ -397,6 +414,7 @@ impl<'g> Rig<'g> {
             coarser: None,
             levels,
             thickness: empty(),
+            sheets: None,
             dropped: 0,
             spray: 0,
         };
@@ -410,16 +428,30 @@ impl<'g> Rig<'g> {
                 drawn.spray += words[19];
             }
         }
-        let fading = levels.level.iter().all(|level| level.texel[3] > 0.0);
-        let coarser = levels.level.iter().max_by(|a, b| a.texel[2].total_cmp(&b.texel[2])).unwrap();
+        let [a, b, back] = &levels.level;
+        let fading = a.texel[3] > 0.0 && b.texel[3] > 0.0;
+        let coarser = if a.texel[2] > b.texel[2] { a } else { b };
         let mut second = (empty(), Image::new(0, 0, 0));
+        let mut sheets = recorded.sheets.map(|buffer| Sheets {
+            boundaries: self.boundaries(buffer, output.rect.extent),
+            thickness: Image::new(0, 0, [0.0; 3]),
+            surface: empty(),
+            plan: Image::new(0, 0, 0),
+        });
         for layer in &recorded.layers {
             let whole = layer.extent.into();
             match layer.name {
                 "water.depth" => drawn.depth = self.floats(layer, whole),
-                "water.thickness.front" => drawn.thickness = self.floats(layer, whole),
+                "water.thickness" => drawn.thickness = self.floats(layer, whole),
+                "water.thickness.sheets" => {
+                    let sheets = sheets.as_mut().expect("boundaries of two sheets");
+                    sheets.thickness = self.sheets(layer, whole);
+                }
                 "water.surface" => {
                     drawn.surface = self.floats(layer, area(levels.finer()));
+                    if let Some(sheets) = &mut sheets {
+                        sheets.surface = self.floats(layer, area(back));
+                    }
                     if fading {
                         second.0 = self.floats(layer, area(coarser));
                     }
@@ -427,6 +459,9 @@ impl<'g> Rig<'g> {
                 "water.iterations" => {
                     assert_eq!(layer.format, vk::Format::R32_UINT);
                     drawn.plan = self.texels(layer, area(levels.finer()));
+                    if let Some(sheets) = &mut sheets {
+                        sheets.plan = self.texels(layer, area(back));
+                    }
                     if fading {
                         second.1 = self.texels(layer, area(coarser));
                     }
@@ -435,6 +470,7 @@ impl<'g> Rig<'g> {
             }
         }
         drawn.coarser = fading.then_some(second);
+        drawn.sheets = sheets;
         drawn
     }
 
@@ -448,11 +484,31 @@ impl<'g> Rig<'g> {
         bytemuck::pod_read_unaligned(&back.bytes()[..size])
     }
 
-    fn texels(&self, layer: &Layer, area: vk::Rect2D) -> Image<u32> {
+    /// The boundary of each texel of a frame's thickness.
+    fn boundaries(&self, buffer: vk::Buffer, frame: vk::Extent2D) -> Image<f32> {
+        let texels = |pixels: u32| pixels.div_ceil(1 << self.config.thickness_level) as usize;
+        let (width, height) = (texels(frame.width), texels(frame.height));
+        let size = 4 * (width * height) as u64;
+        let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, buffer, &back));
+        Image { width, height, data: words(back.bytes()).map(f32::from_bits).collect() }
+    }
+
+    fn bytes(&self, layer: &Layer, area: vk::Rect2D) -> Vec<u8> {
         let color = vk::ImageAspectFlags::COLOR;
-        let bytes = self.stub.download(layer.image, layer.format, color, area, layer.access);
+        self.stub.download(layer.image, layer.format, color, area, layer.access)
+    }
+
+    fn texels(&self, layer: &Layer, area: vk::Rect2D) -> Image<u32> {
         let (width, height) = (area.extent.width as usize, area.extent.height as usize);
-        Image { width, height, data: words(&bytes).collect() }
+        Image { width, height, data: words(&self.bytes(layer, area)).collect() }
+    }
+
+    /// Front, back and window.
+    fn sheets(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 3]> {
+        assert_eq!(layer.format, vk::Format::R32G32B32A32_SFLOAT);
+        picture(layer.format, area.extent, &self.bytes(layer, area))
+            .map(|[x, y, z, _]| [*x, *y, *z])
     }
 
     fn floats(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {

@@ -6,7 +6,9 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::View;
-use crate::reference::composite::{Fresnel, Inputs, Medium, Settings, cut_look_up, look_up};
+use crate::reference::composite::{
+    Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
+};
 use crate::reference::surface::{Case, Surface};
 
 /// What filtering may do to what is looked up.
@@ -54,25 +56,56 @@ fn slope(surface: &Surface, axis: usize, drop: Rounded) -> Rounded {
     mix(smooth, sphere, drop)
 }
 
-/// The pixel at (x, y), in the order of glsl/composite.frag. `background` and `env` are the twin's.
-pub fn shaded(
-    inputs: &Inputs<'_>,
+/// A channel of what comes through water of a path.
+pub fn through(medium: &Medium, behind: Rounded, path: Rounded, i: usize) -> Rounded {
+    match medium {
+        Medium::Physical { absorption, scattering, ambient } => {
+            let extinction = exact(absorption[i]) + exact(scattering[i]);
+            let kept = (-extinction * path).exp();
+            let least = Rounded { v: extinction.v.max(1e-9), e: extinction.e };
+            let albedo = exact(scattering[i]) / least;
+            behind * kept + exact(ambient[i]) * albedo * (exact(1.0) - kept)
+        }
+        Medium::Source { base, k } => {
+            let tint = exact(base[i]) * (-exact(k[i]) * path).exp();
+            mix(tint, behind, (-exact(k[3]) * path).exp())
+        }
+    }
+}
+
+/// What a surface is in a pixel, rounded.
+struct Lit {
+    z: Rounded,
+    path: Rounded,
+    /// By which the look-up is displaced.
+    offset: [Rounded; 2],
+    /// Of what is mirrored, with the error of its direction, and of the sun's highlight.
+    share: Rounded,
+    turned: f64,
+    shine: Rounded,
+}
+
+/// A surface of an image of so many pixels a texel, of a thickness, of whose mirror image a part shows.
+fn lit(
     settings: &Settings,
     surface: &Surface,
+    texel: f64,
+    (t, part): (Rounded, Rounded),
     view: &View,
     (x, y): (usize, usize),
-    (background, env): (DVec3, DVec3),
-    filter: &Filter,
-) -> Shaded {
-    let texel = f64::from(1 << inputs.level);
+) -> Lit {
     let radius = off(settings.radius, 2.0);
     let spacing = off(settings.radius / 0.656, 1.0);
-    // Weighted means: four products, three sums, weights of 9u.
+    // Weighted means: four products, three sums, weights of 9u; the mean of two of them as much more.
     let means = if surface.parts.case == Case::Whole { 4.0 } else { 13.0 };
+    let means = if surface.parts.mixed > 0.0 { means + 26.0 } else { means };
     let z = off(-surface.position.z, means);
-    let t = off(surface.thickness, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
     let (low, high) = (off(0.6, 1.0) * spacing, off(0.9, 1.0) * spacing);
-    let drop = exact(1.0) - smoothstep(low, high, t);
+    // What has no slope of its own is no drop.
+    let drop = match surface.parts.drop {
+        0.0 => exact(0.0),
+        _ => exact(1.0) - smoothstep(low, high, t),
+    };
     let (dx, dy) = (slope(surface, 0, drop), slope(surface, 1, drop));
 
     // Scale and offset of the slopes are quotients of rounded numbers.
@@ -95,35 +128,13 @@ pub fn shaded(
     let away = dot(position, position).sqrt();
     let v = position.map(|c| -c / away);
     let path = t * away / z;
-
-    // Where the background is looked up, and what it may be there.
-    let scale = |wide: f64| t * exact(settings.refraction) / (off(wide, 2.0) * z);
+    let torn = exact(2.0) * spacing;
+    let torn = if t.v < torn.v { t } else { torn };
+    let lens = exact(settings.refraction) * mix(torn, t, off(surface.parts.found, means));
+    let scale = |wide: f64| lens / (off(wide, 2.0) * z);
     let offset = [n[0] * scale(step.x.abs()), n[1] * scale(step.y.abs())];
-    let rounding = 8.0 * U * view.extent().max_element();
-    let moved = offset[0].e.max(offset[1].e) + rounding;
-    let q = look_up(settings, surface, view, pixel);
-    let (q, _) = cut_look_up(inputs, -surface.position.z, pixel, q);
-    let by = moved + 1.0 / f64::from(1 << filter.bits);
-    let changes = changes(inputs, q);
-    let behind = [0, 1, 2].map(|i| {
-        let e = by * (changes[0][i] + changes[1][i]) + 4.0 * U * background[i].abs();
-        Rounded { v: background[i], e }
-    });
-    let medium = |i: usize| match settings.medium {
-        Medium::Physical { absorption, scattering, ambient } => {
-            let extinction = exact(absorption[i]) + exact(scattering[i]);
-            let kept = (-extinction * path).exp();
-            let least = Rounded { v: extinction.v.max(1e-9), e: extinction.e };
-            let albedo = exact(scattering[i]) / least;
-            behind[i] * kept + exact(ambient[i]) * albedo * (exact(1.0) - kept)
-        }
-        Medium::Source { base, k } => {
-            let tint = exact(base[i]) * (-exact(k[i]) * path).exp();
-            mix(tint, behind[i], (-exact(k[3]) * path).exp())
-        }
-    };
 
-    let w = smoothstep(exact(0.0), exact(0.25) * radius, t);
+    let w = part * smoothstep(exact(0.0), exact(0.25) * radius, t);
     let cosine = dot(n, v);
     let twice = exact(2.0) * cosine;
     let reflected = [0, 1, 2].map(|i| twice * n[i] - v[i]);
@@ -150,10 +161,125 @@ pub fn shaded(
     let facing = dot(n, half);
     // The shader cuts at 2^-100.
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
-    let color = [0, 1, 2].map(|i| {
-        let seen = filter.sky_slope * turned + filter.sky_error + 4.0 * U * env[i];
-        let c = mix(medium(i), Rounded { v: env[i], e: seen }, share);
-        c + w * exact(settings.specular[i]) * shine * exact(settings.sun_color[i])
+    Lit { z, path, offset, share, turned, shine: w * shine }
+}
+
+/// What a surface makes of the colour behind it.
+fn over(
+    settings: &Settings,
+    lit: &Lit,
+    behind: [Rounded; 3],
+    env: DVec3,
+    filter: &Filter,
+) -> [Rounded; 3] {
+    [0, 1, 2].map(|i| {
+        let water = through(&settings.medium, behind[i], lit.path, i);
+        let seen = filter.sky_slope * lit.turned + filter.sky_error + 4.0 * U * env[i];
+        let c = mix(water, Rounded { v: env[i], e: seen }, lit.share);
+        c + exact(settings.specular[i]) * lit.shine * exact(settings.sun_color[i])
+    })
+}
+
+/// The scene's colour where it is looked up, which may be so many pixels off.
+fn scene(
+    inputs: &Inputs<'_>,
+    at: DVec2,
+    moved: f64,
+    background: DVec3,
+    filter: &Filter,
+) -> [Rounded; 3] {
+    let by = moved + 1.0 / f64::from(1 << filter.bits);
+    let changes = changes(inputs, at);
+    [0, 1, 2].map(|i| {
+        let e = by * (changes[0][i] + changes[1][i]) + 4.0 * U * background[i].abs();
+        Rounded { v: background[i], e }
+    })
+}
+
+/// The pixel at (x, y), in the order of glsl/composite.frag. `background` and `env` are the twin's.
+pub fn shaded(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+    (x, y): (usize, usize),
+    (background, env): (DVec3, DVec3),
+    filter: &Filter,
+) -> Shaded {
+    let texel = f64::from(1 << inputs.level);
+    let t = off(surface.thickness, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
+    let lit = lit(settings, surface, texel, (t, exact(1.0)), view, (x, y));
+    let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+    let moved = lit.offset[0].e.max(lit.offset[1].e) + 8.0 * U * view.extent().max_element();
+    let q = look_up(settings, surface, view, pixel);
+    let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
+    let behind = scene(inputs, q, moved, background, filter);
+    Shaded { color: over(settings, &lit, behind, env, filter), moved }
+}
+
+/// Thickness of the front sheet, T2 and `apart`, as rounded as they are.
+fn sheets(
+    inputs: &Inputs<'_>,
+    behind: &Behind<'_>,
+    settings: &Settings,
+    shown: &Shown,
+    f: f64,
+) -> [Rounded; 3] {
+    // The mean's sums and the quotient of its weights.
+    let weight = |w: f64| off(w, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
+    let mut sums = [exact(0.0); 3];
+    let spacing = off(settings.radius / 0.656, 2.0);
+    for (i, j, w) in shown.texels.iter().copied() {
+        if !shown.parted {
+            sums[0] = sums[0] + weight(w) * exact(inputs.thickness.at(i, j));
+            continue;
+        }
+        let [front, back, window] = behind.thickness.at(i, j).map(exact);
+        let (low, high) = (off(0.1, 1.0) * spacing, off(0.6, 1.0) * spacing);
+        let other_part = smoothstep(low, high, window);
+        let air = exact(1.0) - other_part;
+        let before = f < behind.boundaries.at(i, j);
+        let (own, other) = if before { (front, back) } else { (back, front) };
+        sums[0] = sums[0] + weight(w) * (own + other_part * other);
+        sums[1] = sums[1] + weight(w) * (air * back);
+        sums[2] = sums[2] + weight(w) * air;
+    }
+    sums
+}
+
+/// The same of a pixel that may show two sheets; `envs`: of the front one and the back one.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
+pub fn shaded_both(
+    inputs: &Inputs<'_>,
+    behind: &Behind<'_>,
+    settings: &Settings,
+    shown: &Shown,
+    view: &View,
+    (x, y): (usize, usize),
+    (background, envs): (DVec3, [DVec3; 2]),
+    filter: &Filter,
+) -> Shaded {
+    let [t, t2, apart] = sheets(inputs, behind, settings, shown, inputs.depth.at(x, y));
+    let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+    let texel = |level: u32| f64::from(1 << level);
+    let front = (t, exact(1.0));
+    let front = lit(settings, &shown.front, texel(inputs.level), front, view, (x, y));
+    let mut offset = front.offset;
+    let back = shown.back.map(|back| {
+        let covered = off(back.covered, 6.0);
+        let found =
+            lit(settings, &back.surface, texel(behind.level), (t2, covered * apart), view, (x, y));
+        if back.covered > 0.0 {
+            offset = [0, 1].map(|i| offset[i] + covered * found.offset[i]);
+        }
+        found
     });
-    Shaded { color, moved }
+    let moved = offset[0].e.max(offset[1].e) + 8.0 * U * view.extent().max_element();
+    let (q, z) = look_up_both(settings, shown, view, pixel);
+    let (q, _) = cut_look_up(inputs, z, pixel, q);
+    let mut color = scene(inputs, q, moved, background, filter);
+    if let Some(back) = back {
+        color = over(settings, &back, color, envs[1], filter);
+    }
+    Shaded { color: over(settings, &front, color, envs[0], filter), moved }
 }

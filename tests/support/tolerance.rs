@@ -5,6 +5,7 @@ use glam::{DVec3, DVec4};
 
 use crate::reference::cull::frustum;
 use crate::reference::depth::hit;
+use crate::reference::sheets::Slack;
 use crate::reference::smooth::{Params, Rule, derivatives, first_form, rate};
 use crate::reference::thickness::{J, drawn_axis, kernel};
 use crate::reference::{EMPTY, Image, Sphere, View};
@@ -25,20 +26,50 @@ pub fn reach(view: &View) -> f64 {
     all.into_iter().fold(0.0, f64::max)
 }
 
-/// How far off the distance between a ray and a sphere's centre may be. The centre: the product
-/// with the view matrix, 4 products and 3 sums an axis, 7u of |p| + |t| (world and eye positions
-/// bound it). The slope: pixel·scale + offset, 2 rounded numbers and 2 operations, 4u of the image's
+/// How far off a centre's coordinate in eye space may be: the product with the view matrix, 4
+/// products and 3 sums an axis, 7u of |p| + |t| (world and eye positions bound it).
+pub fn eye_space(center: DVec3, view: &View) -> f64 {
+    let eye = view.view.inverse().w_axis.truncate().length();
+    7.0 * U * 2.0 * (center.length() + eye)
+}
+
+/// How far off a sphere's depth and the ends of its span may be. The depth: its product with the
+/// view, and the few sums of a slice. A tangent's slope is `(x z +- r sqrt(x^2 + z^2 - r^2)) /
+/// (z^2 - r^2)`: the centre's error moves it by 1 / (z - r) of it, operations by 16u of its terms and
+/// of what is left of those below; in pixels four more.
+pub fn span(sphere: &Sphere, view: &View) -> Slack {
+    let (c, r) = (sphere.center, sphere.radius);
+    let z = -c.z;
+    let from = eye_space(c, view);
+    let left = (z * z - r * r).max(f64::MIN_POSITIVE);
+    let across = c.x.abs().max(c.y.abs());
+    let terms = (across * z.abs() + r * across.hypot(z)) / left;
+    let slope = from / (z - r).max(1e-9) + 16.0 * U * terms * (z * z + r * r) / left;
+    let step = view.slope_step().abs().min_element();
+    let pixels = slope / step + 4.0 * U * (view.extent().max_element() + terms / step);
+    Slack { depth: from + 8.0 * U * z.abs(), pixels: pixels.min(1e6) }
+}
+
+/// How far off the distance between a ray and a sphere's centre may be. The slope: pixel·scale + offset, 2 rounded numbers and 2 operations, 4u of the image's
 /// reach plus its span, times the depth. w·c / w·w, c − w·along: 12 operations, 12u of |c| |w|.
 pub fn ray_distance(center: DVec3, view: &View) -> f64 {
-    let eye = view.view.inverse().w_axis.truncate().length();
-    let world = 2.0 * (center.length() + eye);
     let span = 3.0 * (1.0 + reach(view));
-    U * (7.0 * world + 4.0 * span * center.z.abs() + 12.0 * (1.0 + reach(view)) * center.length())
+    let slope = 4.0 * span * center.z.abs() + 12.0 * (1.0 + reach(view)) * center.length();
+    eye_space(center, view) + U * slope
 }
 
 /// Bounds of the depth splats: a sphere as much larger and smaller as its distance from the ray is
 /// uncertain; the root and the difference add 8u of the depth.
 pub fn depth(spheres: &[Sphere], view: &View) -> Between {
+    depth_where(spheres, view, |_, _, _| (true, true))
+}
+
+/// The same of those spheres that count at a pixel: surely, maybe.
+pub fn depth_where(
+    spheres: &[Sphere],
+    view: &View,
+    counts: impl Fn(usize, usize, &Sphere) -> (bool, bool),
+) -> Between {
     let near = view.near();
     let mut low = Image::new(view.width, view.height, EMPTY);
     let mut high = low.clone();
@@ -55,6 +86,10 @@ pub fn depth(spheres: &[Sphere], view: &View) -> Between {
         let (columns, rows) = view.footprint(center.truncate(), half, -center.z - r, -center.z + r);
         for y in rows {
             for x in columns.clone() {
+                let (surely, maybe) = counts(x, y, sphere);
+                if !maybe {
+                    continue;
+                }
                 let ray = view.ray(x, y);
                 let Some(nearest) = hit(ray, &larger).map(|t| t - slack) else { continue };
                 let farthest = hit(ray, &smaller).map(|t| t + slack);
@@ -65,7 +100,8 @@ pub fn depth(spheres: &[Sphere], view: &View) -> Between {
                     let pixel = low.at_mut(x, y);
                     *pixel = pixel.min(nearest.max(near * (1.0 - 8.0 * U)));
                 }
-                if let Some(farthest) = farthest.filter(|_| nearest >= near * (1.0 + 8.0 * U)) {
+                let certain = surely && nearest >= near * (1.0 + 8.0 * U);
+                if let Some(farthest) = farthest.filter(|_| certain) {
                     let pixel = high.at_mut(x, y);
                     *pixel = pixel.min(farthest);
                 }
@@ -183,6 +219,19 @@ pub enum Sum {
     Float,
     /// Each addend to a multiple of 2^-24 of a whole particle's amplitude; one conversion.
     Fixed,
+    /// What one such sum is more than another.
+    FixedRest,
+}
+
+impl Sum {
+    /// Half units that an addend is rounded by.
+    fn halves(self) -> f64 {
+        match self {
+            Self::Float => 0.0,
+            Self::Fixed => 1.0,
+            Self::FixedRest => 2.0,
+        }
+    }
 }
 
 /// Bounds of the thickness splats: each sprite's centre is as uncertain as its distance from the
@@ -197,6 +246,22 @@ pub fn thickness(
     volume: f64,
     radius: f64,
     sum: Sum,
+) -> Between {
+    thickness_where(spheres, full, level, scene, volume, radius, sum, |_, _, _| (1.0, 1.0))
+}
+
+/// The same of the share of each sphere that counts at a texel: least and greatest. Where a share is
+/// none no addend is made.
+#[allow(clippy::too_many_arguments)] // each is one thing of the sums
+pub fn thickness_where(
+    spheres: &[Sphere],
+    full: &View,
+    level: u32,
+    scene: &Image<f64>,
+    volume: f64,
+    radius: f64,
+    sum: Sum,
+    share: impl Fn(usize, usize, &Sphere) -> (f64, f64),
 ) -> Between {
     let view = &full.reduced(level);
     let planes = frustum(full);
@@ -225,8 +290,9 @@ pub fn thickness(
         let (columns, rows) = view.footprint(center, reach, d, d);
         for y in rows {
             for x in columns.clone() {
+                let (least_share, most_share) = share(x, y, sphere);
                 let away = (view.ray(x, y).truncate() * d - center).length();
-                if away > half + uncertain {
+                if most_share == 0.0 || away > half + uncertain {
                     continue;
                 }
                 let at = |off: f64| kernel((off / half).powi(2).min(1.0)) * amplitude;
@@ -235,19 +301,20 @@ pub fn thickness(
                 let sure = inside > uncertain
                     && d < scene.at(x, y) - slack
                     && d > near * (1.0 + 8.0 * U) + uncertain;
-                let rounding = if sum == Sum::Fixed { unit / 2.0 } else { 0.0 };
+                let rounding = sum.halves() * 0.5 * unit * most_share.max(1.0);
                 if sure {
-                    *low.at_mut(x, y) += (least * (1.0 - 40.0 * U) - rounding).max(0.0);
+                    let least = least * least_share * (1.0 - 40.0 * U);
+                    *low.at_mut(x, y) += (least - rounding).max(0.0);
                 }
                 if sure || d < scene.at(x, y) + slack {
-                    *high.at_mut(x, y) += most * (1.0 + 40.0 * U) + rounding;
+                    *high.at_mut(x, y) += most * most_share * (1.0 + 40.0 * U) + rounding;
                     *count.at_mut(x, y) += 1;
                 }
             }
         }
     }
     for i in 0..low.data.len() {
-        let n = if sum == Sum::Fixed { 4.0 } else { f64::from(count.data[i]) + 4.0 };
+        let n = if sum == Sum::Float { f64::from(count.data[i]) + 4.0 } else { 4.0 };
         low.data[i] *= 1.0 - n * U;
         high.data[i] *= 1.0 + n * U;
     }

@@ -106,13 +106,14 @@ fn attachments(formats: Formats, samples: vk::SampleCountFlags) -> Attachments {
         Attachments {
             color: Some(color(ONE, Load::CLEAR, Store::STORE)),
             depth: Some(depth(Load::LOAD, Store::STORE)),
-            resolve: None,
+            ..Attachments::default()
         }
     } else {
         Attachments {
             color: Some(color(samples, Load::CLEAR, Store::DONT_CARE)),
             depth: Some(depth(Load::CLEAR, Store::DONT_CARE)),
             resolve: Some(color(ONE, Load::DONT_CARE, Store::STORE)),
+            ..Attachments::default()
         }
     }
 }

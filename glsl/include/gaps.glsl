@@ -1,0 +1,8 @@
+// The slices of depth in which pass `gaps` looks for air, in spacings. Neighbours in water are a
+// spacing apart, in its thinner parts one and a half; two and a half are air.
+
+const float SLICE = 0.5;
+// What a sphere marks before and behind its centre.
+const float REACH = 0.75;
+// Slices that are more than a drop: one sphere marks four at most.
+const int BODY = 6;

@@ -1,0 +1,59 @@
+#version 460
+// Pass `back`, first part: which tiles of the back sheet's level have a boundary in or round them,
+// and for those the depth of what is one sheet, so that the smoothing finds its neighbours.
+// Reads: boundaries, levels, depth. Writes: back, work of the level's tiles (1: wanted).
+
+#include "frame.glsl"
+#include "level.glsl"
+#include "sheets.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(set = 0, binding = 1) uniform sampler2D depth;
+layout(set = 0, binding = 3, r32f) uniform writeonly image2D back;
+layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
+
+shared uint wanted;
+
+// A boundary in the tile or a tile's width round it, as far as smoothing reaches. No boundary is
+// alone: every eighth pixel will do.
+bool boundary_near(ivec2 corner, int edge) {
+    ivec2 extent = ivec2(frame.extent.xy);
+    ivec2 first = max((corner - 16) * edge, ivec2(0)) >> 3;
+    ivec2 last = (min((corner + 32) * edge, extent) - 1) >> 3;
+    for (int y = first.y + int(gl_LocalInvocationID.y); y <= last.y; y += 16) {
+        for (int x = first.x + int(gl_LocalInvocationID.x); x <= last.x; x += 16) {
+            if (boundary_at(min(8 * ivec2(x, y) + 4, extent - 1)) < EMPTY) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void main() {
+    Level level = levels.level[2];
+    int edge = int(level.texel.z);
+    ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16;
+    if (any(greaterThanEqual(corner, level.rect.zw))) {
+        return;
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        wanted = 0u;
+    }
+    barrier();
+    if (boundary_near(corner, edge)) {
+        wanted = 1u;
+    }
+    barrier();
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (wanted == 1u && all(lessThan(p, level.rect.zw))) {
+        ivec2 pixel = min(p * edge + edge / 2, ivec2(frame.extent.xy) - 1);
+        bool two = boundary_at(pixel) < EMPTY;
+        imageStore(back, p, vec4(two ? EMPTY : texelFetch(depth, pixel, 0).x));
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        ivec2 tile = level.rect.xy / 16 + ivec2(gl_WorkGroupID.xy);
+        tile_work[tile.y * levels.atlas.z + tile.x] = wanted;
+    }
+}

@@ -1,0 +1,85 @@
+#version 460
+// Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then which slices
+// of depth behind it hold water. The spheres' whole footprints: a cell without air is closed by
+// what lies beside its pixels too.
+// Reads: Counts, visible, nearest. Writes: nearest (1), marks (2).
+
+#include "frame.glsl"
+#include "sphere.glsl"
+#include "counts.glsl"
+#include "gaps.glsl"
+
+layout(local_size_x = 64) in;
+// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+layout(constant_id = 0) const uint LARGE = 0;
+// 0: nearest. 1: marks.
+layout(constant_id = 1) const uint MARKS = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
+// Of every cell the bits of the nearest depth, then of every cell the marked slices.
+layout(set = 0, binding = 3, std430) buffer Cells { uint cells[]; };
+
+layout(push_constant, std430) uniform Push { uint capacity; } push;
+
+void visit(uint cell, uint all, float z) {
+    if (MARKS == 0u) {
+        uint bits = floatBitsToUint(z);
+        if (bits < cells[cell]) {
+            atomicMin(cells[cell], bits);
+        }
+        return;
+    }
+    float spacing = frame.particle.y;
+    float behind = z - uintBitsToFloat(cells[cell]);
+    vec2 reach = vec2(behind - REACH * spacing, behind + REACH * spacing) / (SLICE * spacing);
+    ivec2 slices = ivec2(clamp(floor(reach), 0.0, 31.0));
+    uint bits = bitfieldInsert(0u, ~0u, slices.x, slices.y - slices.x + 1);
+    // Most find their slices marked: a read is cheaper than an atomic.
+    if ((cells[all + cell] & bits) != bits) {
+        atomicOr(cells[all + cell], bits);
+    }
+}
+
+// First and last cell; none where last < first.
+ivec4 touched(vec4 sphere) {
+    vec4 slopes;
+    if (!sphere_bounds(sphere.xyz, sphere.w, slopes)) {
+        return ivec4(0, 0, -1, -1);
+    }
+    ivec4 span = pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
+    return any(lessThan(span.zw, span.xy)) ? ivec4(0, 0, -1, -1) : span >> 3;
+}
+
+void main() {
+    int columns = (int(frame.extent.x) + 7) >> 3;
+    uint all = uint(columns * ((int(frame.extent.y) + 7) >> 3));
+    if (LARGE == 0u) {
+        uint index = gl_GlobalInvocationID.x;
+        if (index >= counts.small) {
+            return;
+        }
+        vec4 sphere = visible[index];
+        ivec4 box = touched(sphere);
+        if (box.z < box.x) {
+            return;
+        }
+        // One loop, its condition last: see thickness.comp.
+        ivec2 p = box.xy;
+        do {
+            visit(uint(p.y * columns + p.x), all, -sphere.z);
+            p = p.x < box.z ? ivec2(p.x + 1, p.y) : ivec2(box.x, p.y + 1);
+        } while (p.y <= box.w);
+        return;
+    }
+    for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
+        vec4 sphere = visible[push.capacity - 1u - i];
+        ivec4 box = touched(sphere);
+        ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
+        for (int y = box.y + lane.y; y <= box.w; y += 8) {
+            for (int x = box.x + lane.x; x <= box.z; x += 8) {
+                visit(uint(y * columns + x), all, -sphere.z);
+            }
+        }
+    }
+}

@@ -1,0 +1,25 @@
+#version 460
+// Pass `split`, last part: the arguments of `composite`, for tiles of one sheet and of two, where the
+// frame was smoothed at the configured level alone and where it was not.
+// Reads: lengths, levels. Writes: arguments: four draws, then four dispatches of groups of 8x8 pixels.
+
+#include "frame.glsl"
+#include "level.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(set = 0, binding = 1, std430) readonly buffer Lengths { uint lengths[2]; };
+layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
+
+layout(push_constant, std430) uniform Push { uint most_groups; } push;
+
+void main() {
+    Level level = levels.level[0];
+    bool configured = level.texel.w == 1.0 && level.texel.z == frame.thick_extent.w;
+    uint blocks = 2u * uint(levels.level[finer_level()].texel.z);
+    for (uint i = 0u; i < 4u; ++i) {
+        uint n = configured == (i < 2u) ? lengths[i & 1u] : 0u;
+        arguments[i] = uvec4(4u, n, 0u, 0u);
+        arguments[4u + i] = uvec4(n > 0u ? blocks * blocks : 0u, min(n, push.most_groups), 1u, n);
+    }
+}

@@ -1,0 +1,169 @@
+//! Pass `back`: the surface of the back sheet, for where the front sheet covers it.
+//!
+//! Not in the source. One level coarser than the front sheet's smoothing and one sample a texel: it
+//! is only seen through water. It joins the levels in the smoothing images, so that every form of the
+//! smoothing takes it along. Only tiles near a boundary are made.
+//! Reads: the list of `cull`, boundaries, depth. Writes: back, and for its level both smoothing
+//! images, plan, each tile's work.
+
+use ash::vk;
+
+use super::Recording;
+use super::cull::SphereList;
+use super::depth::dispatch_sprites;
+use super::gaps::Gaps;
+use super::level::Level;
+use super::reduce::{PLAN_AFTER, rule_constant};
+use super::smooth::Smooth;
+use super::tiles::{TILE, Tiles};
+use crate::contract::Config;
+use crate::error::Error;
+use crate::frame::reduced;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, buffer};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+
+/// The pass.
+pub struct Back {
+    begin: Pipeline,
+    small: Pipeline,
+    large: Pipeline,
+    plan: Pipeline,
+    /// Eye depth of the back sheet, unsmoothed.
+    pub image: Image,
+}
+
+/// What the sheet joins.
+pub struct Into<'a> {
+    pub smooth: &'a Smooth,
+    pub plan: &'a Image,
+    pub tiles: &'a Tiles,
+    pub level: &'a Level,
+}
+
+impl Back {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let rule = [(1, rule_constant(config.rule))];
+        Ok(Self {
+            begin: Pipeline::compute(gpu, shader::WATER_BACK_BEGIN_COMP, &[])?,
+            small: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 0)])?,
+            large: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 1)])?,
+            plan: Pipeline::compute(gpu, shader::WATER_BACK_PLAN_COMP, &rule)?,
+            image: Self::image(gpu, config)?,
+        })
+    }
+
+    fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
+        Image::new(
+            gpu,
+            &ImageDesc {
+                alias: Some(vk::Format::R32_UINT),
+                ..ImageDesc::new(
+                    "water/back",
+                    reduced(config.extent, config.smoothing_level + 1),
+                    vk::Format::R32_SFLOAT,
+                    vk::ImageUsageFlags::STORAGE,
+                )
+            },
+        )
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let image = Self::image(gpu, config)?;
+        retired.retire(std::mem::replace(&mut self.image, image));
+        Ok(())
+    }
+
+    /// What it joins comes as `level` left it and leaves so.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        depth: &Image,
+        list: &SphereList,
+        gaps: &Gaps,
+        into: &Into<'_>,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"back");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let Into { smooth, plan, tiles, level } = into;
+        let boundaries = Resource::buffer(&gaps.boundaries);
+        // At most; the GPU knows the level.
+        let extent = self.image.extent;
+        let groups = [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)];
+        let dispatch = || {
+            // SAFETY: outside a render pass, pipeline and set are bound.
+            unsafe { gpu.device.cmd_dispatch(cmd, groups[0], groups[1], 1) };
+        };
+        gaps.record_nearest(r)?;
+        gpu.barriers(
+            cmd,
+            &[access::image(&self.image, COMPUTE_READ.discarded(), COMPUTE_WRITE)],
+            &[buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE)],
+        );
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.begin,
+            &[
+                (0, r.uniforms),
+                (1, Resource::Sampled(depth.view, gpu.samplers.nearest)),
+                (3, Resource::storage(&self.image)),
+                (6, Resource::buffer(&tiles.work)),
+                (7, level.resource()),
+                (11, boundaries),
+            ],
+        )?;
+        dispatch();
+
+        gpu.barriers(cmd, &[access::image(&self.image, COMPUTE_WRITE, COMPUTE_READ_WRITE)], &[]);
+        let more = [
+            (3, Resource::Storage(self.image.alias_view)),
+            (4, Resource::buffer(&gaps.blocks[1])),
+            (7, level.resource()),
+            (11, boundaries),
+        ];
+        dispatch_sprites(r, list, &self.small, &self.large, &more)?;
+
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.image, COMPUTE_READ_WRITE, COMPUTE_READ),
+                access::image(&smooth.a, COMPUTE_WRITE, COMPUTE_WRITE),
+                access::image(&smooth.b, COMPUTE_WRITE, COMPUTE_WRITE),
+                access::image(plan, PLAN_AFTER, COMPUTE_WRITE),
+            ],
+            &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ_WRITE)],
+        );
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.plan,
+            &[
+                (0, r.uniforms),
+                (1, Resource::storage(&self.image)),
+                (3, Resource::storage(&smooth.a)),
+                (4, Resource::storage(&smooth.b)),
+                (5, Resource::storage(plan)),
+                (6, Resource::buffer(&tiles.work)),
+                (7, level.resource()),
+            ],
+        )?;
+        dispatch();
+        gpu.barriers(
+            cmd,
+            &[access::image(plan, COMPUTE_WRITE, PLAN_AFTER)],
+            &[buffer(tiles.work.handle, COMPUTE_READ_WRITE, COMPUTE_READ)],
+        );
+        r.end(scope);
+        Ok(())
+    }
+}

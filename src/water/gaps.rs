@@ -1,0 +1,230 @@
+//! Pass `gaps`: where water stands before water with air between.
+//!
+//! Not in the source, whose thickness and refraction take all water behind a pixel for one body
+//! (its limitation, Fig. 5.13): a drop before a pool is as dark and bends light as much as the pool.
+//! Each cell of 8×8 pixels has 32 slices of depth, from its nearest sphere on, half a spacing each.
+//! Every sphere marks those that it fills; the middle of the first ones without a mark, if there are
+//! marks behind them, is the boundary between a front sheet and a back sheet. By slices, not by
+//! sorting: atomics on two words a cell, whatever the number of particles. Boundaries are handed to
+//! the cells next to them and blended: where the sheets touch, the water that the thickness finds
+//! at the boundary makes them one, smoothly.
+//! Reads: the lists of `front` and `cull`. Writes: boundaries.
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+use gpu_allocator::MemoryLocation;
+
+use super::Recording;
+use super::cull::SphereList;
+use super::depth::dispatch_sprites;
+use crate::contract::Config;
+use crate::error::Error;
+use crate::frame::{EMPTY, reduced};
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    Access, CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, FRAGMENT_READ,
+    buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+
+/// Edge of a cell in pixels.
+const CELL: u32 = 8;
+/// Edge of a block in pixels.
+const BLOCK: u32 = 16;
+
+/// The constant of sheets.glsl.
+pub fn sheets_constant(config: &Config) -> (u32, u32) {
+    (8, config.sheets)
+}
+
+/// Readers of the boundaries: `back` and `thickness`, `composite` on either path, the host's copy.
+pub const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
+
+/// The pass.
+pub struct Gaps {
+    /// Small and large spheres.
+    nearest: [Pipeline; 2],
+    marks: [Pipeline; 2],
+    find: Pipeline,
+    spread: Pipeline,
+    texels: Pipeline,
+    farthest: Pipeline,
+    nearest_of_block: Pipeline,
+    /// Nearest depth of every cell, then its marks.
+    cells: Buffer,
+    /// Eye depth between the two sheets of each cell, as found and as spread.
+    found: Buffer,
+    spread_out: Buffer,
+    /// The same of each texel of the thickness; EMPTY where there is but one.
+    pub boundaries: Buffer,
+    /// Of each block of 16×16 pixels the farthest boundary, and the nearest once `thickness` is done.
+    pub blocks: [Buffer; 2],
+    level: u32,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Push {
+    columns: u32,
+    rows: u32,
+}
+
+fn blocks(extent: vk::Extent2D) -> vk::Extent2D {
+    vk::Extent2D { width: extent.width.div_ceil(BLOCK), height: extent.height.div_ceil(BLOCK) }
+}
+
+impl Push {
+    fn new(extent: vk::Extent2D) -> Self {
+        Self { columns: extent.width.div_ceil(CELL), rows: extent.height.div_ceil(CELL) }
+    }
+
+    fn cells(&self) -> u64 {
+        u64::from(self.columns) * u64::from(self.rows)
+    }
+}
+
+impl Gaps {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let make = |marks| {
+            let make =
+                |large| Pipeline::compute(gpu, shader::WATER_GAPS_COMP, &[(0, large), (1, marks)]);
+            Ok::<_, Error>([make(0)?, make(1)?])
+        };
+        let [cells, found, spread_out, boundaries, farthest, nearest] = Self::sized(gpu, config)?;
+        Ok(Self {
+            nearest: make(0)?,
+            marks: make(1)?,
+            find: Pipeline::compute(gpu, shader::WATER_GAPS_FIND_COMP, &[])?,
+            spread: Pipeline::compute(gpu, shader::WATER_GAPS_SPREAD_COMP, &[])?,
+            texels: Pipeline::compute(gpu, shader::WATER_GAPS_TEXELS_COMP, &[])?,
+            farthest: Pipeline::compute(gpu, shader::WATER_GAPS_BLOCKS_COMP, &[(0, 0)])?,
+            nearest_of_block: Pipeline::compute(gpu, shader::WATER_GAPS_BLOCKS_COMP, &[(0, 1)])?,
+            cells,
+            found,
+            spread_out,
+            boundaries,
+            blocks: [farthest, nearest],
+            level: config.thickness_level,
+        })
+    }
+
+    fn sized(gpu: &Gpu, config: &Config) -> Result<[Buffer; 6], Error> {
+        type Usage = vk::BufferUsageFlags;
+        let cells = Push::new(config.extent).cells();
+        let thick = reduced(config.extent, config.thickness_level);
+        let blocks = blocks(config.extent);
+        let blocks = u64::from(blocks.width) * u64::from(blocks.height);
+        let texels = u64::from(thick.width) * u64::from(thick.height);
+        let make = |name, size, usage| {
+            let usage = usage | Usage::STORAGE_BUFFER;
+            Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly)
+        };
+        Ok([
+            make("water/gaps/cells", 8 * cells, Usage::TRANSFER_DST)?,
+            make("water/gaps/found", 4 * cells, Usage::empty())?,
+            make("water/gaps/spread", 4 * cells, Usage::empty())?,
+            make("water/gaps/boundaries", 4 * texels, Usage::TRANSFER_SRC)?,
+            make("water/gaps/farthest", 4 * blocks, Usage::empty())?,
+            make("water/gaps/nearest", 4 * blocks, Usage::empty())?,
+        ])
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let [cells, found, spread_out, boundaries, farthest, nearest] = Self::sized(gpu, config)?;
+        for (old, new) in self.blocks.iter_mut().zip([farthest, nearest]) {
+            retired.retire(std::mem::replace(old, new));
+        }
+        retired.retire(std::mem::replace(&mut self.cells, cells));
+        retired.retire(std::mem::replace(&mut self.found, found));
+        retired.retire(std::mem::replace(&mut self.spread_out, spread_out));
+        retired.retire(std::mem::replace(&mut self.boundaries, boundaries));
+        Ok(())
+    }
+
+    /// The nearest sphere of a cell is among those that can show.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        front: &SphereList,
+        all: &SphereList,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"gaps");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let push = Push::new(r.extent);
+        let words = 4 * push.cells();
+        let handle = self.cells.handle;
+        gpu.barriers(cmd, &[], &[buffer(handle, COMPUTE_READ, CLEAR)]);
+        // SAFETY: outside a render pass; the frame before has read the cells (barrier).
+        unsafe {
+            gpu.device.cmd_fill_buffer(cmd, handle, 0, words, EMPTY.to_bits());
+            gpu.device.cmd_fill_buffer(cmd, handle, words, words, 0);
+        }
+        gpu.barriers(cmd, &[], &[buffer(handle, CLEAR, COMPUTE_READ_WRITE)]);
+        let bound = [(3, Resource::buffer(&self.cells))];
+        let [small, large] = &self.nearest;
+        dispatch_sprites(r, front, small, large, &bound)?;
+        gpu.barriers(cmd, &[], &[buffer(handle, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE)]);
+        let [small, large] = &self.marks;
+        dispatch_sprites(r, all, small, large, &bound)?;
+
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(handle, COMPUTE_READ_WRITE, COMPUTE_READ),
+                buffer(self.found.handle, COMPUTE_READ, COMPUTE_WRITE),
+                buffer(self.spread_out.handle, COMPUTE_READ, COMPUTE_WRITE),
+                buffer(self.boundaries.handle, READ.and(COPY_READ), COMPUTE_WRITE),
+            ],
+        );
+        let cells = vk::Extent2D { width: push.columns, height: push.rows };
+        for (pipeline, from, to, extent) in [
+            (&self.find, &self.cells, &self.found, cells),
+            (&self.spread, &self.found, &self.spread_out, cells),
+            (&self.texels, &self.spread_out, &self.boundaries, reduced(r.extent, self.level)),
+        ] {
+            let bound = [(0, r.uniforms), (1, Resource::buffer(from)), (2, Resource::buffer(to))];
+            r.descriptors.bind(gpu, cmd, pipeline, &bound)?;
+            pipeline.push(gpu, cmd, &push);
+            r.dispatch_over(extent, pipeline.local_size);
+            gpu.barriers(cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, READ)]);
+        }
+        self.dispatch_blocks(r, &self.farthest, &self.blocks[0])?;
+        r.end(scope);
+        Ok(())
+    }
+
+    /// The nearest boundaries, of those that are left.
+    pub fn record_nearest(&self, r: &Recording<'_>) -> Result<(), Error> {
+        self.dispatch_blocks(r, &self.nearest_of_block, &self.blocks[1])
+    }
+
+    fn dispatch_blocks(
+        &self,
+        r: &Recording<'_>,
+        pipeline: &Pipeline,
+        to: &Buffer,
+    ) -> Result<(), Error> {
+        r.gpu.barriers(r.cmd, &[], &[buffer(to.handle, COMPUTE_READ, COMPUTE_WRITE)]);
+        let bound =
+            [(0, r.uniforms), (1, Resource::buffer(to)), (11, Resource::buffer(&self.boundaries))];
+        r.descriptors.bind(r.gpu, r.cmd, pipeline, &bound)?;
+        r.dispatch_over(blocks(r.extent), pipeline.local_size);
+        r.gpu.barriers(r.cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, COMPUTE_READ)]);
+        Ok(())
+    }
+
+    pub fn memory(&self) -> u64 {
+        let blocks: u64 = self.blocks.iter().map(|blocks| blocks.size).sum();
+        blocks + self.cells.size + self.found.size + self.spread_out.size + self.boundaries.size
+    }
+}
