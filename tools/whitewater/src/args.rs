@@ -106,6 +106,9 @@ pub struct DrawArgs {
     /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
     pub thickness_level: u32,
+    /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
+    pub sheets: u32,
     /// How particles become pixels [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,

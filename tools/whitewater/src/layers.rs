@@ -8,12 +8,15 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 6] = [
+const GROUPS: [&str; 9] = [
     "water.depth",
     "water.surface",
     "water.iterations",
     "water.normal",
+    "water.back",
+    "water.thickness",
     "water.thickness.front",
+    "water.thickness.back",
     "scene",
 ];
 
@@ -50,14 +53,20 @@ pub fn collect(headless: &mut Headless, wanted: &[&str], lens: &Lens) -> Outcome
         push(&mut layers, name, &color.map(|v| v[c]))?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
-    for name in ["water.depth", "water.iterations", "water.thickness.front"] {
+    for name in ["water.depth", "water.back"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
-            match name {
-                "water.depth" => push(&mut layers, "water.depth.Z", &depth(picture))?,
-                _ => push(&mut layers, name, &picture)?,
-            }
+            push(&mut layers, &format!("{name}.Z"), &depth(picture))?;
+        }
+    }
+    for name in
+        ["water.iterations", "water.thickness", "water.thickness.front", "water.thickness.back"]
+    {
+        if wanted.contains(&name)
+            && let Some(picture) = headless.layer(name)?
+        {
+            push(&mut layers, name, &picture)?;
         }
     }
     let (surface, normal) = (wanted.contains(&"water.surface"), wanted.contains(&"water.normal"));

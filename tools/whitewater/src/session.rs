@@ -119,6 +119,7 @@ impl<'a> Session<'a> {
         config.max_stride = 12;
         config.smoothing_level = args.smoothing_level;
         config.thickness_level = args.thickness_level;
+        config.sheets = args.sheets;
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;

@@ -25,11 +25,19 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
         // Three small buffers; a coarser reduction, where there is one, is not counted.
         "level" => 256,
+        // Spheres in, two words a cell cleared, added to and read, three of depth written and two of
+        // those read, a texel's out.
+        "gaps" => 16 * (front + visible) + full / 64 * 4 * 11 + 4 * thick,
+        // Spheres in. What it makes for the tiles near a boundary is not counted.
+        "back" => 16 * visible,
         "tiles" => 8 * reduced / 256,
         // Each active pixel of each iteration: surface and plan in, surface out.
         "smooth" => 12 * drawn.iterations,
-        // Spheres in, sums (two words) cleared, the first added to, both read, thickness out.
-        "thickness" => 16 * visible + 24 * thick,
+        // Spheres in, sums (two words a sheet and window) cleared and read, one added to, thickness out.
+        "thickness" => {
+            let sums = if drawn.config.sheets > 1 { 3 } else { 1 };
+            16 * visible + (16 * sums + 8 + 16) * thick
+        }
         // A copy of half-float colour.
         "scene" => 16 * full,
         // Depth, thickness and surface shares, scene colour and depth in, colour out.

@@ -71,6 +71,8 @@ pub enum Path {
     QueryVertex,
     /// Smoothing: occlusion query read back by the host
     ReadBack,
+    /// One sheet of water everywhere
+    OneSheet,
     /// Composite: a render pass over the tiles
     RasterComposite,
     /// Composite: a compute shader over the tiles
@@ -106,6 +108,7 @@ impl Path {
             Self::QueryCount => config.smoothing = query(Gate::DrawCount),
             Self::QueryPredicate => config.smoothing = query(Gate::Predicate),
             Self::QueryVertex | Self::ReadBack => config.smoothing = query(Gate::VertexCull),
+            Self::OneSheet => config.sheets = 1,
             Self::RasterComposite => config.composite = Some(Shading::Raster),
             Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,

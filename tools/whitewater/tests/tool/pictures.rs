@@ -18,12 +18,15 @@ fn a_block_of_water_has_all_its_layers() {
         "G",
         "R",
         "scene.Z",
+        "water.back.Z",
         "water.depth.Z",
         "water.iterations",
         "water.normal.X",
         "water.normal.Y",
         "water.normal.Z",
         "water.surface.Z",
+        "water.thickness",
+        "water.thickness.back",
         "water.thickness.front",
     ];
     assert_eq!(names, expected);
@@ -36,13 +39,17 @@ fn a_block_of_water_has_all_its_layers() {
     assert!((surface - depth).abs() < radius, "{surface} {depth}");
     assert!(at("water.normal.Z", 48, 32) > 0.9);
     // Eight layers of 0.1.
-    let thickness = at("water.thickness.front", 48, 32);
+    let thickness = at("water.thickness", 48, 32);
     assert!((0.5..1.1).contains(&thickness), "{thickness}");
+    // A block stands before no other water.
+    assert_eq!(at("water.thickness.front", 48, 32), thickness);
+    assert_eq!(at("water.thickness.back", 48, 32), 0.0);
+    assert_eq!(at("water.back.Z", 48, 32), EMPTY);
     let ground = at("scene.Z", 48, 60);
     assert!(ground > 1.0 && ground < 3.0, "{ground}");
     assert_eq!(at("water.depth.Z", 2, 2), EMPTY);
     assert_eq!(at("scene.Z", 2, 2), EMPTY);
-    assert_eq!(at("water.thickness.front", 2, 2), 0.0);
+    assert_eq!(at("water.thickness", 2, 2), 0.0);
     assert!(exr.channels.iter().all(|c| c.data.iter().all(|v| v.is_finite())));
     for name in ["version", "adapter", "driver", "camera", "settings", "input"] {
         assert!(exr.attributes.iter().any(|(n, v)| n == name && !v.is_empty()), "{name}");
