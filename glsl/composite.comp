@@ -16,10 +16,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[]; };
-layout(push_constant, std430) uniform Push {
-    uint first; // of the list
-    uint which; // of the arguments
-} push;
+layout(push_constant, std430) uniform Push { uint first; } push; // of the list
 
 void shade_pixel(ivec2 pixel) {
     if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
@@ -40,7 +37,7 @@ void shade_block(int tile, int block) {
 }
 
 void main() {
-    uint tiles = arguments[push.which].w;
+    uint tiles = arguments[(CONFIGURED == 1u ? 4u : 6u) + SHEETS - 1u].w;
     uint i = gl_WorkGroupID.y;
     // The condition last: after one at the top a CPU runs the rest once more, for no invocation.
     // No group is without a tile.

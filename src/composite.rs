@@ -5,7 +5,6 @@
 //! output. Thesis Sec. 3.3 and 4.10; see glsl/include/shade.glsl for what differs.
 
 use ash::vk;
-use bytemuck::{Pod, Zeroable};
 
 use crate::contract::Config;
 use crate::error::Error;
@@ -47,13 +46,6 @@ pub struct Surroundings {
 /// [Fresnel::Schlick, Fresnel::Source]: of one sheet and of two at the configured level, and at any
 /// other; in the order of the arguments of `split`.
 type Pipelines = [[Option<Pipeline>; 4]; 2];
-
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Push {
-    first: u32,
-    which: u32,
-}
 
 enum Path {
     Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
@@ -184,7 +176,7 @@ impl Composite {
                 for (i, pipeline) in (0..).zip(&pipelines[fresnel]) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    pipeline.push(gpu, cmd, &Push { first: middle * (i % 2), which: i });
+                    pipeline.push(gpu, cmd, &(middle * (i % 2)));
                     let draw = 16 * u64::from(i);
                     // SAFETY: inside the render pass; the arguments are visible since `split`.
                     unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
@@ -207,15 +199,15 @@ impl Composite {
                 for (i, pipeline) in (0..).zip(&pipelines[fresnel]) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    let which = 4 + i;
-                    pipeline.push(gpu, cmd, &Push { first: middle * (i % 2), which });
+                    pipeline.push(gpu, cmd, &(middle * (i % 2)));
+                    let dispatch = 16 * u64::from(4 + i);
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 {
                             // All may write the output for all that a validation layer knows.
                             gpu.device.cmd_pipeline_barrier2(cmd, &written);
                         }
-                        gpu.device.cmd_dispatch_indirect(cmd, arguments, 16 * u64::from(which));
+                        gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);
                     }
                 }
                 gpu.barriers(cmd, &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED), &[]);
