@@ -1,5 +1,5 @@
 // The thickness kernel: N_z exp(-2 rho^2), N_z = sqrt(1 - rho^2) (thesis Listing A.15; Eq. 3.4
-// lacks the square). Its integral over the unit disc is pi J, J = 0.3400030.
+// lacks the square). Its integral over the unit disc is pi J, J = 0.3400030. Needs frame.glsl.
 
 // Parts of a whole particle's amplitude that the compute path counts in: as fine as a float's own,
 // so that of a sprite widened from a hundredth of a pixel still 1700 are left.
@@ -23,4 +23,24 @@ float drawn_axis(float axis, float depth, vec4 slope, out float widened) {
     float drawn = max(axis, least);
     widened = drawn * drawn / (axis * axis);
     return drawn;
+}
+
+// Metres of a sum: its low word and its carries.
+float metres(uvec2 sum) {
+    return (float(sum.y) * 4294967296.0 + float(sum.x)) * (frame.particle.w / UNITS);
+}
+
+// Water in the window per water where there is no boundary: more than enough for one sheet.
+const float ONE_SHEET = 1.0e6;
+
+// What a sprite's centre at a depth adds to: front sheet, back sheet, the window between them, whose
+// water says that they are one.
+vec3 sheet_shares(float z, float boundary) {
+    if (boundary >= EMPTY) {
+        return vec3(1.0, 0.0, ONE_SHEET);
+    }
+    float spacing = frame.particle.y;
+    float off = z - boundary;
+    float back = smoothstep(-0.5 * spacing, 0.5 * spacing, off);
+    return vec3(1.0 - back, back, 1.0 - smoothstep(0.5 * spacing, spacing, abs(off)));
 }

@@ -49,7 +49,7 @@ ivec4 behind_boundary(vec4 sphere, ivec4 box, int edge) {
     ivec2 most = ivec2(frame.extent.xy) - 1;
     ivec4 touched = ivec4(min(box.xy * edge + (edge >> 1), most), min(box.zw * edge + (edge >> 1), most)) >> BLOCK_BITS;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two loops: what one with its condition last carries out, lavapipe 22.3 loses.
+    // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-sphere.z >= blocks[y * columns + x]) {

@@ -83,7 +83,7 @@ ivec4 before_boundary(vec4 sphere, ivec4 box) {
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of the texels of a block
     ivec4 touched = box >> bits;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Two loops: what one with its condition last carries out, lavapipe 22.3 loses.
+    // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-sphere.z < blocks[y * columns + x] + frame.particle.y) {

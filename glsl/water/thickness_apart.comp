@@ -12,13 +12,6 @@ layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D sheets;
 layout(set = 0, binding = 11, std430) buffer Boundaries { float boundaries[]; };
 
-const float ONE_SHEET = 1.0e6; // as in sheets.glsl
-
-float metres(uint at) {
-    vec2 sum = vec2(sums[at]);
-    return (sum.y * 4294967296.0 + sum.x) * (frame.particle.w / UNITS);
-}
-
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(p, ivec2(frame.thick_extent.xy)))) {
@@ -26,9 +19,9 @@ void main() {
     }
     uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
-    float all = metres(at);
-    float front = metres(at + texels);
-    float window = metres(at + 2u * texels);
+    float all = metres(sums[at]);
+    float front = metres(sums[at + texels]);
+    float window = metres(sums[at + 2u * texels]);
     // In fixed point one sheet's is the whole, or zero.
     bool two = boundaries[at] < EMPTY && front > 0.0 && front < all;
     imageStore(sheets, p, two ? vec4(front, all - front, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));

@@ -13,7 +13,6 @@ void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(p, ivec2(frame.thick_extent.xy)))) {
         uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
-        vec2 sum = vec2(sums[at]);
-        imageStore(thickness, p, vec4((sum.y * 4294967296.0 + sum.x) * (frame.particle.w / UNITS)));
+        imageStore(thickness, p, vec4(metres(sums[at])));
     }
 }

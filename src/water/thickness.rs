@@ -17,7 +17,7 @@ use gpu_allocator::MemoryLocation;
 use super::Recording;
 use super::cull::SphereList;
 use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};
-use super::gaps::{self, Gaps, sheets_constant};
+use super::gaps::{self, Gaps};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::reduced;
@@ -76,9 +76,8 @@ impl Thickness {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let image = Self::image(gpu, config)?;
         let sheets = Self::sheets(gpu, config)?;
-        let compute = |shader, large, apart| {
-            Pipeline::compute(gpu, shader, &[(0, large), (1, apart), sheets_constant(config)])
-        };
+        let compute =
+            |shader, large, apart| Pipeline::compute(gpu, shader, &[(0, large), (1, apart)]);
         let path = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
                 let formats: Vec<_> = [Some(&image), sheets.as_ref()]

@@ -31,12 +31,15 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         // Spheres in. What it makes for the tiles near a boundary is not counted.
         "back" => 16 * visible,
         "tiles" => 8 * reduced / 256,
+        // The list in and out, boundaries in.
+        "split" => 8 * reduced / 256 + if drawn.config.sheets > 1 { 4 * thick } else { 0 },
         // Each active pixel of each iteration: surface and plan in, surface out.
         "smooth" => 12 * drawn.iterations,
-        // Spheres in, sums (two words a sheet and window) cleared and read, one added to, thickness out.
+        // Spheres in, sums (two words) cleared, the first added to, both read, thickness out; of two
+        // sheets two sums more, the first read again, both sheets out, boundaries in and out.
         "thickness" => {
-            let sums = if drawn.config.sheets > 1 { 3 } else { 1 };
-            16 * visible + (16 * sums + 8 + 16) * thick
+            let apart = if drawn.config.sheets > 1 { 32 + 8 + 16 + 8 } else { 0 };
+            16 * visible + (24 + apart) * thick
         }
         // A copy of half-float colour.
         "scene" => 16 * full,
