@@ -1,5 +1,5 @@
 //! The command line of `whitewater`: particle caches in, pictures out.
-#![cfg_attr(test, allow(clippy::unwrap_used))]
+#![cfg_attr(test, allow(clippy::unwrap_used))] // a test may
 
 mod args;
 mod bench;
