@@ -4,5 +4,8 @@
 const float SLICE = 0.5;
 // What a sphere marks before and behind its centre.
 const float REACH = 0.75;
+// What it marks beside its silhouette, less half a cell: all within a spacing of the cell's middle.
+// Else a cell much smaller than the spheres looks through between those of one body.
+const float BESIDE = 0.35;
 // Slices that are more than a drop: one sphere marks four at most.
 const int BODY = 6;

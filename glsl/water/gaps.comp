@@ -47,7 +47,9 @@ ivec4 touched(vec4 sphere) {
     if (!sphere_bounds(sphere.xyz, sphere.w, slopes)) {
         return ivec4(0, 0, -1, -1);
     }
-    ivec4 span = pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
+    vec2 beside = max(BESIDE * frame.particle.y / (frame.texel.xy * -sphere.z) - 4.0, 0.0);
+    vec4 bounds = pixel_bounds(slopes, frame.slope) + vec4(-beside, beside);
+    ivec4 span = pixel_span(bounds, frame.extent.xy);
     return any(lessThan(span.zw, span.xy)) ? ivec4(0, 0, -1, -1) : span >> 3;
 }
 

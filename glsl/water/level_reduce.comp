@@ -16,6 +16,7 @@ layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
+#include "block.glsl"
 #include "reduction.glsl"
 
 shared uint most;
@@ -41,6 +42,7 @@ void main() {
                 z = min(z, imageLoad(depth, ivec2(x, y)).x);
             }
         }
+        z = block_depth(block * edge, end, z);
         float count;
         uint planned = plan_pixel(z, ray_slope(vec2(block) + 0.5, level.slope), level.texel.xy, count);
         ivec2 p = level.rect.xy + block;

@@ -1,6 +1,7 @@
 #version 460
 // Pass `reduce`: hides water behind the scene, takes the nearest surface of each block of pixels
-// and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1, Listing A.12).
+// (but no drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1,
+// Listing A.12).
 // Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan,
 // work of every tile (its most iterations + 1; 0 without water), how many pixels pass the cap.
 
@@ -22,13 +23,14 @@ layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
 
 layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a row
 
+#include "block.glsl"
 #include "reduction.glsl"
 
 shared uint most;
 shared uint tile_over[4];
 
-// Nearest surface of the block in front of the scene.
-float nearest(ivec2 block) {
+// Depth of the block in front of the scene.
+float reduced(ivec2 block) {
     ivec2 extent = ivec2(frame.extent.xy);
     float best = EMPTY;
     for (int y = 0; y < (1 << LEVEL); ++y) {
@@ -49,7 +51,8 @@ float nearest(ivec2 block) {
             }
         }
     }
-    return best;
+    // A pixel is no less than a quarter of four.
+    return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 
 void main() {
@@ -60,7 +63,7 @@ void main() {
     barrier();
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(block, ivec2(frame.extent.zw)))) {
-        float z = nearest(block);
+        float z = reduced(block);
         float count;
         vec2 slope = ray_slope(vec2(block) + 0.5, frame.reduced_slope);
         uint planned = plan_pixel(z, slope, frame.texel.zw, count);

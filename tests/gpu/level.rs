@@ -43,7 +43,7 @@ fn draw(gpu: &Gpu, config: &Config) -> Drawn {
 /// Iterations of all pixels of a level without a cap, most first.
 fn wanted(drawn: &Drawn, level: u32) -> Vec<u32> {
     let shot = shot();
-    let reduced = reference::reduce::reduce(&wide(&drawn.depth), level);
+    let reduced = reference::reduce::reduce(&wide(&drawn.depth), level, shot.falloff());
     let view = shot.view(extent(SIZE.0, SIZE.1)).reduced(level);
     let uncapped = params(&shot, u32::MAX);
     let plan = smooth::plan(&reduced, &view, smooth::Rule::ConstantWidth, &uncapped);
@@ -205,7 +205,8 @@ fn small_images_go_coarser_too() {
                     finer.rect[2..].iter().map(|v| *v as u32).collect::<Vec<_>>(),
                     [width.div_ceil(edge), height.div_ceil(edge)]
                 );
-                let expected = reference::reduce::reduce(&wide(&drawn.depth), edge.ilog2());
+                let expected =
+                    reference::reduce::reduce(&wide(&drawn.depth), edge.ilog2(), shot.falloff());
                 let covered = |image: &[f64]| image.iter().filter(|z| **z < 1e9).count();
                 let surface = wide(&drawn.surface);
                 assert!(edge > 1 << level, "{width}x{height} at {level}: {edge}");

@@ -39,7 +39,7 @@ fn each_block_keeps_its_nearest_surface() {
             let points = scenes::cloud(11, 300, 1.0, 9.0);
             let shot = Shot::new(size, Lens::Reversed, 0.12, &points);
             let drawn = unsmoothed(&mut rig, &shot);
-            let expected = reference::reduce::reduce(&wide(&drawn.depth), level);
+            let expected = reference::reduce::reduce(&wide(&drawn.depth), level, shot.falloff());
             let name = format!("reduce-{width}x{height}-{level}");
             compare::same(&name, &drawn.surface, &narrow(&expected));
             assert!(
@@ -75,7 +75,7 @@ fn what_the_scene_hides_is_gone() {
                 }
             }
             compare::same(&name, &drawn.depth, &narrow(&expected));
-            let reduced = reference::reduce::reduce(&wide(&drawn.depth), 1);
+            let reduced = reference::reduce::reduce(&wide(&drawn.depth), 1, shot.falloff());
             compare::same(&format!("{name}-reduced"), &drawn.surface, &narrow(&reduced));
             let hidden = (open.depth.data.iter().zip(&drawn.depth.data))
                 .filter(|(a, b)| a.to_bits() != b.to_bits())
@@ -189,7 +189,7 @@ fn the_plan_is_the_twins() {
                 let shot = Shot::new(size, lens, radius, &scenes::cloud(9, 300, 1.0, 30.0));
                 let drawn = rig.draw(&shot);
                 let params = params(&shot, cap);
-                let reduced = reference::reduce::reduce(&wide(&drawn.depth), level);
+                let reduced = reference::reduce::reduce(&wide(&drawn.depth), level, shot.falloff());
                 let view = shot.view(size).reduced(level);
                 let found = decoded(&drawn, twin, &params);
                 let name = format!("{rule:?} {lens:?} level {level}");

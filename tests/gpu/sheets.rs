@@ -219,7 +219,9 @@ fn single_precision(shot: &Shot) -> Image<f32> {
             let reach = radius * (across * across + h).sqrt();
             let slopes = [(across * z - reach) / h, (across * z + reach) / h];
             let [a, b] = slopes.map(|slope| (slope * focal - shift + 1.0) * 0.5 * extent);
-            let (low, high) = (a.min(b) - GROWN as f32, a.max(b) + GROWN as f32);
+            let beside = (0.35 * s * 0.5 * extent * focal.abs() / z - 4.0).max(0.0);
+            let grown = GROWN as f32 + beside;
+            let (low, high) = (a.min(b) - grown, a.max(b) + grown);
             ((low - 0.5).ceil().max(0.0), (high - 0.5).floor().min(extent - 1.0))
         };
         let (left, right) = along(c.x, p.x_axis.x, p.z_axis.x, width);
@@ -281,7 +283,7 @@ fn certain_texels_stay_in_all_of_the_slack() {
                 let slack = tolerance::span(&sphere, &view);
                 sphere.center.z -= signed(slack.depth);
                 let grown = GROWN + signed(slack.pixels);
-                (-sphere.center.z, sheets::span(&sphere, &view, grown))
+                (-sphere.center.z, sheets::counted(&sphere, &view, spacing(&shot), grown))
             };
             let moved: Vec<_> = spheres.iter().map(&mut moved).collect();
             let other = sheets::boundaries_of(moved.into_iter(), &view, spacing(&shot));
@@ -728,7 +730,7 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
             texel: [view.c_x() as f32, view.c_y() as f32, (1 << level) as f32, 1.0],
         };
     }
-    let reduced = crate::reference::reduce::reduce(&wide(&depth), smoothing_level);
+    let reduced = crate::reference::reduce::reduce(&wide(&depth), smoothing_level, shot.falloff());
     let sheets = Sheets {
         boundaries: narrow(&texels),
         thickness: thickness.map(|texel| texel.map(|t| t as f32)),

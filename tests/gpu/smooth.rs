@@ -37,7 +37,7 @@ fn the_surface_is_the_twins() {
                 let drawn = rig.draw(&shot);
                 let params = params(&shot, config.max_iterations);
                 let view = shot.view(size).reduced(level);
-                let reduced = reference::reduce::reduce(&wide(&drawn.depth), level);
+                let reduced = reference::reduce::reduce(&wide(&drawn.depth), level, shot.falloff());
                 let plan = decoded(&drawn, twin, &params);
                 let (expected, error) = tolerance::smoothing(&reduced, &plan, &view, twin, &params);
                 let name = format!("smooth-{rule:?}-{level}-{lens:?}").replace(['(', ')'], "");

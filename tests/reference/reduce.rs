@@ -1,5 +1,6 @@
 //! Twin of the reduction before the smoothing (section 5): what the scene hides is cut away, then
-//! the nearest surface of each block of `2^level` pixels is kept.
+//! the nearest surface of each block of `2^level` pixels is kept, unless it is less than a quarter
+//! of the block's water: then the one behind it.
 
 use super::{EMPTY, Image};
 
@@ -14,14 +15,22 @@ pub fn clip(depth: &Image<f64>, scene_eye_depth: Option<&Image<f64>>) -> Image<f
     })
 }
 
-/// The nearest depth of each block; at the right and lower border a block may be partly outside.
-pub fn reduce(depth: &Image<f64>, level: u32) -> Image<f64> {
+/// The depth of each block; at the right and lower border a block may be partly outside. Depths are
+/// those of `f32`, and so is `falloff`: two lie on one surface if they differ by it at most. The sum
+/// is rounded as on the device.
+pub fn reduce(depth: &Image<f64>, level: u32, falloff: f32) -> Image<f64> {
     let block = 1_usize << level;
     Image::from_fn(depth.width.div_ceil(block), depth.height.div_ceil(block), |x, y| {
         let columns = x * block..((x + 1) * block).min(depth.width);
-        (y * block..((y + 1) * block).min(depth.height))
-            .flat_map(|row| columns.clone().map(move |column| (column, row)))
-            .fold(EMPTY, |nearest, (column, row)| nearest.min(depth.at(column, row)))
+        let water: Vec<f64> = (y * block..((y + 1) * block).min(depth.height))
+            .flat_map(|row| columns.clone().map(move |column| depth.at(column, row)))
+            .filter(|z| *z < EMPTY)
+            .collect();
+        let nearest = water.iter().copied().fold(EMPTY, f64::min);
+        let last = f64::from(nearest as f32 + falloff);
+        let (own, behind): (Vec<f64>, Vec<f64>) = water.iter().partition(|z| **z <= last);
+        let few = 4 * own.len() < water.len();
+        if few { behind.into_iter().fold(EMPTY, f64::min) } else { nearest }
     })
 }
 
@@ -40,10 +49,22 @@ mod tests {
     #[test]
     fn a_block_keeps_its_nearest_surface() {
         let depth = Image::from_fn(5, 3, |x, y| if x < 2 { EMPTY } else { (x * 10 + y) as f64 });
-        let half = reduce(&depth, 1);
+        let half = reduce(&depth, 1, 0.5);
         assert_eq!((half.width, half.height), (3, 2));
         assert_eq!(half.data, [EMPTY, 20.0, 40.0, EMPTY, 22.0, 42.0]);
-        assert_eq!(reduce(&depth, 2).data, [20.0, 40.0]);
-        assert_eq!(reduce(&depth, 0), depth);
+        assert_eq!(reduce(&depth, 2, 2.5).data, [20.0, 40.0]);
+        assert_eq!(reduce(&depth, 0, 0.5), depth);
+    }
+
+    #[test]
+    fn a_drop_does_not_stand_for_a_block() {
+        let drop = |pixels: usize| {
+            Image::from_fn(4, 4, |x, y| if 4 * y + x < pixels { 1.0 } else { 5.0 + x as f64 })
+        };
+        assert_eq!(reduce(&drop(3), 2, 0.5).data, [5.0]);
+        assert_eq!(reduce(&drop(4), 2, 0.5).data, [1.0]);
+        // Of one surface with what is behind it is no drop.
+        assert_eq!(reduce(&drop(3), 2, 4.0).data, [1.0]);
+        assert_eq!(reduce(&drop(1), 1, 0.5).data, [1.0, 7.0, 5.0, 7.0]);
     }
 }

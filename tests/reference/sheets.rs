@@ -1,7 +1,7 @@
 //! Twin of the sheets: where one body of water stands before another with air between, each texel of
 //! the thickness has a boundary, the eye depth between the centres of the front sheet and of the back
-//! one. With `s` the spacing and `z` the eye depth of a centre, the spheres that touch a cell of 8x8
-//! pixels mark the slices of `s / 2` from the nearest of them on that lie in `z - 0.75 s ..
+//! one. With `s` the spacing and `z` the eye depth of a centre, the spheres whose box, grown by what
+//! 0.35 s are there beyond four pixels, touches a cell of 8x8 pixels mark the slices of `s / 2` from the nearest of them on that lie in `z - 0.75 s ..
 //! z + 0.75 s`, 32 slices in all (what lies farther is in the last). Unmarked slices with marked ones
 //! behind them are air. The boundary is the middle of the first air before a body, six marked slices
 //! or all to the last one, else of the first air. It is spread to the cells round, and interpolated.
@@ -9,6 +9,7 @@
 use super::depth::splat_where;
 use super::thickness::{self, Amplitude};
 use super::{EMPTY, Image, Sphere, View, is_surface, smoothstep};
+use glam::DVec2;
 use std::ops::Range;
 
 /// Edge of a cell in pixels.
@@ -22,6 +23,8 @@ pub const TILE: usize = 16;
 pub const GROWN: f64 = 1.0 / 64.0;
 /// Depth from a centre that its sphere marks, in spacings.
 const REACH: f64 = 0.75;
+/// What a sphere counts for beside its box, in spacings, less half a cell.
+const BESIDE: f64 = 0.35;
 /// A slice, in spacings.
 const SLICE: f64 = 0.5;
 /// Marked slices of a body.
@@ -42,6 +45,17 @@ pub type Part = (Range<usize>, Range<usize>);
 /// pixels; none where the projection has no bounds. The tangents through the eye lie at `asin(r / l)`
 /// to either side of the centre's direction, in the planes of x and of y, at its distance l there.
 pub fn span(sphere: &Sphere, view: &View, grown: f64) -> Option<Part> {
+    span_with(sphere, view, DVec2::splat(grown))
+}
+
+/// The pixels whose cells a sphere counts in.
+pub fn counted(sphere: &Sphere, view: &View, spacing: f64, grown: f64) -> Option<Part> {
+    let texel = DVec2::new(view.c_x(), view.c_y()) * -sphere.center.z;
+    let beside = BESIDE * spacing / texel - 0.5 * CELL as f64;
+    span_with(sphere, view, grown + beside.max(DVec2::ZERO))
+}
+
+fn span_with(sphere: &Sphere, view: &View, grown: DVec2) -> Option<Part> {
     let (c, d) = (sphere.center, -sphere.center.z);
     if d <= UNBOUNDED * sphere.radius {
         return None;
@@ -51,15 +65,15 @@ pub fn span(sphere: &Sphere, view: &View, grown: f64) -> Option<Part> {
         ((middle - half).tan(), (middle + half).tan())
     };
     let ((left, right), (low, high)) = (tangents(c.x), tangents(c.y));
-    let a = view.pixel_of_slope(glam::DVec2::new(left, low));
-    let b = view.pixel_of_slope(glam::DVec2::new(right, high));
+    let a = view.pixel_of_slope(DVec2::new(left, low));
+    let b = view.pixel_of_slope(DVec2::new(right, high));
     // A negative focal length swaps the two. The casts saturate.
-    let range = |a: f64, b: f64, extent: usize| {
+    let range = |a: f64, b: f64, grown: f64, extent: usize| {
         let first = (a.min(b) - grown - 0.5).ceil().max(0.0) as usize;
         let past = ((a.max(b) + grown - 0.5).floor() + 1.0).max(0.0) as usize;
         first.min(extent)..past.min(extent).max(first.min(extent))
     };
-    Some((range(a.x, b.x, view.width), range(a.y, b.y, view.height)))
+    Some((range(a.x, b.x, grown.x, view.width), range(a.y, b.y, grown.y, view.height)))
 }
 
 /// The cells of a part of the pixels.
@@ -170,7 +184,8 @@ pub fn of_texels(cells: &Image<f64>, full: &View, level: u32) -> Image<f64> {
 /// The boundary of each cell, [`EMPTY`] where it holds one sheet or none. `spheres`: those that the
 /// culling leaves.
 pub fn boundaries(spheres: &[Sphere], view: &View, spacing: f64) -> Image<f64> {
-    let spans = spheres.iter().map(|sphere| (-sphere.center.z, span(sphere, view, GROWN)));
+    let spans =
+        spheres.iter().map(|sphere| (-sphere.center.z, counted(sphere, view, spacing, GROWN)));
     boundaries_of(spans, view, spacing)
 }
 
@@ -272,7 +287,8 @@ pub fn judged(
             moved.center.z -= by * slack.depth;
             moved
         });
-        let spans = |grown: f64| moved.map(|sphere| span(&sphere, view, grown).map(cells_of));
+        let spans =
+            |grown: f64| moved.map(|sphere| counted(&sphere, view, spacing, grown).map(cells_of));
         let everywhere = |spans: [Option<Part>; 3]| {
             let parts = spans.into_iter().collect::<Option<Vec<_>>>()?;
             let common = |pick: fn(&Part) -> &Range<usize>| {

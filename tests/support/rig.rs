@@ -76,6 +76,11 @@ impl Shot {
         shot
     }
 
+    /// The farthest apart that two depths of one surface are, as the renderer rounds it.
+    pub fn falloff(&self) -> f32 {
+        self.settings.water.depth_falloff * self.settings.water.radius()
+    }
+
     /// A frame of it over its own scene, with slot 0.
     pub fn frame(&self, output: HostImage, depth: HostImage, particles: Particles) -> Frame<'_> {
         Frame {

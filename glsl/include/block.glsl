@@ -1,0 +1,20 @@
+// What stands for a block of pixels in the smoothing. Needs frame.glsl and the image `depth`.
+
+// The depth that stands for a block of pixels: that of its nearest surface, but where that is less
+// than a quarter of the block's water of the one behind it. A drop would hide a texel's worth of
+// the pool from the smoothing; it is drawn by its own shape anyway.
+float block_depth(ivec2 first, ivec2 end, float nearest) {
+    float second = EMPTY;
+    int own = 0;
+    int wet = 0;
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            float z = imageLoad(depth, ivec2(x, y)).x;
+            bool same = z <= nearest + frame.surface.w;
+            own += same ? 1 : 0;
+            wet += z < EMPTY ? 1 : 0;
+            second = same ? second : min(second, z);
+        }
+    }
+    return 4 * own < wet ? second : nearest;
+}
