@@ -1,7 +1,8 @@
 #version 460
 // Pass `composite`, compute: shades the pixels with water of the tiles' groups. A tile is 16 texels
-// of its level wide, up to 512 pixels: groups of 8x8 pixels share it. More tiles than a dispatch
-// may have groups share those.
+// of its level wide, up to 512 pixels: groups of 8x8 pixels share it. Tiles lie in the second and the
+// third dimension of the dispatch: one may be too short for all, and a loop over tiles round all this
+// took one driver ten seconds to compile.
 // Reads: what shade.glsl reads, tile list and arguments. Writes: output.
 
 #include "frame.glsl"
@@ -38,11 +39,9 @@ void shade_block(int tile, int block) {
 
 void main() {
     uint tiles = arguments[(CONFIGURED == 1u ? 4u : 6u) + SHEETS - 1u].w;
-    uint i = gl_WorkGroupID.y;
-    // The condition last: after one at the top a CPU runs the rest once more, for no invocation.
-    // No group is without a tile.
-    do {
+    uint i = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
+    // The last row of tiles may be short.
+    if (i < tiles) {
         shade_block(int(list[push.first + i]), int(gl_WorkGroupID.x));
-        i += gl_NumWorkGroups.y;
-    } while (i < tiles);
+    }
 }

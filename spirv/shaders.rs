@@ -335,10 +335,10 @@ pub const WATER_SPLIT_COMP: Shader = Shader {
 pub const WATER_SPLIT_END_COMP: Shader = Shader {
     name: "water/split_end.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.split_end.comp.spv"))); &CODE.0 },
-    push_size: 4,
+    push_size: 0,
     local_size: [1, 1, 1],
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::UNIFORM_BUFFER), ],
-    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Lengths", "lengths", 0), ("Arguments", "arguments", 0), ("Push", "most_groups", 0), ],
+    members: &[("Level", "rect", 0), ("Level", "slope", 16), ("Level", "texel", 32), ("Levels", "level", 0), ("Levels", "atlas", 144), ("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Lengths", "lengths", 0), ("Arguments", "arguments", 0), ],
 };
 /// `water/thickness.comp`
 pub const WATER_THICKNESS_COMP: Shader = Shader {

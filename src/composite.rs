@@ -16,7 +16,8 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
-use crate::water::settings::{Fresnel, Shading};
+use crate::water::coarsening;
+use crate::water::settings::Shading;
 use crate::water::{Recording, WaterLayers};
 
 /// As fast as compute on lavapipe (docs/performance.md); GPUs are still to be measured.
@@ -39,13 +40,11 @@ pub struct Surroundings {
     pub scene_color: Resource,
     /// What it reflects, a cube.
     pub environment: Resource,
-    /// Chooses the pipeline.
-    pub fresnel: Fresnel,
 }
 
-/// [Fresnel::Schlick, Fresnel::Source]: of one sheet and of two at the configured level, and at any
-/// other; in the order of the arguments of `split`.
-type Pipelines = [[Option<Pipeline>; 4]; 2];
+/// Of one sheet and of two at the configured level, and at any other; in the order of the arguments
+/// of `split`. None of what the configuration rules out.
+type Pipelines = [Option<Pipeline>; 4];
 
 enum Path {
     Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
@@ -66,15 +65,11 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
-    let make = |schlick, configured, sheets| {
-        (sheets <= config.sheets)
-            .then(|| make(&[(0, thickness), (1, schlick), (2, configured), (8, sheets)]))
-            .transpose()
+    let make = |configured: u32, sheets: u32| {
+        let wanted = sheets <= config.sheets && (configured == 1 || coarsening(config) > 0);
+        wanted.then(|| make(&[(0, thickness), (2, configured), (8, sheets)])).transpose()
     };
-    let all = |schlick| {
-        Ok([make(schlick, 1, 1)?, make(schlick, 1, 2)?, make(schlick, 0, 1)?, make(schlick, 0, 2)?])
-    };
-    Ok([all(1)?, all(0)?])
+    Ok([make(1, 1)?, make(1, 2)?, make(0, 1)?, make(0, 2)?])
 }
 
 impl Composite {
@@ -166,14 +161,13 @@ impl Composite {
             (11, boundaries),
             (12, Resource::Sampled(layers.sheets.unwrap_or(layers.thickness).view, nearest)),
         ];
-        let fresnel = usize::from(!matches!(around.fresnel, Fresnel::Schlick { .. }));
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();
         // Of the pipelines half have nothing to do at the level.
         match &self.path {
             Path::Raster { pass, pipelines } => {
                 gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);
-                for (i, pipeline) in (0..).zip(&pipelines[fresnel]) {
+                for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
                     pipeline.push(gpu, cmd, &(middle * (i % 2)));
@@ -196,7 +190,7 @@ impl Composite {
                     .dst_stage_mask(COMPUTE_WRITE.stage)
                     .dst_access_mask(COMPUTE_WRITE.access)];
                 let written = vk::DependencyInfo::default().memory_barriers(&written);
-                for (i, pipeline) in (0..).zip(&pipelines[fresnel]) {
+                for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
                     pipeline.push(gpu, cmd, &(middle * (i % 2)));

@@ -210,7 +210,6 @@ impl Renderer {
                 area: frame.output.rect,
                 scene_color: Resource::Sampled(scene_color, gpu.samplers.linear),
                 environment: Resource::Sampled(self.environment.cube.view, gpu.samplers.linear),
-                fresnel: frame.settings.water.fresnel,
             },
             &self.water.layers(),
         )?;

@@ -7,7 +7,6 @@
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
-layout(constant_id = 1) const uint SCHLICK = 1;
 // 1: the surface is smoothed at the configured level alone. A pipeline each, not a branch: a CPU
 // would run both sides.
 layout(constant_id = 2) const uint CONFIGURED = 1;
@@ -157,13 +156,12 @@ vec3 through_medium(vec3 background, float path) {
     return background * kept + frame.ambient.rgb * albedo * (1.0 - kept);
 }
 
+// Both powers, and one of them taken: a pipeline each for so little would double their number.
 float fresnel(float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
-    if (SCHLICK == 1u) {
-        float x2 = x * x;
-        return frame.fresnel.x + frame.fresnel.y * x2 * x2 * x;
-    }
-    return clamp(frame.fresnel.x + frame.fresnel.y * pow(x, frame.fresnel.z), 0.0, 1.0);
+    float x2 = x * x;
+    float power = frame.fresnel.z == 5.0 ? x2 * x2 * x : pow(x, frame.fresnel.z);
+    return clamp(frame.fresnel.x + frame.fresnel.y * power, 0.0, 1.0);
 }
 
 // What a sheet of water does to the light from behind it.

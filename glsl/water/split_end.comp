@@ -11,7 +11,8 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 1, std430) readonly buffer Lengths { uint lengths[2]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
-layout(push_constant, std430) uniform Push { uint most_groups; } push;
+// Tiles in the second dimension of a dispatch.
+const uint ROW = 64u;
 
 void main() {
     Level level = levels.level[0];
@@ -20,6 +21,6 @@ void main() {
     for (uint i = 0u; i < 4u; ++i) {
         uint n = configured == (i < 2u) ? lengths[i & 1u] : 0u;
         arguments[i] = uvec4(4u, n, 0u, 0u);
-        arguments[4u + i] = uvec4(n > 0u ? blocks * blocks : 0u, min(n, push.most_groups), 1u, n);
+        arguments[4u + i] = uvec4(blocks * blocks, min(n, ROW), (n + ROW - 1u) / ROW, n);
     }
 }

@@ -10,7 +10,7 @@ use gpu_allocator::MemoryLocation;
 use super::Recording;
 use super::gaps::{Gaps, sheets_constant};
 use super::level::{Atlas, Level};
-use super::tiles::{ALL_TILES, MOST_GROUPS, Tiles};
+use super::tiles::{ALL_TILES, Tiles};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -133,7 +133,6 @@ impl Split {
                 (7, level.resource()),
             ],
         )?;
-        self.end.push(gpu, cmd, &MOST_GROUPS);
         // SAFETY: as above.
         unsafe { gpu.device.cmd_dispatch(cmd, 1, 1, 1) };
         gpu.barriers(

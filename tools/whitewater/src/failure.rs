@@ -68,6 +68,9 @@ impl Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
+            Error::BadInput { field: "Config.extent", .. } => Self::usage(format!(
+                "{error}; that is --size times --supersample: make either smaller"
+            )),
             // What fixes images and pipelines comes from flags.
             Error::BadInput { field, .. } if field.starts_with("Config.") => {
                 Self::usage(error.to_string())

@@ -44,58 +44,104 @@ pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
         .collect()
 }
 
-/// Reads the beauty and the layers that are wanted back from the device.
-pub fn collect(headless: &mut Headless, wanted: &[&str], lens: &Lens) -> Outcome<Layers> {
+/// What one pixel makes of the samples it was drawn with.
+#[derive(Clone, Copy)]
+enum Merge {
+    Mean,
+    /// Of depths: what is before the rest.
+    Nearest,
+    Most,
+}
+
+impl Merge {
+    fn of(self, samples: impl Iterator<Item = f32>, count: usize) -> f32 {
+        match self {
+            Self::Mean => samples.sum::<f32>() / count as f32,
+            Self::Nearest => samples.fold(EMPTY, f32::min),
+            Self::Most => samples.fold(0.0, f32::max),
+        }
+    }
+}
+
+/// A picture that is no wider than `width`: squares of its pixels become one. It is a whole number
+/// of times as large, or smaller.
+fn merged(picture: &Picture<f32>, width: usize, merge: Merge) -> Picture<f32> {
+    let n = (picture.width / width).max(1);
+    let row = |y: usize, x: usize| &picture.data[y * picture.width + x * n..][..n];
+    let pixel = |x: usize, y: usize| {
+        merge.of((y * n..(y + 1) * n).flat_map(|y| row(y, x).iter().copied()), n * n)
+    };
+    let (width, height) = (picture.width / n, picture.height / n);
+    let data = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
+}
+
+/// Reads the beauty and the layers that are wanted back from the device; `size`: of the picture,
+/// which was drawn a power of two times as large.
+pub fn collect(
+    headless: &mut Headless,
+    size: (u32, u32),
+    wanted: &[&str],
+    lens: &Lens,
+) -> Outcome<Layers> {
+    let (width, height) = (size.0 as usize, size.1 as usize);
+    let mut layers = Layers::new(width, height);
+    let mut push = |name: &str, picture: &Picture<f32>, merge| -> Outcome<()> {
+        let picture = merged(picture, width, merge);
+        Ok(layers.push(name, picture.width, picture.height, picture.data)?)
+    };
     let color = headless.color()?;
-    let size = (color.width as u32, color.height as u32);
-    let mut layers = Layers::new(color.width, color.height);
     for (c, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
-        push(&mut layers, name, &color.map(|v| v[c]))?;
+        push(name, &color.map(|v| v[c]), Merge::Mean)?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
     for name in ["water.depth", "water.back"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
-            push(&mut layers, &format!("{name}.Z"), &depth(picture))?;
+            push(&format!("{name}.Z"), &depth(picture), Merge::Nearest)?;
         }
     }
-    for name in
-        ["water.iterations", "water.thickness", "water.thickness.front", "water.thickness.back"]
-    {
+    for (name, merge) in [
+        ("water.iterations", Merge::Most),
+        ("water.thickness", Merge::Mean),
+        ("water.thickness.front", Merge::Mean),
+        ("water.thickness.back", Merge::Mean),
+    ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
-            push(&mut layers, name, &picture)?;
+            push(name, &picture, merge)?;
         }
     }
     let (surface, normal) = (wanted.contains(&"water.surface"), wanted.contains(&"water.normal"));
     if (surface || normal)
         && let Some(picture) = headless.layer("water.surface")?
     {
-        let picture = depth(picture);
+        let picture = merged(&depth(picture), width, Merge::Nearest);
         if normal {
             // Texels of a reduced surface are a power of two pixels wide.
-            let texel = (size.0 as usize).div_ceil(picture.width).next_power_of_two() as f32;
+            let texel = width.div_ceil(picture.width).next_power_of_two() as f32;
             let slope = lens.slope(size, texel);
             let xyz = normals(&picture.data, picture.width, picture.height, slope);
             for (axis, data) in ["X", "Y", "Z"].into_iter().zip(xyz) {
-                let name = format!("water.normal.{axis}");
-                layers.push(&name, picture.width, picture.height, data)?;
+                let (width, height) = (picture.width, picture.height);
+                push(
+                    &format!("water.normal.{axis}"),
+                    &Picture { width, height, data },
+                    Merge::Mean,
+                )?;
             }
         }
         if surface {
-            push(&mut layers, "water.surface.Z", &picture)?;
+            push("water.surface.Z", &picture, Merge::Nearest)?;
         }
     }
     if wanted.contains(&"scene") {
-        push(&mut layers, "scene.Z", &headless.scene_depth()?.map(|z| lens.eye_depth(*z)))?;
+        let depth = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
+        push("scene.Z", &depth, Merge::Nearest)?;
     }
     Ok(layers)
-}
-
-fn push(layers: &mut Layers, name: &str, picture: &Picture<f32>) -> Outcome<()> {
-    Ok(layers.push(name, picture.width, picture.height, picture.data.clone())?)
 }
 
 /// Particles of a z-up world, turned to y up.
@@ -109,6 +155,19 @@ pub fn turn_up(positions: &mut [[f32; 3]]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn samples_become_pixels() {
+        let picture =
+            Picture { width: 4, height: 2, data: vec![1.0, 2.0, EMPTY, 4.0, 3.0, 6.0, 7.0, 8.0] };
+        let of = |merge| merged(&picture, 2, merge).data;
+        assert_eq!(of(Merge::Nearest), [1.0, 4.0]);
+        assert_eq!(of(Merge::Most), [6.0, EMPTY]);
+        assert_eq!(of(Merge::Mean)[0], 3.0);
+        // What is smaller stays.
+        assert_eq!(merged(&picture, 4, Merge::Mean), picture);
+        assert_eq!(merged(&picture, 9, Merge::Mean), picture);
+    }
 
     #[test]
     fn layer_names_are_understood() {

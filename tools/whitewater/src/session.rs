@@ -112,7 +112,9 @@ impl<'a> Session<'a> {
             })?,
         };
         let args = self.args;
-        let extent = vk::Extent2D { width: args.size.0, height: args.size.1 };
+        let [width, height] =
+            [args.size.0, args.size.1].map(|n| n.saturating_mul(args.supersample));
+        let extent = vk::Extent2D { width, height };
         // Sequences grow: a quarter more than is needed now.
         let room = count.saturating_add(count / 4).max(1024);
         let mut config = Config::new(extent, COLOR_FORMAT, room);
@@ -164,8 +166,9 @@ impl<'a> Session<'a> {
             headless.render(&self.camera, &self.look.settings, &Background::Scene)
         })?;
         times.passes(number, headless.timings());
-        let layers = times
-            .step("read back", number, || layers::collect(headless, &self.wanted, &self.lens))?;
+        let layers = times.step("read back", number, || {
+            layers::collect(headless, self.args.size, &self.wanted, &self.lens)
+        })?;
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {
             let first = first.split_whitespace().collect::<Vec<_>>().join(" ");

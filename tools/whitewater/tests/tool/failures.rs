@@ -69,7 +69,7 @@ fn bad_command_lines_are_code_2() {
     let folder = Folder::new();
     folder.particles("a.ply", block(3));
     folder.run("render a.ply -o out.jpg").fails(2, &[".exr or .png", "out.jpg"]);
-    folder.run("render a.ply -o out.png --size 200000x10").fails(2, &["200000"]);
+    folder.run("render a.ply -o out.png --size 200000x10").fails(2, &["400000", "--supersample"]);
     folder.run("render a.ply -o out.png --sun 0,0,0").fails(2, &["--sun"]);
     for arguments in [
         "",
@@ -77,6 +77,7 @@ fn bad_command_lines_are_code_2() {
         "render a.ply",
         "render a.ply -o o.png --size 0x3",
         "render a.ply -o o.png --thickness-level 4",
+        "render a.ply -o o.png --supersample 3",
         "render a.ply -o o.png --radius -1",
         "render a.ply -o o.png --eye 0,0,1",
         "render a.ply -o o.png --rule fast",
