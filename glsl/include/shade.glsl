@@ -179,6 +179,12 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t) {
     vec3 n;
     surface_frame(surface, slope, position, n);
 
+    // No more water than there is room: sprites are wider than what they stand for. So water ends
+    // where it meets the scene, and bends nothing that it touches.
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    // A mean of EMPTY may round to less.
+    t = scene > 0.0 && surface.z < 0.5 * EMPTY ? min(t, max(scene - surface.z, 0.0)) : t;
+
     Sheet sheet;
     float away = length(position);
     vec3 v = -position / away;

@@ -1361,7 +1361,7 @@ fn check_picture(
         let front = -shown.front.position.z;
         let mut unsure = shown.front.parts.margin <= 40.0 * U * (front + falloff);
         if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
-            let (z, scene) = (-back.surface.position.z, two.scene(x, y));
+            let (z, scene) = (-back.surface.position.z, inputs.scene(x, y));
             let near = 40.0 * U * (back.nearest + falloff);
             unsure |= shown.front.parts.margin <= near || (z - scene).abs() <= 40.0 * U * z;
         }

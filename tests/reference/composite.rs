@@ -83,6 +83,17 @@ pub struct Inputs<'a> {
     pub scene_depth: &'a Image<f64>,
 }
 
+impl Inputs<'_> {
+    /// The scene's depth at a pixel.
+    pub fn scene(&self, x: usize, y: usize) -> f64 {
+        let (scene, depth) = (self.scene_depth, self.depth);
+        let texel = |i: usize, texels: usize, pixels: usize| {
+            ((i as f64 + 0.5) * texels as f64 / pixels as f64) as usize
+        };
+        scene.at(texel(x, scene.width, depth.width), texel(y, scene.height, depth.height))
+    }
+}
+
 /// The look.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
@@ -358,7 +369,7 @@ impl<'a> Two<'a> {
         let level = inputs.thickness_level;
         let boundary = boundaries.at(x >> level, y >> level);
         let parted = is_surface(boundary);
-        let (mut t, mut apart, mut t2, mut barely) = (one.thickness, 0.0, 0.0, false);
+        let (mut t, mut apart, mut t2, mut barely) = (one.parts.full, 0.0, 0.0, false);
         if parted {
             t = 0.0;
             for (i, j, weight) in texels.iter().copied() {
@@ -379,8 +390,10 @@ impl<'a> Two<'a> {
             let there = is_surface(nearest);
             let own = if there { nearest } else { f };
             let found = backs.smooth(x, y, own, &mut margin);
-            let surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
-            let hidden = found.z >= self.scene(x, y);
+            let mut surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
+            // Without a depth of its own it has all the room.
+            surface.thickness = if there { surface.thickness } else { t2 };
+            let hidden = found.z >= inputs.scene(x, y);
             let covered = if there && !hidden { found.found } else { 0.0 };
             back = Some(Back { surface, covered, apart, nearest });
         } else if fronts.is_covered(x, y, f, &mut margin) {
@@ -399,15 +412,6 @@ impl<'a> Two<'a> {
         let mut front = fronts.made_of((x, y), &smooth, t, Some(f), margin);
         (front.parts.borrowed, front.parts.mixed) = (borrowed, mixed);
         Some(Shown { front, back, texels, parted, barely })
-    }
-
-    /// The scene's depth at a pixel.
-    pub fn scene(&self, x: usize, y: usize) -> f64 {
-        let (scene, depth) = (self.inputs.scene_depth, self.inputs.depth);
-        let texel = |i: usize, texels: usize, pixels: usize| {
-            ((i as f64 + 0.5) * texels as f64 / pixels as f64) as usize
-        };
-        scene.at(texel(x, scene.width, depth.width), texel(y, scene.height, depth.height))
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Surface {
     pub position: DVec3,
     /// Its normal, towards the eye.
     pub normal: DVec3,
-    /// The thickness along z.
+    /// The thickness along z, no more than there is room before the scene.
     pub thickness: f64,
     /// What of it refracts: where the surface is torn no more than two spacings.
     pub lens: f64,
@@ -38,7 +38,9 @@ pub struct Parts {
     pub smooth: [DVec2; 2],
     /// Of the unsmoothed depth, as above.
     pub sphere: [DVec2; 2],
-    /// How much of a drop it is, 0 to 1.
+    /// The thickness if there were room for it.
+    pub full: f64,
+    /// How much of a drop it is by that, 0 to 1.
     pub drop: f64,
     /// The thickness is of texels on other surfaces.
     pub borrowed: bool,
@@ -322,7 +324,7 @@ impl<'a> Surfaces<'a> {
         &self,
         (x, y): (usize, usize),
         smooth: &Smooth,
-        thickness: f64,
+        full: f64,
         depth: Option<f64>,
         margin: f64,
     ) -> Surface {
@@ -334,7 +336,7 @@ impl<'a> Surfaces<'a> {
             sphere = self.raw.at(x, y).slope;
             sphere[0] = self.not_steep(sphere[0], depth, 0);
             sphere = sphere.map(|s| s * texel);
-            drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, thickness);
+            drop = 1.0 - smoothstep(0.6 * spacing, 0.9 * spacing, full);
         }
         let Smooth { z, slope: smooth, case, found, .. } = *smooth;
         let slope = smooth[0].lerp(sphere[0], drop);
@@ -342,7 +344,8 @@ impl<'a> Surfaces<'a> {
         let d = slope / (self.view.slope_step() * texel);
         let normal = DVec3::new(d.x, d.y, z + ray.x * d.x + ray.y * d.y).normalize();
         let parts =
-            Parts { case, smooth, sphere, drop, borrowed: false, found, mixed: 0.0, margin };
+            Parts { case, smooth, sphere, full, drop, borrowed: false, found, mixed: 0.0, margin };
+        let thickness = full.min((self.inputs.scene(x, y) - z).max(0.0));
         let torn = thickness.min(2.0 * spacing);
         let lens = torn + (thickness - torn) * found;
         Surface { position: ray * z, normal, thickness, lens, parts }

@@ -87,6 +87,7 @@ struct Lit {
 
 /// A surface of an image of so many pixels a texel, of a thickness, of whose mirror image a part shows.
 fn lit(
+    inputs: &Inputs<'_>,
     settings: &Settings,
     surface: &Surface,
     texel: f64,
@@ -107,6 +108,13 @@ fn lit(
         _ => exact(1.0) - smoothstep(low, high, t),
     };
     let (dx, dy) = (slope(surface, 0, drop), slope(surface, 1, drop));
+    // The scene's depth: a rounded quotient of what two numbers of the projection are off.
+    let room = (off(inputs.scene(x, y), 8.0) - z).clamp(0.0, f64::MAX);
+    let (own, limited) = (t.e, surface.thickness < surface.parts.full);
+    let t = if limited { room } else { t };
+    // Rounding may take either.
+    let near = room.e.is_finite() && (surface.parts.full - room.v).abs() <= own + room.e;
+    let t = if near { Rounded { e: own.max(room.e), ..t } } else { t };
 
     // Scale and offset of the slopes are quotients of rounded numbers.
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
@@ -207,8 +215,8 @@ pub fn shaded(
     filter: &Filter,
 ) -> Shaded {
     let texel = f64::from(1 << inputs.level);
-    let t = off(surface.thickness, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
-    let lit = lit(settings, surface, texel, (t, exact(1.0)), view, (x, y));
+    let t = off(surface.parts.full, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
+    let lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
     let moved = lit.offset[0].e.max(lit.offset[1].e) + 8.0 * U * view.extent().max_element();
     let q = look_up(settings, surface, view, pixel);
@@ -263,12 +271,19 @@ pub fn shaded_both(
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
     let texel = |level: u32| f64::from(1 << level);
     let front = (t, exact(1.0));
-    let front = lit(settings, &shown.front, texel(inputs.level), front, view, (x, y));
+    let front = lit(inputs, settings, &shown.front, texel(inputs.level), front, view, (x, y));
     let mut offset = front.offset;
     let back = shown.back.map(|back| {
         let covered = off(back.covered, 6.0);
-        let found =
-            lit(settings, &back.surface, texel(behind.level), (t2, covered * apart), view, (x, y));
+        let found = lit(
+            inputs,
+            settings,
+            &back.surface,
+            texel(behind.level),
+            (t2, covered * apart),
+            view,
+            (x, y),
+        );
         if back.covered > 0.0 {
             offset = [0, 1].map(|i| offset[i] + covered * found.offset[i]);
         }
