@@ -94,7 +94,9 @@
 //! - Iterations are planned per pixel before the first, so that all forms do the same work; the
 //!   occlusion query's decision stays on the GPU.
 //! - Thickness is in metres of water: the integral of a sprite is the particle's volume.
-//! - Refraction bends towards the normal, as light does (the thesis has the sign the other way).
+//! - Refraction bends towards the normal, as light does (the thesis has the sign the other way), and
+//!   looks no farther than a sixteenth of the picture's height: torn water would be a mosaic.
+//! - There is no more water than there is room before the scene: it ends softly where it meets it.
 //! - Where one body of water stands before another with air between, a drop before a pool say, each
 //!   has its own thickness and surface ([`Config::sheets`]); the thesis takes both for one (its
 //!   limitation, Fig. 5.13).

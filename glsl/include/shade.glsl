@@ -123,6 +123,16 @@ bool hidden_at(vec2 q, float z) {
     return hidden || any(notEqual(inside, q));
 }
 
+// Farthest that the look-up goes, in heights of the picture. In torn water neighbours look far into
+// other directions: what comes back is a mosaic.
+const float MOST_BENT = 1.0 / 16.0;
+
+// An offset in pixels, brought smoothly below the farthest.
+vec2 bent(vec2 offset) {
+    vec2 share = offset / (MOST_BENT * frame.extent.y);
+    return offset * inversesqrt(1.0 + dot(share, share));
+}
+
 // Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
 // The look-up goes half the way to where that begins or the view ends, and no farther: dropping
 // the offset there would leave a seam, going all the way would smear what lies at the edge.
@@ -274,7 +284,7 @@ vec3 shade(vec2 pixel, float front) {
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     Sheet sheet = sheet_of(surface, pixel, t);
-    vec3 c = refracted(pixel, sheet.offset + back.offset, max(surface.z, beyond));
+    vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     if (back.path > 0.0) {
         c = over(back, c);
     }

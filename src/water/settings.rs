@@ -78,7 +78,8 @@ pub struct WaterSettings {
     pub medium: Medium,
     /// Fresnel reflectance.
     pub fresnel: Fresnel,
-    /// Strength of the refraction's displacement, [0, ∞), default 0.25.
+    /// Strength of the refraction's displacement, [0, ∞), default 0.25; it tends to a sixteenth of
+    /// the picture's height.
     pub refraction: f32,
     /// Strength of the sun's highlight, [0, ∞), default 1.
     pub specular: f32,

@@ -117,13 +117,23 @@ pub struct Settings {
     pub sun_color: [f64; 3],
 }
 
-/// Where the background is looked up, in pixels: displaced by refraction. Light bends towards the
-/// water's normal, so the look-up moves against it.
-pub fn look_up(settings: &Settings, surface: &Surface, view: &View, pixel: DVec2) -> DVec2 {
+/// By how many pixels a surface displaces the background. Light bends towards the water's normal, so
+/// the look-up moves against it.
+fn displacement(settings: &Settings, surface: &Surface, view: &View) -> DVec2 {
     // Pixels per length at z, signed as the image's axes run.
     let scale = 1.0 / (view.slope_step() * -surface.position.z);
-    let offset = -surface.normal.truncate() * surface.lens * settings.refraction * scale;
-    pixel + offset
+    -surface.normal.truncate() * surface.lens * settings.refraction * scale
+}
+
+/// A displacement that tends to a sixteenth of the picture's height at most.
+pub fn bent(by: DVec2, view: &View) -> DVec2 {
+    let most = view.height as f64 / 16.0;
+    by * most / by.length().hypot(most)
+}
+
+/// Where the background is looked up, in pixels: displaced by refraction.
+pub fn look_up(settings: &Settings, surface: &Surface, view: &View, pixel: DVec2) -> DVec2 {
+    pixel + bent(displacement(settings, surface, view), view)
 }
 
 /// Whether a position is beyond the view, or any of the four texels of the scene's depth round it
@@ -418,14 +428,13 @@ impl<'a> Two<'a> {
 /// Where the scene is looked up through both sheets, before it is cut, and the depth that nothing may
 /// stand before.
 pub fn look_up_both(settings: &Settings, shown: &Shown, view: &View, pixel: DVec2) -> (DVec2, f64) {
-    let offset = |surface| look_up(settings, surface, view, pixel) - pixel;
-    let (mut at, mut z) = (pixel + offset(&shown.front), -shown.front.position.z);
+    let (mut by, mut z) = (displacement(settings, &shown.front, view), -shown.front.position.z);
     // What hides it at the pixel hides all of it.
     if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
-        at += back.covered * offset(&back.surface);
+        by += back.covered * displacement(settings, &back.surface, view);
         z = z.max(-back.surface.position.z);
     }
-    (at, z)
+    (pixel + bent(by, view), z)
 }
 
 /// The colour of a pixel that shows water: the front sheet over the back one over the scene, which is
@@ -604,7 +613,9 @@ mod tests {
         let found = shade(&scene.inputs(0), &settings, BLACK, &view).at(32, 32);
         // Left and, as the image runs down, down: -beta T n / (C z).
         let shift = 3.0 * 0.25 / (10.0 * 2.0 / (65.0 * 2.0));
-        let expected = [32.0 - n.x * shift, 32.0 + n.y * shift];
+        let by = DVec2::new(-n.x, n.y) * shift;
+        // Four pixels of 65 are the most: this comes to 0.97 of what it would be.
+        let expected = 32.0 + by / (1.0 + by.length_squared() * (16.0_f64 / 65.0).powi(2)).sqrt();
         for axis in [0, 1] {
             assert!((found[axis] / fresnel(n.z) - expected[axis]).abs() < 0.02, "{found:?}");
         }
@@ -795,7 +806,9 @@ mod tests {
         // Pixels per length at depth 1.
         let scale = 65.0;
         let by = |n: DVec3, t: f64, z: f64| DVec2::new(-n.x, n.y) * t * 0.25 * scale / z;
-        let expected = 32.0 + by(normals[0], 2.0, 10.0) + by(normals[1], 8.0, 20.0);
+        let both = by(normals[0], 2.0, 10.0) + by(normals[1], 8.0, 20.0);
+        let share = both.length() * 16.0 / 65.0;
+        let expected = 32.0 + both / share.hypot(1.0);
         let found = DVec2::new(found[0], found[1]);
         assert!((found - expected).length() < 0.02, "{found}, not {expected}");
         assert!((expected - 32.0 - by(normals[0], 2.0, 10.0)).length() > 1.0, "one of them only");

@@ -85,6 +85,12 @@ struct Lit {
     shine: Rounded,
 }
 
+/// By how many pixels the look-up may be off. What brings the offset below the farthest does not
+/// stretch its error; it and the place add 16u of the picture.
+fn moved(offset: [Rounded; 2], view: &View) -> f64 {
+    offset[0].e.hypot(offset[1].e) + 16.0 * U * view.extent().max_element()
+}
+
 /// A surface of an image of so many pixels a texel, of a thickness, of whose mirror image a part shows.
 fn lit(
     inputs: &Inputs<'_>,
@@ -218,7 +224,7 @@ pub fn shaded(
     let t = off(surface.parts.full, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
     let lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-    let moved = lit.offset[0].e.max(lit.offset[1].e) + 8.0 * U * view.extent().max_element();
+    let moved = moved(lit.offset, view);
     let q = look_up(settings, surface, view, pixel);
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
@@ -289,7 +295,7 @@ pub fn shaded_both(
         }
         found
     });
-    let moved = offset[0].e.max(offset[1].e) + 8.0 * U * view.extent().max_element();
+    let moved = moved(offset, view);
     let (q, z) = look_up_both(settings, shown, view, pixel);
     let (q, _) = cut_look_up(inputs, z, pixel, q);
     let mut color = scene(inputs, q, moved, background, filter);
