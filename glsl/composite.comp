@@ -24,7 +24,7 @@ void shade_pixel(ivec2 pixel) {
         return;
     }
     float front = texelFetch(depth, pixel, 0).x;
-    if (front < EMPTY) {
+    if (front < EMPTY || foam_there(pixel)) {
         imageStore(target, pixel + ivec2(frame.target.xy), vec4(shade(vec2(pixel) + 0.5, front), 1.0));
     }
 }

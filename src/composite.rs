@@ -65,9 +65,10 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
+    let foam = u32::from(config.foam);
     let make = |configured: u32, sheets: u32| {
         let wanted = sheets <= config.sheets && (configured == 1 || coarsening(config) > 0);
-        wanted.then(|| make(&[(0, thickness), (2, configured), (8, sheets)])).transpose()
+        wanted.then(|| make(&[(0, thickness), (2, configured), (8, sheets), (9, foam)])).transpose()
     };
     Ok([make(1, 1)?, make(1, 2)?, make(0, 1)?, make(0, 2)?])
 }
@@ -146,6 +147,7 @@ impl Composite {
         let nearest = gpu.samplers.nearest;
         // Where there are none they are not read: any buffer will do.
         let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
+        let foam = layers.foam.unwrap_or([layers.thickness; 2]);
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(layers.smoothed.view, nearest)),
@@ -160,6 +162,8 @@ impl Composite {
             (10, Resource::buffer(&layers.split.arguments)),
             (11, boundaries),
             (12, Resource::Sampled(layers.sheets.unwrap_or(layers.thickness).view, nearest)),
+            (13, Resource::Sampled(foam[0].view, nearest)),
+            (14, Resource::Sampled(foam[1].view, nearest)),
         ];
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();
@@ -179,7 +183,8 @@ impl Composite {
             }
             Path::Compute { pipelines } => {
                 let images = [layers.smoothed, layers.depth, layers.thickness];
-                let images: Vec<_> = images.into_iter().chain(layers.sheets).collect();
+                let foam = layers.foam.into_iter().flatten();
+                let images: Vec<_> = images.into_iter().chain(layers.sheets).chain(foam).collect();
                 let hand = |from, to| -> Vec<_> {
                     images.iter().map(|image| access::image(image, from, to)).collect()
                 };

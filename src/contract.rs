@@ -9,7 +9,9 @@ use gpu_allocator::vulkan::Allocator;
 
 use crate::error::Error;
 pub use crate::gpu::access::Access;
-use crate::water::settings::{FoamSettings, Rule, Shading, Smoothing, Splat, WaterSettings};
+use crate::water::settings::{
+    FoamLook, FoamSettings, Rule, Shading, Smoothing, Splat, WaterSettings,
+};
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
 pub struct Host<'a> {
@@ -95,6 +97,9 @@ pub struct Config {
     /// drop before a pool: 1 as the source, or 2 (default). Each has its own thickness, the farther
     /// one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
     pub sheets: u32,
+    /// Foam is drawn (default: not): the passes `foam`, and the particles' water shrinks by what of
+    /// them is foam. 52 bytes a particle more.
+    pub foam: bool,
     /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// The output is the scene's colour image itself (default): it is copied before it is written
@@ -122,6 +127,7 @@ impl Config {
             max_iterations: 256,
             coarsening: 3,
             sheets: 2,
+            foam: false,
             environment_size: 256,
             in_place: true,
             keep_layers: false,
@@ -236,6 +242,18 @@ pub struct Packets {
     pub count: u32,
 }
 
+/// The foam of particles, in their order. Only read.
+#[derive(Clone, Copy, Debug)]
+pub struct Foam {
+    /// Share that is foam (0 water to 1 foam, NaN: water) and age (seconds), 2×f32: what
+    /// [`State::foam`](crate::State::foam) holds, at a stride of 8.
+    pub amounts: Stream,
+    /// World velocities, 3×f32, scene units a second.
+    pub velocities: Stream,
+    /// Numbers that follow the particles (u32), for the noise in their sprites; `None`: their place.
+    pub ids: Option<Stream>,
+}
+
 /// The particles of one frame. Only read.
 #[derive(Clone, Copy, Debug)]
 pub struct Particles {
@@ -248,6 +266,8 @@ pub struct Particles {
     pub count: Count,
     /// Groups to cull by instead of each particle.
     pub packets: Option<Packets>,
+    /// What of them is foam, with [`Config::foam`]; `None`: nothing is.
+    pub foam: Option<Foam>,
     /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
     /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
     pub before: Access,
@@ -325,6 +345,8 @@ impl Frame<'_> {
 pub struct Settings {
     /// Layered water.
     pub water: WaterSettings,
+    /// Foam in it.
+    pub foam: FoamLook,
     /// Light on it.
     pub light: Light,
 }
@@ -338,6 +360,8 @@ pub struct Light {
     pub color: [f32; 3],
     /// Mean radiance of the environment, linear RGB, [0, ∞): lights what the water scatters.
     pub ambient: [f32; 3],
+    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞): lights the foam.
+    pub irradiance: [f32; 3],
 }
 
 impl Default for Light {
@@ -346,6 +370,7 @@ impl Default for Light {
             direction: [0.408_248_3, 0.816_496_6, 0.408_248_3],
             color: [4.0, 3.8, 3.4],
             ambient: [0.35, 0.45, 0.6],
+            irradiance: [3.6, 3.5, 3.4],
         }
     }
 }

@@ -43,6 +43,10 @@ pub struct FrameUniforms {
     pub sun_direction: [f32; 4],
     pub sun_color: [f32; 4],
     pub ambient: [f32; 4],
+    pub foam: [f32; 4],
+    pub foam_noise: [f32; 4],
+    pub foam_back: [f32; 4],
+    pub foam_front: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -74,6 +78,10 @@ shader::assert_layout!(
         sun_direction,
         sun_color,
         ambient,
+        foam,
+        foam_noise,
+        foam_back,
+        foam_front,
     }
 );
 
@@ -210,6 +218,7 @@ impl FrameUniforms {
             _ => 0.0,
         };
         let (medium_a, medium_b) = medium(&water.medium);
+        let look = &frame.settings.foam;
         let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
         Self {
             view: lens.view.to_cols_array_2d(),
@@ -265,8 +274,18 @@ impl FrameUniforms {
             sun_direction: sun.extend(0.0).to_array(),
             sun_color: light_vector(light.color),
             ambient: light_vector(light.ambient),
+            foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
+            foam_noise: [look.noise, look.noise_rate, 0.0, 0.0],
+            foam_back: foam_color(look.back_color, light),
+            foam_front: foam_color(look.front_color, light),
         }
     }
+}
+
+/// Radiance of foam of an albedo: its bubbles face all ways, together as level ground.
+fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
+    let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
+    [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
 }
 
 fn light_vector(c: [f32; 3]) -> [f32; 4] {
@@ -315,7 +334,7 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     if !direction.is_finite() || direction == glam::Vec3::ZERO {
         return Err(Error::bad("Settings.light", format!("direction {direction}: no direction")));
     }
-    for value in light.color.into_iter().chain(light.ambient) {
+    for value in light.color.into_iter().chain(light.ambient).chain(light.irradiance) {
         at_least("Settings.light", value, 0.0)?;
     }
     Ok(())

@@ -33,6 +33,7 @@
 //! | `particles.densities` | f32; 0 marks a particle just emitted | as above | as above |
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, to cull by | storage buffer, aligned offset | as above |
+//! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]), world velocities (3×f32), ids (u32) | as above | as above |
 //! | `camera` | view and projection: perspective, standard or reversed, finite or infinite, off-axis, looking down −z or +z | | |
 //!
 //! # Promises
@@ -47,7 +48,7 @@
 //!   `collect` when every slot that used it has come back. Only construction, `resize`,
 //!   `reconfigure`, `collect` and `destroy` lock the allocator.
 //! - Equal inputs give equal pictures on one device, but for the order of additive blending in
-//!   [`Splat::Raster`](water::Splat) (the compute path sums integers).
+//!   [`Splat::Raster`](water::Splat) and of foam (the compute path sums integers).
 //!
 //! # Demands
 //!
@@ -78,6 +79,8 @@
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
+//! | foam: depth, thickness, what water is before it (`foam`) | 5¼ w h | 4.6 MiB | 10.4 MiB |
+//! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! # Where it differs from its sources
@@ -100,6 +103,9 @@
 //! - Where one body of water stands before another with air between, a drop before a pool say, each
 //!   has its own thickness and surface ([`Config::sheets`]); the thesis takes both for one (its
 //!   limitation, Fig. 5.13).
+//! - A foam sprite turns from an ellipse along its motion into a disc smoothly, by speed and by angle;
+//!   its depth is as wide as its thickness, which ends softly; what is foam of a particle is no water
+//!   of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]

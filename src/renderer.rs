@@ -216,7 +216,7 @@ impl Renderer {
 
         let cmd = r.cmd;
         let (release, released) = release(frame, &uses);
-        let mut buffers = Vec::with_capacity(4);
+        let mut buffers = Vec::with_capacity(7);
         for handle in particle_buffers(&frame.particles) {
             let barrier = buffer(handle, COMPUTE_READ, frame.particles.after);
             if !buffers.iter().any(|b: &vk::BufferMemoryBarrier2<'_>| b.buffer == handle) {
@@ -397,6 +397,7 @@ impl Renderer {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
         }
         check_settings(&frame.settings.water, &frame.settings.light)?;
+        frame.settings.foam.check()?;
         let (part, most) = (frame.output.rect.extent, self.config.extent);
         if part.width > most.width || part.height > most.height {
             return Err(Error::bad(
@@ -482,6 +483,17 @@ fn check_particles(
     stream("Frame.particles.positions", &particles.positions, 12)?;
     if let Some(densities) = &particles.densities {
         stream("Frame.particles.densities", densities, 4)?;
+    }
+    if let Some(foam) = &particles.foam {
+        stream("Frame.particles.foam.amounts", &foam.amounts, 8)?;
+        stream("Frame.particles.foam.velocities", &foam.velocities, 12)?;
+        if let Some(ids) = &foam.ids {
+            stream("Frame.particles.foam.ids", ids, 4)?;
+        }
+        if !config.foam {
+            let why = "given, but Config.foam is false";
+            return Err(Error::bad("Frame.particles.foam", why));
+        }
     }
     let aligned = |field, offset: u64| {
         let to = limits.min_storage_buffer_offset_alignment.max(4);
@@ -589,7 +601,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        76 + 16 * crate::water::chunks(&gpu.limits, config).1
+        84 + 20 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -621,6 +633,9 @@ fn particle_buffers(particles: &Particles) -> impl Iterator<Item = vk::Buffer> {
         Some(particles.positions.buffer),
         particles.densities.map(|s| s.buffer),
         particles.packets.map(|p| p.buffer),
+        particles.foam.map(|f| f.amounts.buffer),
+        particles.foam.map(|f| f.velocities.buffer),
+        particles.foam.and_then(|f| f.ids).map(|s| s.buffer),
         count,
     ]
     .into_iter()

@@ -18,6 +18,8 @@ mod contract;
 mod depth;
 #[path = "gpu/environment.rs"]
 mod environment;
+#[path = "gpu/foam.rs"]
+mod foam;
 #[path = "gpu/harness.rs"]
 mod harness;
 #[path = "gpu/headless.rs"]

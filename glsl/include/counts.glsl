@@ -15,4 +15,8 @@ struct Counts {
     uint particles;       // how many those are
     uint dropped;         // NaN or infinite
     uint spray;           // under the density threshold
+    uint foam_vertices;   // foam: vertexCount = 4
+    uint foam;            // instanceCount
+    uint foam_vertex;
+    uint foam_instance;
 };

@@ -29,6 +29,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 sun_direction; // eye space
     vec4 sun_color;
     vec4 ambient;
+    vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
+    vec4 foam_noise;    // its amplitude, cells a second
+    vec4 foam_back;     // radiance of little foam, and of much
+    vec4 foam_front;
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

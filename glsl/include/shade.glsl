@@ -10,6 +10,7 @@ layout(constant_id = 0) const uint THICKNESS = 1;
 // 1: the surface is smoothed at the configured level alone. A pipeline each, not a branch: a CPU
 // would run both sides.
 layout(constant_id = 2) const uint CONFIGURED = 1;
+layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -17,6 +18,12 @@ layout(set = 0, binding = 4) uniform sampler2D scene_color;
 layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
 layout(set = 0, binding = 12) uniform sampler2D sheets;
+layout(set = 0, binding = 13) uniform sampler2D foam_depth;
+layout(set = 0, binding = 14) uniform sampler2D foam_thickness;
+
+bool foam_there(ivec2 pixel) {
+    return FOAM == 1u && texelFetch(foam_depth, pixel, 0).x < EMPTY;
+}
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -33,13 +40,14 @@ vec2 drop_slope(ivec2 pixel, float front, float threshold) {
 }
 
 // Upsampled with the weights of texels on the same surface; which ones those were, and how much each.
-float thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2 base, out vec4 weights) {
+// The second of the two: before the frontmost foam.
+vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2 base, out vec4 weights) {
     base = s.base;
     weights = s.weights;
     if (THICKNESS == 0u) {
         base = ivec2(pixel);
         weights = vec4(1.0, 0.0, 0.0, 0.0);
-        return texelFetch(thickness, base, 0).x;
+        return texelFetch(thickness, base, 0).xy;
     }
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     if (THICKNESS == 2u || (CONFIGURED == 0u && level.texel.z != frame.thick_extent.z)) {
@@ -60,19 +68,19 @@ float thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec
         weights = sum > 1.0e-3 ? same / sum : weights;
     }
     // A texel without water has none to give: the scene hides its middle, not all of it.
-    float sum = 0.0;
+    vec2 sum = vec2(0.0);
     vec4 wet = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         if (weights[i] > 0.0) {
             ivec2 t = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
-            float there = texelFetch(thickness, t, 0).x;
+            vec2 there = texelFetch(thickness, t, 0).xy;
             sum += weights[i] * there;
-            wet[i] = there > 0.0 ? weights[i] : 0.0;
+            wet[i] = there.x > 0.0 ? weights[i] : 0.0;
         }
     }
     float share = wet.x + wet.y + wet.z + wet.w;
     weights = share > 0.0 ? wet / share : weights;
-    return share > 0.0 ? sum / share : 0.0;
+    return share > 0.0 ? sum / share : vec2(0.0);
 }
 
 // How much the water in the window between two sheets leaves them two: 1 where there is air.
@@ -133,6 +141,13 @@ vec2 bent(vec2 offset) {
     return offset * inversesqrt(1.0 + dot(share, share));
 }
 
+// Colour of the scene at a place, filtered.
+vec3 scene_at(vec2 pixel) {
+    vec2 texel = clamp(pixel * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
+    texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
+    return textureLod(scene_color, texel, 0.0).rgb;
+}
+
 // Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
 // The look-up goes half the way to where that begins or the view ends, and no farther: dropping
 // the offset there would leave a seam, going all the way would smear what lies at the edge.
@@ -149,10 +164,7 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
     } while (free < 2.0 && (blocked - free) * far >= 0.5);
     // A pixel and a half less: the edge may be smoothed into its neighbours.
     float part = free < 2.0 ? clamp(0.5 * (free - 1.5 / max(far, 1.0)), 0.0, 1.0) : 1.0;
-    vec2 q = pixel + offset * part;
-    vec2 texel = clamp(q * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
-    texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
-    return textureLod(scene_color, texel, 0.0).rgb;
+    return scene_at(pixel + offset * part);
 }
 
 vec3 through_medium(vec3 background, float path) {
@@ -237,7 +249,46 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     return sheet;
 }
 
-// Colour of the water at a pixel (its centre, at +0.5) whose depth is not empty.
+// The foam in a pixel.
+struct Foam {
+    float depth; // of the frontmost, EMPTY where only thickness is left
+    float kept;  // share of the light from behind that comes through
+    vec3 color;
+};
+
+// Thesis Sec. 4.10: the more foam right behind the frontmost, the nearer the front colour (Listing
+// A.20; Eq. 3.9 has them the other way round).
+Foam foam_of(vec2 pixel) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    ivec2 base = ivec2(floor(h));
+    vec2 f = h - vec2(base);
+    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    vec2 t = vec2(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
+        t += weights[i] * texelFetch(foam_thickness, texel, 0).xy;
+    }
+    Foam foam;
+    foam.depth = texelFetch(foam_depth, ivec2(pixel), 0).x;
+    foam.kept = exp(-frame.foam.x * t.x);
+    foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, 1.0 - exp(-frame.foam.y * t.y));
+    return foam;
+}
+
+// The same with foam in the sheet, `before` metres along z of its water before it. What mirrors is
+// the water before the foam, where there is any.
+vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
+    float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
+    float first = before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
+    vec3 c = through_medium(background, sheet.path * (1.0 - share));
+    c = mix(c, sheet.mirrored, sheet.mirror * (1.0 - first)) + sheet.shine * (1.0 - first);
+    c = mix(foam.color, c, foam.kept);
+    c = through_medium(c, sheet.path * share);
+    return mix(c, sheet.mirrored, sheet.mirror * first) + sheet.shine * first;
+}
+
+// Colour of water and foam at a pixel (its centre, at +0.5) where one of their depths is not empty.
 vec3 shade(vec2 pixel, float front) {
     float threshold = frame.surface.w;
     uint finer = CONFIGURED == 1u ? 0u : finer_level();
@@ -245,7 +296,8 @@ vec3 shade(vec2 pixel, float front) {
     Surface surface = surface_at(level, pixel, front, threshold);
     ivec2 base;
     vec4 weights;
-    float t = thickness_at(surface, level, pixel, threshold, base, weights);
+    vec2 all = thickness_at(surface, level, pixel, threshold, base, weights);
+    float t = all.x;
     Level coarser = levels.level[1u - finer];
     if (CONFIGURED == 0u && coarser.texel.w > 0.0) {
         Surface other = surface_at(coarser, pixel, front, threshold);
@@ -285,8 +337,20 @@ vec3 shade(vec2 pixel, float front) {
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     Sheet sheet = sheet_of(surface, pixel, t);
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
-    if (back.path > 0.0) {
-        c = over(back, c);
+    if (FOAM == 0u) {
+        if (back.path > 0.0) {
+            c = over(back, c);
+        }
+        return over(sheet, c);
     }
-    return over(sheet, c);
+    Foam foam = foam_of(pixel);
+    if (front >= EMPTY) {
+        return mix(foam.color, scene_at(pixel), foam.kept);
+    }
+    bool behind_air = covers && foam.depth >= boundary;
+    if (behind_air) {
+        return over(sheet, over_with(back, max(all.y - t, 0.0), share.y, foam, c));
+    }
+    c = back.path > 0.0 ? over(back, c) : c;
+    return over_with(sheet, min(all.y, t), t, foam, c);
 }

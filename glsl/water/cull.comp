@@ -11,12 +11,17 @@
 layout(local_size_x = 64) in;
 // 1: one workgroup per host packet.
 layout(constant_id = 0) const uint PACKETS = 0;
+// 1: what is foam of a particle is no water of it.
+layout(constant_id = 1) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
 layout(set = 0, binding = 3, std430) readonly buffer HostPackets { uint packets[]; };
 layout(set = 0, binding = 4, std430) buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) writeonly buffer Visible { vec4 visible[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Amounts { float amounts[]; };
+// The share of each visible sphere that is water.
+layout(set = 0, binding = 7, std430) writeonly buffer Shares { float shares[]; };
 
 layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle
@@ -27,6 +32,8 @@ layout(push_constant, std430) uniform Push {
     uint capacity;        // of the visible list
     float small_limit;    // largest sprite that counts as small, pixels
     uint small_inside;    // 1: small sprites have their centre on the screen (points)
+    uint foam_word;
+    uint foam_stride;     // 0: no foam
 } push;
 
 shared uint group_small;
@@ -46,8 +53,17 @@ bool in_frustum(vec3 centre, float radius) {
     return inside;
 }
 
-uint classify(uint index, out vec4 sphere) {
+// Less water than this is none.
+const float LEAST_SHARE = 1.0 / 256.0;
+
+uint classify(uint index, out vec4 sphere, out float share) {
     sphere = vec4(0.0);
+    share = 1.0;
+    if (FOAM == 1u && push.foam_stride > 0u) {
+        float foam = amounts[push.foam_word + index * push.foam_stride];
+        // Comparisons with NaN are false.
+        share = foam > 0.0 ? 1.0 - min(foam, 1.0) : 1.0;
+    }
     uint at = push.position_word + index * push.position_stride;
     vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
     // Comparisons with NaN are false.
@@ -69,7 +85,10 @@ uint classify(uint index, out vec4 sphere) {
         }
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    sphere = vec4(centre, radius);
+    sphere = vec4(centre, radius * share);
+    if (share < LEAST_SHARE) {
+        return NONE;
+    }
     // The thickness sprite is the wider one: its half-axis bounds both.
     float reach = radius * frame.particle.z / frame.particle.x;
     if (!in_frustum(centre, reach)) {
@@ -89,7 +108,7 @@ uint classify(uint index, out vec4 sphere) {
     return small ? SMALL : LARGE;
 }
 
-void append(uint kind, vec4 sphere) {
+void append(uint kind, vec4 sphere, float share) {
     uint local = gl_LocalInvocationIndex;
     if (local == 0u) {
         group_small = 0u;
@@ -109,10 +128,12 @@ void append(uint kind, vec4 sphere) {
         first_large = group_large > 0u ? atomicAdd(counts.large, group_large) : 0u;
     }
     barrier();
-    if (kind == SMALL) {
-        visible[first_small + slot] = sphere;
-    } else if (kind == LARGE) {
-        visible[push.capacity - 1u - first_large - slot] = sphere;
+    if (kind != NONE) {
+        uint at = kind == SMALL ? first_small + slot : push.capacity - 1u - first_large - slot;
+        visible[at] = sphere;
+        if (FOAM == 1u) {
+            shares[at] = share;
+        }
     }
     barrier();
 }
@@ -120,10 +141,11 @@ void append(uint kind, vec4 sphere) {
 void main() {
     uint here = counts.particles;
     vec4 sphere = vec4(0.0);
+    float share = 1.0;
     if (PACKETS == 0u) {
         uint index = gl_GlobalInvocationID.x;
-        uint kind = index < here ? classify(index, sphere) : NONE;
-        append(kind, sphere);
+        uint kind = index < here ? classify(index, sphere, share) : NONE;
+        append(kind, sphere, share);
         return;
     }
     uint at = gl_WorkGroupID.x * 8u;
@@ -139,7 +161,7 @@ void main() {
     }
     for (uint i = first; i < past; i += gl_WorkGroupSize.x) {
         uint index = i + gl_LocalInvocationIndex;
-        uint kind = index < past ? classify(index - push.chunk_first, sphere) : NONE;
-        append(kind, sphere);
+        uint kind = index < past ? classify(index - push.chunk_first, sphere, share) : NONE;
+        append(kind, sphere, share);
     }
 }

@@ -15,6 +15,9 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
+// 1: tiles with foam alone are drawn too.
+layout(constant_id = 9) const uint FOAM = 0;
+layout(set = 0, binding = 9) uniform sampler2D foam_depth;
 
 #include "block.glsl"
 #include "reduction.glsl"
@@ -37,9 +40,11 @@ void main() {
     if (all(lessThan(block, level.rect.zw))) {
         ivec2 end = min((block + 1) * edge, ivec2(frame.extent.xy));
         float z = EMPTY;
+        bool foam = false;
         for (int y = block.y * edge; y < end.y; ++y) {
             for (int x = block.x * edge; x < end.x; ++x) {
                 z = min(z, imageLoad(depth, ivec2(x, y)).x);
+                foam = foam || FOAM == 1u && texelFetch(foam_depth, ivec2(x, y), 0).x < EMPTY;
             }
         }
         z = block_depth(block * edge, end, z);
@@ -49,7 +54,7 @@ void main() {
         imageStore(smooth_a, p, vec4(z));
         imageStore(smooth_b, p, vec4(z));
         imageStore(plan, p, uvec4(planned));
-        if (z < EMPTY) {
+        if (z < EMPTY || foam) {
             atomicMax(most, plan_count(planned) + 1u);
         }
     }

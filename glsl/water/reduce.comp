@@ -18,6 +18,9 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
+// 1: tiles with foam alone are drawn too.
+layout(constant_id = 9) const uint FOAM = 0;
+layout(set = 0, binding = 9) uniform sampler2D foam_depth;
 // Pixels that pass the cap until the smoothing is one, two, three, more levels coarser.
 layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
 
@@ -29,8 +32,9 @@ layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a ro
 shared uint most;
 shared uint tile_over[4];
 
-// Depth of the block in front of the scene.
-float reduced(ivec2 block) {
+// Depth of the block in front of the scene; whether there is foam.
+float reduced(ivec2 block, out bool foam) {
+    foam = false;
     ivec2 extent = ivec2(frame.extent.xy);
     float best = EMPTY;
     for (int y = 0; y < (1 << LEVEL); ++y) {
@@ -40,6 +44,7 @@ float reduced(ivec2 block) {
                 continue;
             }
             float z = imageLoad(depth, pixel).x;
+            foam = foam || FOAM == 1u && texelFetch(foam_depth, pixel, 0).x < EMPTY;
             if (z < EMPTY) {
                 float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
                 // Reversed infinite depth at infinity: 1/0, or negative by rounding.
@@ -63,7 +68,8 @@ void main() {
     barrier();
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(block, ivec2(frame.extent.zw)))) {
-        float z = reduced(block);
+        bool foam;
+        float z = reduced(block, foam);
         float count;
         vec2 slope = ray_slope(vec2(block) + 0.5, frame.reduced_slope);
         uint planned = plan_pixel(z, slope, frame.texel.zw, count);
@@ -71,7 +77,7 @@ void main() {
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
         // One more than the iterations: a tile with water and nothing to smooth is still drawn.
-        if (z < EMPTY) {
+        if (z < EMPTY || foam) {
             atomicMax(most, plan_count(planned) + 1u);
         }
         float cap = frame.smoothing.z;

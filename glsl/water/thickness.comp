@@ -11,6 +11,7 @@
 #include "counts.glsl"
 #include "kernel.glsl"
 #include "sheets.glsl"
+#include "foam_share.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint LARGE = 0;
@@ -20,12 +21,22 @@ layout(constant_id = 1) const uint APART = 0;
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3) uniform sampler2D scene_depth;
-// The sum's low word and its carries: of all water, then of the front sheet, then of the windows.
+// The sum's low word and its carries: of all water, then of what is before the frontmost foam if there
+// may be some, then of the front sheet, then of the windows.
 layout(set = 0, binding = 4, std430) buffer Sums { uvec2 sums[]; };
 // Of each block the farthest boundary.
 layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
+layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
+
 layout(push_constant, std430) uniform Push { uint capacity; } push;
+
+// A sphere at its particle's full size, and the share of it that is water.
+vec4 whole(uint index, out float share) {
+    vec4 sphere = visible[index];
+    share = FOAM == 1u ? shares[index] : 1.0;
+    return vec4(sphere.xyz, FOAM == 1u ? sphere.w / share : sphere.w);
+}
 
 // A smaller sprite holds the same volume.
 float units(float radius) {
@@ -60,19 +71,26 @@ void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
     }
     float amount = thickness_kernel(rho2) * scale;
     uint at = uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x);
+    uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     if (APART == 0u) {
         add(at, amount);
+        float foam = FOAM == 1u ? foam_at(texel) : EMPTY;
+        if (foam < EMPTY) {
+            float share = share_before(-sphere.z, foam);
+            if (share > 0.0) {
+                add(at + texels, amount * share);
+            }
+        }
         return;
     }
-    uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     float boundary = boundaries[at];
     if (boundary < EMPTY) {
-        vec3 shares = sheet_shares(-sphere.z, boundary);
-        if (shares.x > 0.0) {
-            add(at + texels, amount * shares.x);
+        vec3 parts = sheet_shares(-sphere.z, boundary);
+        if (parts.x > 0.0) {
+            add(at + (1u + FOAM) * texels, amount * parts.x);
         }
-        if (shares.z > 0.0) {
-            add(at + 2u * texels, amount * shares.z);
+        if (parts.z > 0.0) {
+            add(at + (2u + FOAM) * texels, amount * parts.z);
         }
     }
 }
@@ -102,14 +120,15 @@ void main() {
         if (index >= counts.small) {
             return;
         }
-        vec4 sphere = visible[index];
+        float water;
+        vec4 sphere = whole(index, water);
         // A centre behind the near plane has no sprite.
         if (-sphere.z <= frame.depth.z) {
             return;
         }
         float widened;
         float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
-        float scale = units(sphere.w) / widened;
+        float scale = water * units(sphere.w) / widened;
         ivec4 box = span(sphere, axis);
         if (box.x > box.z || box.y > box.w) {
             return;
@@ -130,13 +149,14 @@ void main() {
         return;
     }
     for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
-        vec4 sphere = visible[push.capacity - 1u - i];
+        float water;
+        vec4 sphere = whole(push.capacity - 1u - i, water);
         if (-sphere.z <= frame.depth.z) {
             continue;
         }
         float widened;
         float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
-        float scale = units(sphere.w) / widened;
+        float scale = water * units(sphere.w) / widened;
         ivec4 box = span(sphere, axis);
         ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
         for (int y = box.y + lane.y; y <= box.w; y += 8) {

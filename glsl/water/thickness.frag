@@ -1,15 +1,17 @@
 #version 460
 // Pass `thickness`, raster path: additive, tested against the scene by the centre's depth.
-// Reads: scene depth. Writes: thickness (R32F, metres along z).
+// Reads: scene depth, foam depth. Writes: thickness (metres along z; R32F, or RG32F with foam).
 
 #include "frame.glsl"
 #include "kernel.glsl"
+#include "foam_share.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 
 layout(location = 0) flat in vec4 disc;
 layout(location = 1) flat in float amplitude;
-layout(location = 0) out float thickness;
+// All, and before the frontmost foam.
+layout(location = 0) out vec2 thickness;
 
 void main() {
     vec2 slope = ray_slope(gl_FragCoord.xy, frame.thick_slope);
@@ -19,5 +21,6 @@ void main() {
     if (rho2 > 1.0 || (scene > 0.0 && -disc.z >= scene)) {
         discard;
     }
-    thickness = amplitude * thickness_kernel(rho2);
+    float amount = amplitude * thickness_kernel(rho2);
+    thickness = vec2(amount, FOAM == 1u ? amount * share_before(-disc.z, foam_at(ivec2(gl_FragCoord.xy))) : 0.0);
 }

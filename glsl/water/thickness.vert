@@ -8,8 +8,11 @@
 
 // 0: points from the front of the list. 1: quads from its back.
 layout(constant_id = 0) const uint QUADS = 0;
+// 1: spheres are shares of their particles.
+layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; };
+layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
 layout(location = 0) flat out vec4 disc; // centre, 1 / half-axis
@@ -18,12 +21,15 @@ layout(location = 1) flat out float amplitude;
 void main() {
     uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
     vec4 sphere = visible[index];
+    float share = FOAM == 1u ? shares[index] : 1.0;
+    // The sprite keeps its size.
+    sphere.w = FOAM == 1u ? sphere.w / share : sphere.w;
     float widened;
     float axis = drawn_axis(sphere.w * frame.particle.z / frame.particle.x, -sphere.z, frame.thick_slope, widened);
     disc = vec4(sphere.xyz, 1.0 / axis);
     // A smaller sprite holds the same volume.
     float grown = frame.particle.x / sphere.w;
-    amplitude = frame.particle.w * grown * grown / widened;
+    amplitude = share * frame.particle.w * grown * grown / widened;
     vec4 slopes = vec4(sphere.xy - axis, sphere.xy + axis) / -sphere.z;
     vec4 pixels = pixel_bounds(slopes, frame.thick_slope);
     pixels += vec4(-0.125, -0.125, 0.125, 0.125);

@@ -8,6 +8,8 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
+layout(constant_id = 9) const uint FOAM = 0;
+
 layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };
 layout(set = 0, binding = 2, rgba32f) uniform writeonly image2D sheets;
 layout(set = 0, binding = 11, std430) buffer Boundaries { float boundaries[]; };
@@ -20,8 +22,8 @@ void main() {
     uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
     float all = metres(sums[at]);
-    float front = metres(sums[at + texels]);
-    float window = metres(sums[at + 2u * texels]);
+    float front = metres(sums[at + (1u + FOAM) * texels]);
+    float window = metres(sums[at + (2u + FOAM) * texels]);
     // In fixed point one sheet's is the whole, or zero.
     bool two = boundaries[at] < EMPTY && front > 0.0 && front < all;
     imageStore(sheets, p, two ? vec4(front, all - front, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));

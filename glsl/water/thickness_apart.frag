@@ -1,17 +1,19 @@
 #version 460
 // Pass `thickness`, raster path with two sheets: additive, tested against the scene by the centre's depth.
-// Reads: scene depth, boundaries. Writes: thickness (R32F, metres along z), sheets
+// Reads: scene depth, boundaries, foam depth. Writes: thickness (as thickness.frag), sheets
 // (RGBA32F: front, back, window).
 
 #include "frame.glsl"
 #include "kernel.glsl"
+#include "foam_share.glsl"
 #include "sheets.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 
 layout(location = 0) flat in vec4 disc;
 layout(location = 1) flat in float amplitude;
-layout(location = 0) out float thickness;
+// All, and before the frontmost foam.
+layout(location = 0) out vec2 thickness;
 layout(location = 1) out vec4 sheets;
 
 void main() {
@@ -22,6 +24,8 @@ void main() {
     if (rho2 > 1.0 || (scene > 0.0 && -disc.z >= scene)) {
         discard;
     }
-    thickness = amplitude * thickness_kernel(rho2);
-    sheets = vec4(sheet_shares(-disc.z, boundary_of(ivec2(gl_FragCoord.xy))) * thickness, 0.0);
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    float amount = amplitude * thickness_kernel(rho2);
+    thickness = vec2(amount, FOAM == 1u ? amount * share_before(-disc.z, foam_at(texel)) : 0.0);
+    sheets = vec4(sheet_shares(-disc.z, boundary_of(texel)) * amount, 0.0);
 }

@@ -20,8 +20,8 @@ use transfer::staging;
 
 use crate::composite::way;
 use crate::contract::{
-    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
-    Slot, Stream,
+    Access, Camera, Config, Count, Foam, Frame, HostImage, Layer, ParticleCounts, Particles,
+    Settings, Slot, Step, Stream,
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
@@ -34,7 +34,8 @@ use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::timing::Timing;
 use crate::renderer::Renderer;
-use crate::water::settings::Shading;
+use crate::state::{State, StateConfig};
+use crate::water::settings::{FoamSettings, Shading};
 
 /// Output format: linear, scene-referred.
 pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
@@ -92,6 +93,7 @@ pub struct Headless {
     parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
     densities: Option<Buffer>,
+    foam: Option<Foaming>,
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
@@ -132,6 +134,7 @@ impl Headless {
             parts: Vec::new(),
             positions: None,
             densities: None,
+            foam: None,
             count: 0,
             layers: Vec::new(),
             counts: None,
@@ -327,23 +330,76 @@ impl Headless {
         if densities.is_some_and(|d| d.len() != positions.len()) {
             return Err(Error::bad("densities", "not as many as positions"));
         }
+        if let Some(foam) = &mut self.foam {
+            foam.stepped = false;
+        }
         self.count = u32::try_from(positions.len())
             .map_err(|_| Error::bad("positions", "more than 2^32"))?;
         for old in [self.positions.take(), self.densities.take()].into_iter().flatten() {
             old.destroy(&self.gpu);
         }
-        let make = |name, bytes: &[u8]| -> Result<Buffer, Error> {
-            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-            let size = bytes.len().max(16) as u64;
-            let mut buffer = Buffer::new(&self.gpu, name, size, usage, MemoryLocation::CpuToGpu)?;
-            buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
-            Ok(buffer)
-        };
+        let make = |name, bytes: &[u8]| input(&self.gpu, name, bytes);
         self.positions = Some(make("headless/positions", bytemuck::cast_slice(positions))?);
         if let Some(densities) = densities {
             self.densities = Some(make("headless/densities", bytemuck::cast_slice(densities))?);
         }
         Ok(())
+    }
+
+    /// What of the uploaded particles is foam, with [`Config::foam`]: a step of a [`State`] by their
+    /// velocities. `ids` follow the particles from step to step, `dt` seconds apart; without, each
+    /// step stands for itself.
+    ///
+    /// # Errors
+    /// Not as many as positions, no memory, and as [`State::record_step`].
+    pub fn step(
+        &mut self,
+        velocities: &[[f32; 3]],
+        ids: Option<&[u32]>,
+        dt: f32,
+        settings: &FoamSettings,
+    ) -> Result<(), Error> {
+        let count = self.count;
+        let all = |length: usize| length == count as usize;
+        if !all(velocities.len()) || ids.is_some_and(|ids| !all(ids.len())) {
+            return Err(Error::bad("velocities", "not as many as positions, or as ids"));
+        }
+        let state = match self.foam.take() {
+            Some(old) => {
+                old.velocities.destroy(&self.gpu);
+                if let Some(ids) = old.ids {
+                    ids.destroy(&self.gpu);
+                }
+                old.state
+            }
+            None => {
+                let config = StateConfig::new(self.renderer.config().max_particles);
+                // SAFETY: the device is ours and outlives the state (field order, `finish`).
+                unsafe { State::new(&self.device.host(1), &config) }?
+            }
+        };
+        let make = |name, bytes: &[u8]| input(&self.gpu, name, bytes);
+        let velocities = make("headless/velocities", bytemuck::cast_slice(velocities))?;
+        let ids = ids.map(|ids| make("headless/ids", bytemuck::cast_slice(ids))).transpose()?;
+        let mut foam = Foaming { state, velocities, ids, stepped: true };
+        let densities = self.densities.as_ref().map(|buffer| stream(buffer, 4));
+        let result = self.run(|_, cmd| {
+            let step = Step {
+                slot: Slot(0),
+                velocities: stream(&foam.velocities, 12),
+                densities,
+                ids: foam.ids.as_ref().map(|ids| stream(ids, 4)),
+                count: Count::Cpu(count),
+                dt,
+                settings,
+                before: HOST_WRITE,
+                after: HOST_WRITE,
+            };
+            // SAFETY: cmd is recording outside a render pass; every run waits for its end.
+            unsafe { foam.state.record_step(cmd, &step) }
+        });
+        self.foam = Some(foam);
+        result
     }
 
     /// Draws one frame and waits for it.
@@ -384,24 +440,24 @@ impl Headless {
         let Some(positions) = &self.positions else {
             return Err(Error::bad("particles", "none uploaded"));
         };
-        let stream = |buffer: &Buffer, stride| Stream {
-            buffer: buffer.handle,
-            size: buffer.size,
-            offset: 0,
-            stride,
-        };
-        let host_write = Access::new(
-            vk::PipelineStageFlags2::HOST,
-            vk::AccessFlags2::HOST_WRITE,
-            vk::ImageLayout::GENERAL,
-        );
+        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| Foam {
+            amounts: Stream {
+                buffer: foam.state.foam(),
+                size: 8 * u64::from(self.renderer.config().max_particles),
+                offset: 0,
+                stride: 8,
+            },
+            velocities: stream(&foam.velocities, 12),
+            ids: foam.ids.as_ref().map(|ids| stream(ids, 4)),
+        });
         let particles = Particles {
             positions: stream(positions, 12),
             densities: self.densities.as_ref().map(|buffer| stream(buffer, 4)),
             count: Count::Cpu(self.count),
             packets: None,
-            before: host_write,
-            after: host_write,
+            foam,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
         };
         let image = |image: &Image, rest| HostImage {
             image: image.handle,
@@ -530,7 +586,11 @@ impl Headless {
     /// Device loss.
     pub fn finish(self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
-        let Self { gpu, renderer, device, .. } = self;
+        let Self { gpu, renderer, device, foam, .. } = self;
+        if let Some(foam) = foam {
+            // SAFETY: the device is idle, or lost.
+            unsafe { foam.state.destroy() };
+        }
         // Freed with the shared objects.
         drop((self.commands, self.color, self.depth, self.positions, self.densities, self.scene));
         // SAFETY: the device is idle, or lost.
@@ -538,6 +598,35 @@ impl Headless {
         gpu.destroy();
         idle.map(|()| device)
     }
+}
+
+/// What the foam of the particles goes by.
+struct Foaming {
+    state: State,
+    velocities: Buffer,
+    ids: Option<Buffer>,
+    /// By the particles that are here now.
+    stepped: bool,
+}
+
+/// Written by the CPU before the submit.
+const HOST_WRITE: Access = Access::new(
+    vk::PipelineStageFlags2::HOST,
+    vk::AccessFlags2::HOST_WRITE,
+    vk::ImageLayout::GENERAL,
+);
+
+/// A buffer for shaders to read, with its contents.
+fn input(gpu: &Arc<Gpu>, name: &str, bytes: &[u8]) -> Result<Buffer, Error> {
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let size = bytes.len().max(16) as u64;
+    let mut buffer = Buffer::new(gpu, name, size, usage, MemoryLocation::CpuToGpu)?;
+    buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+    Ok(buffer)
+}
+
+fn stream(buffer: &Buffer, stride: u32) -> Stream {
+    Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride }
 }
 
 /// The stand-in scene with the sets of its frame.

@@ -156,7 +156,8 @@ impl Headless {
 
     /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
     /// smoothing come at the finest resolution in use; `water.back` is the smoothed back sheet, and
-    /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`.
+    /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`, and
+    /// `foam.thickness.front`, what lies right behind the frontmost, of `foam.thickness`.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
@@ -164,6 +165,7 @@ impl Headless {
         let image = match name {
             "water.back" => "water.surface",
             "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
+            "foam.thickness.front" => "foam.thickness",
             name => name,
         };
         let Some(layer) = self.layers.iter().find(|layer| layer.name == image).copied() else {
@@ -186,6 +188,12 @@ impl Headless {
                 self.read(layer.image, layer.format, area, layer.access)?;
             let channel = usize::from(name.ends_with(".back"));
             return Ok(Some(sheets.map(|sheets| sheets[channel])));
+        }
+        if image == "foam.thickness" {
+            let foam: Picture<[f32; 2]> =
+                self.read(layer.image, layer.format, area, layer.access)?;
+            let channel = usize::from(name.ends_with(".front"));
+            return Ok(Some(foam.map(|foam| foam[channel])));
         }
         if layer.format == vk::Format::R32_UINT {
             let plan: Picture<u32> = self.read(layer.image, layer.format, area, layer.access)?;

@@ -34,6 +34,7 @@ pub const SMALL_GROUPS: u64 = 32;
 pub const LARGE_GROUPS: u64 = 44;
 const CULL_GROUPS: u64 = 56;
 const DROPPED: u64 = 72;
+pub const FOAM: u64 = 80;
 
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "quads_vertices") == QUADS as usize);
 const _: () =
@@ -42,6 +43,7 @@ const _: () =
     assert!(shader::WATER_CULL_COMP.offset("Counts", "large_groups") == LARGE_GROUPS as usize);
 const _: () =
     assert!(shader::WATER_CULL_COMP.offset("Counts", "cull_groups") == CULL_GROUPS as usize);
+const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "foam_vertices") == FOAM as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DROPPED as usize);
 
 /// Particles of a chunk at most: 64 an invocation group, 65 535 groups.
@@ -71,6 +73,8 @@ struct CullPush {
     capacity: u32,
     small_limit: f32,
     small_inside: u32,
+    foam_word: u32,
+    foam_stride: u32,
 }
 shader::assert_layout!(
     shader::WATER_CULL_COMP,
@@ -84,6 +88,8 @@ shader::assert_layout!(
         capacity,
         small_limit,
         small_inside,
+        foam_word,
+        foam_stride,
     }
 );
 
@@ -99,7 +105,8 @@ struct EndPush {
 /// once, and the chunks' parts of the list begin at offsets that every device can bind.
 pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
     let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
-    let fits = (range / u64::from(config.max_stride.max(16))).min(u64::from(MOST_CHUNK)) as u32;
+    let own = if config.foam { super::foam::SPRITE as u32 } else { 16 };
+    let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     // 16 spheres are 256 bytes.
     let wanted = config.max_particles.max(1).next_multiple_of(16);
     let size = wanted.min(fits & !15).max(16);
@@ -116,6 +123,8 @@ pub struct SphereList {
     /// Centre and radius of each sphere: small sprites from the front of each chunk's part, large
     /// ones from its back.
     pub spheres: Buffer,
+    /// The share of its particle that each is, where others are foam.
+    pub shares: Option<Buffer>,
     pub chunk_size: u32,
     pub chunks: u32,
 }
@@ -127,6 +136,8 @@ pub struct Chunk {
     pub counts: Resource,
     /// The chunk's part of the list as a resource.
     pub spheres: Resource,
+    /// The chunk's shares, or anything where all are whole.
+    pub shares: Resource,
     /// Byte offset of `Counts` in its buffer.
     pub arguments: u64,
     /// Spheres the part can hold.
@@ -155,9 +166,25 @@ impl SphereList {
                 storage,
                 MemoryLocation::GpuOnly,
             )?,
+            shares: None,
             chunk_size,
             chunks,
         })
+    }
+
+    /// The same with shares, where the configuration has foam.
+    fn with_shares(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
+        let mut list = Self::new(gpu, config, name)?;
+        if config.foam {
+            list.shares = Some(Buffer::new(
+                gpu,
+                &format!("{name}/shares"),
+                4 * u64::from(list.chunks) * u64::from(list.chunk_size),
+                vk::BufferUsageFlags::STORAGE_BUFFER,
+                MemoryLocation::GpuOnly,
+            )?);
+        }
+        Ok(list)
     }
 
     /// The chunks, for the passes that draw or dispatch them.
@@ -168,13 +195,18 @@ impl SphereList {
     /// One chunk.
     pub fn chunk(&self, index: u32) -> Chunk {
         let bytes = 16 * u64::from(self.chunk_size);
+        let spheres = Resource::Buffer(self.spheres.handle, bytes * u64::from(index), bytes);
+        let shares = self.shares.as_ref().map_or(spheres, |shares| {
+            Resource::Buffer(shares.handle, bytes / 4 * u64::from(index), bytes / 4)
+        });
         Chunk {
             counts: Resource::Buffer(
                 self.counts.handle,
                 COUNTS_STRIDE * u64::from(index),
                 COUNTS_STRIDE,
             ),
-            spheres: Resource::Buffer(self.spheres.handle, bytes * u64::from(index), bytes),
+            spheres,
+            shares,
             arguments: COUNTS_STRIDE * u64::from(index),
             capacity: self.chunk_size,
         }
@@ -182,7 +214,7 @@ impl SphereList {
 
     /// Bytes of device memory.
     pub fn memory(&self) -> u64 {
-        self.counts.size + self.spheres.size
+        self.counts.size + self.spheres.size + self.shares.as_ref().map_or(0, |b| b.size)
     }
 }
 
@@ -199,12 +231,13 @@ pub struct Cull {
 
 impl Cull {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let foam = (1, u32::from(config.foam));
         Ok(Self {
             begin: Pipeline::compute(gpu, shader::WATER_CULL_BEGIN_COMP, &[])?,
-            each: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 0)])?,
-            packets: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 1)])?,
+            each: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 0), foam])?,
+            packets: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 1), foam])?,
             end: Pipeline::compute(gpu, shader::WATER_CULL_END_COMP, &[])?,
-            list: SphereList::new(gpu, config, "water/cull")?,
+            list: SphereList::with_shares(gpu, config, "water/cull")?,
             max_particles: config.max_particles,
         })
     }
@@ -277,7 +310,14 @@ impl Cull {
         let scope = r.begin(c"cull");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let list = &self.list;
-        let streams = [Some(particles.positions), particles.densities];
+        let foam = particles.foam;
+        let streams = [
+            Some(particles.positions),
+            particles.densities,
+            foam.map(|f| f.amounts),
+            foam.map(|f| f.velocities),
+            foam.and_then(|f| f.ids),
+        ];
 
         // In: the host's buffers, and ours from the frame before.
         let mut host: Vec<_> = streams
@@ -296,10 +336,12 @@ impl Cull {
         host.dedup_by_key(|barrier| barrier.buffer);
         host.push(buffer(list.counts.handle, LIST_USE, COMPUTE_WRITE));
         host.push(buffer(list.spheres.handle, LIST_USE, COMPUTE_WRITE));
+        if let Some(shares) = &list.shares {
+            host.push(buffer(shares.handle, LIST_USE, COMPUTE_WRITE));
+        }
         gpu.barriers(cmd, &[], &host);
 
-        let values = streams.iter().flatten().zip([12, 4]);
-        let most = values.map(capacity).fold(self.max_particles, u32::min);
+        let most = self.most(particles);
         let (count, from_gpu, host_count) = match particles.count {
             Count::Cpu(count) => (count.min(most), false, Resource::buffer(&list.counts)),
             Count::Gpu { buffer, offset } => (most, true, Resource::Buffer(buffer, offset, 4)),
@@ -322,16 +364,26 @@ impl Cull {
         );
 
         self.record_end(r, list)?;
-        gpu.barriers(
-            cmd,
-            &[],
-            &[
-                buffer(list.counts.handle, COMPUTE_WRITE, LIST_USE),
-                buffer(list.spheres.handle, COMPUTE_WRITE, LIST_USE),
-            ],
-        );
+        let ours = [Some(&list.counts), Some(&list.spheres), list.shares.as_ref()];
+        let ours: Vec<_> = ours.into_iter().flatten().collect();
+        let written = ours.iter().map(|b| buffer(b.handle, COMPUTE_WRITE, LIST_USE));
+        gpu.barriers(cmd, &[], &written.collect::<Vec<_>>());
         r.end(scope);
         Ok(())
+    }
+
+    /// Particles of which every stream holds the value.
+    fn most(&self, particles: &Particles) -> u32 {
+        let foam = particles.foam;
+        let streams = [
+            (Some(particles.positions), 12),
+            (particles.densities, 4),
+            (foam.map(|f| f.amounts), 8),
+            (foam.map(|f| f.velocities), 12),
+            (foam.and_then(|f| f.ids), 4),
+        ];
+        let there = streams.iter().filter_map(|(s, bytes)| Some((s.as_ref()?, *bytes)));
+        there.map(capacity).fold(self.max_particles, u32::min)
     }
 
     fn record_chunk(
@@ -356,6 +408,13 @@ impl Cull {
             },
             None => (positions, 0, 0),
         };
+        let (amounts, foam_word, foam_stride) = match &particles.foam {
+            Some(foam) => match window(gpu, &foam.amounts, first) {
+                Some((resource, word)) => (resource, word, foam.amounts.stride / 4),
+                None => return Ok(()),
+            },
+            None => (positions, 0, 0),
+        };
         let packets = particles.packets.map_or(positions, |p| {
             Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count.max(1)))
         });
@@ -371,6 +430,8 @@ impl Cull {
                 (3, packets),
                 (4, chunk.counts),
                 (5, chunk.spheres),
+                (6, amounts),
+                (7, chunk.shares),
             ],
         )?;
         pipeline.push(
@@ -385,6 +446,8 @@ impl Cull {
                 capacity: chunk.capacity,
                 small_limit,
                 small_inside: u32::from(inside),
+                foam_word,
+                foam_stride,
             },
         );
         // SAFETY: outside a render pass; the arguments were written by `begin` and made visible.

@@ -54,12 +54,11 @@ pub fn sprites(
     fragment: shader::Shader,
     pass: vk::RenderPass,
     blend: &[vk::PipelineColorBlendAttachmentState],
+    foam: bool,
 ) -> Result<(Pipeline, Pipeline), Error> {
     let make = |topology, quads| {
-        Pipeline::graphics(
-            gpu,
-            &Graphics { vertex, fragment, topology, pass, blend, constants: &[(0, quads)] },
-        )
+        let constants = &[(0, quads), (9, u32::from(foam))];
+        Pipeline::graphics(gpu, &Graphics { vertex, fragment, topology, pass, blend, constants })
     };
     Ok((
         make(vk::PrimitiveTopology::POINT_LIST, 0)?,
@@ -80,6 +79,7 @@ impl Depth {
                     shader::WATER_DEPTH_FRAG,
                     pass.handle,
                     &[blend(vk::BlendOp::MIN)],
+                    false,
                 )?;
                 let framebuffer =
                     gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
@@ -215,7 +215,8 @@ pub fn draw_sprites(
     let (gpu, cmd) = (r.gpu, r.cmd);
     for (pipeline, offset) in [(points, cull::POINTS), (quads, cull::QUADS)] {
         for chunk in list.chunks() {
-            let mut resources = vec![(0, r.uniforms), (1, chunk.spheres), (2, r.scene_depth)];
+            let mut resources =
+                vec![(0, r.uniforms), (1, chunk.spheres), (2, r.scene_depth), (6, chunk.shares)];
             resources.extend_from_slice(more);
             r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
             pipeline.push(gpu, cmd, &chunk.capacity);
@@ -245,7 +246,8 @@ pub fn dispatch_sprites(
     let (gpu, cmd) = (r.gpu, r.cmd);
     for (pipeline, offset) in [(small, cull::SMALL_GROUPS), (large, cull::LARGE_GROUPS)] {
         for chunk in list.chunks() {
-            let mut resources = vec![(0, r.uniforms), (1, chunk.counts), (2, chunk.spheres)];
+            let mut resources =
+                vec![(0, r.uniforms), (1, chunk.counts), (2, chunk.spheres), (6, chunk.shares)];
             resources.extend_from_slice(more);
             r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
             pipeline.push(gpu, cmd, &chunk.capacity);

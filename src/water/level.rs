@@ -15,7 +15,7 @@ use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::reduce::{PLAN_AFTER, Reduce, rule_constant};
+use super::reduce::{Depths, PLAN_AFTER, Reduce, rule_constant};
 use super::smooth::Smooth;
 use super::tiles::{TILE, Tiles};
 use crate::contract::{Config, SmoothingLevels};
@@ -28,7 +28,6 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
-use crate::gpu::image::Image;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::settings::Rule;
@@ -112,7 +111,7 @@ impl Level {
             let usage = usage | Usage::STORAGE_BUFFER;
             Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly)
         };
-        let rule = [(1, rule_constant(config.rule))];
+        let rule = [(1, rule_constant(config.rule)), (9, u32::from(config.foam))];
         let coarsening = coarsening(config);
         let size = size_of::<SmoothingLevels>() as u64;
         Ok(Self {
@@ -136,7 +135,7 @@ impl Level {
     pub fn record(
         &self,
         r: &mut Recording<'_>,
-        depth: &Image,
+        depths: &Depths<'_>,
         reduce: &Reduce,
         smooth: &Smooth,
         tiles: &Tiles,
@@ -170,14 +169,18 @@ impl Level {
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, 1, 1, 1) };
         if let Some(pipeline) = &self.reduce {
-            self.record_coarser(r, pipeline, depth, reduce, smooth, tiles)?;
+            self.record_coarser(r, pipeline, depths, reduce, smooth, tiles)?;
         } else {
             gpu.barriers(cmd, &[], &[buffer(self.levels.handle, COMPUTE_WRITE, UNIFORM)]);
         }
         gpu.barriers(
             cmd,
             &[
-                access::image(depth, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED)),
+                access::image(
+                    depths.water,
+                    COMPUTE_READ_WRITE,
+                    FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED),
+                ),
                 access::image(&reduce.plan, COMPUTE_WRITE, PLAN_AFTER),
             ],
             &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ)],
@@ -191,7 +194,7 @@ impl Level {
         &self,
         r: &Recording<'_>,
         pipeline: &Pipeline,
-        depth: &Image,
+        depths: &Depths<'_>,
         reduce: &Reduce,
         smooth: &Smooth,
         tiles: &Tiles,
@@ -202,7 +205,7 @@ impl Level {
         gpu.barriers(
             cmd,
             &[
-                access::image(depth, COMPUTE_READ_WRITE, COMPUTE_READ),
+                access::image(depths.water, COMPUTE_READ_WRITE, COMPUTE_READ),
                 again(&smooth.a),
                 again(&smooth.b),
                 again(&reduce.plan),
@@ -219,12 +222,13 @@ impl Level {
             pipeline,
             &[
                 (0, r.uniforms),
-                (1, Resource::storage(depth)),
+                (1, Resource::storage(depths.water)),
                 (3, Resource::storage(&smooth.a)),
                 (4, Resource::storage(&smooth.b)),
                 (5, Resource::storage(&reduce.plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (7, self.resource()),
+                (9, depths.foam(r)),
             ],
         )?;
         // SAFETY: as above; the arguments are visible (barrier).

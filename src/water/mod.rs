@@ -5,6 +5,7 @@ mod back;
 mod classify;
 mod cull;
 mod depth;
+mod foam;
 mod front;
 mod gaps;
 mod level;
@@ -33,7 +34,8 @@ pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::chunks;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat, WaterSettings,
+    Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat,
+    WaterSettings,
 };
 
 /// What every pass records with.
@@ -87,6 +89,8 @@ pub(crate) struct WaterLayers<'a> {
     /// Thickness of two sheets, and the depth between them; none where there is one everywhere.
     pub sheets: Option<&'a Image>,
     pub boundaries: Option<&'a Buffer>,
+    /// Depth and thickness of the foam, where there may be some.
+    pub foam: Option<[&'a Image; 2]>,
 }
 
 /// The passes that tell two sheets apart.
@@ -106,6 +110,7 @@ pub(crate) struct Water {
     cull: cull::Cull,
     front: front::Front,
     depth: depth::Depth,
+    foam: Option<foam::Foam>,
     reduce: reduce::Reduce,
     level: level::Level,
     sheets: Option<Sheets>,
@@ -121,6 +126,7 @@ impl Water {
             cull: cull::Cull::new(gpu, config)?,
             front: front::Front::new(gpu, config)?,
             depth: depth::Depth::new(gpu, config)?,
+            foam: config.foam.then(|| foam::Foam::new(gpu, config)).transpose()?,
             reduce: reduce::Reduce::new(gpu, config)?,
             level: level::Level::new(gpu, config)?,
             sheets: (config.sheets > 1).then(|| Sheets::new(gpu, config)).transpose()?,
@@ -140,6 +146,9 @@ impl Water {
     ) -> Result<(), Error> {
         self.front.resize(gpu, config, retired)?;
         self.depth.resize(gpu, config, retired)?;
+        if let Some(foam) = &mut self.foam {
+            foam.resize(gpu, config, retired)?;
+        }
         self.reduce.resize(gpu, config, retired)?;
         if let Some(Sheets { gaps, back }) = &mut self.sheets {
             gaps.resize(gpu, config, retired)?;
@@ -156,13 +165,18 @@ impl Water {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         self.front.record(r, &self.cull)?;
         self.depth.record(r, &self.front.list)?;
+        if let Some(foam) = &self.foam {
+            foam.record(r, particles, &self.cull.list)?;
+        }
         let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
         if let Some(gaps) = gaps {
             gaps.record(r, &self.front.list, &self.cull.list)?;
         }
-        self.thickness.record(r, &self.cull.list, gaps)?;
-        self.reduce.record(r, &self.depth.image, &self.smooth, &self.tiles, &self.level)?;
-        self.level.record(r, &self.depth.image, &self.reduce, &self.smooth, &self.tiles)?;
+        let foam = self.foam.as_ref().map(foam::Foam::depth);
+        self.thickness.record(r, &self.cull.list, gaps, foam)?;
+        let depths = reduce::Depths { water: &self.depth.image, foam };
+        self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
+        self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
         let (plan, tiles, level) = (&self.reduce.plan, &self.tiles, &self.level);
         if let Some(Sheets { gaps, back }) = &self.sheets {
             let depth = &self.depth.image;
@@ -184,6 +198,7 @@ impl Water {
             level: &self.level,
             sheets: self.thickness.sheets.as_ref(),
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
+            foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
         }
     }
 
@@ -231,6 +246,11 @@ impl Water {
         if let Some(sheets) = &self.thickness.sheets {
             layers.push(layer("water.thickness.sheets", sheets, self.thickness.level, access));
         }
+        if let Some(foam) = &self.foam {
+            let level = self.thickness.level;
+            layers.push(layer("foam.depth", foam.depth(), 0, foam::AFTER));
+            layers.push(layer("foam.thickness", foam.thickness(), level, foam::AFTER));
+        }
         layers
     }
 
@@ -247,9 +267,11 @@ impl Water {
             None => (0, 0),
         };
         let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
+        let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
         MemoryUse {
-            images: images.iter().map(|image| image.size).sum::<u64>() + back + sheets,
+            images: images.iter().map(|image| image.size).sum::<u64>() + back + sheets + foam,
             buffers: gaps
+                + sprites
                 + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()

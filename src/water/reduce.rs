@@ -29,6 +29,20 @@ use crate::water::settings::Rule;
 /// The plan after a frame: read by every form of the smoothing.
 pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
+/// What is reduced.
+pub struct Depths<'a> {
+    pub water: &'a Image,
+    /// Where there is some its tiles are drawn too.
+    pub foam: Option<&'a Image>,
+}
+
+impl Depths<'_> {
+    /// The foam's, or anything where there is none.
+    pub fn foam(&self, r: &Recording<'_>) -> Resource {
+        self.foam.map_or(r.scene_depth, |foam| Resource::Sampled(foam.view, r.gpu.samplers.nearest))
+    }
+}
+
 /// The pass.
 pub struct Reduce {
     pipeline: Pipeline,
@@ -49,7 +63,11 @@ pub fn rule_constant(rule: Rule) -> u32 {
 
 impl Reduce {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let constants = [(0, config.smoothing_level), (1, rule_constant(config.rule))];
+        let constants = [
+            (0, config.smoothing_level),
+            (1, rule_constant(config.rule)),
+            (9, u32::from(config.foam)),
+        ];
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
             plan: Self::plan(gpu, config)?,
@@ -86,7 +104,7 @@ impl Reduce {
     pub fn record(
         &self,
         r: &mut Recording<'_>,
-        depth: &Image,
+        depths: &Depths<'_>,
         smooth: &Smooth,
         tiles: &Tiles,
         level: &Level,
@@ -117,13 +135,14 @@ impl Reduce {
             &self.pipeline,
             &[
                 (0, r.uniforms),
-                (1, Resource::storage(depth)),
+                (1, Resource::storage(depths.water)),
                 (2, r.scene_depth),
                 (3, Resource::storage(&smooth.a)),
                 (4, Resource::storage(&smooth.b)),
                 (5, Resource::storage(&self.plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (8, Resource::buffer(&level.over)),
+                (9, depths.foam(r)),
             ],
         )?;
         self.pipeline.push(gpu, cmd, &tiles.atlas.columns);

@@ -247,3 +247,72 @@ impl FoamSettings {
         Ok(())
     }
 }
+
+/// How foam looks. Of no effect without [`Config::foam`](crate::Config).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoamLook {
+    /// Light that foam takes away, per metre of it, [0, ∞), default 0.7 / spacing: two layers hide
+    /// three quarters.
+    pub extinction: f32,
+    /// How fast its colour turns to that of the front with the foam right behind the frontmost, per
+    /// metre, [0, ∞), default 0.15 / spacing.
+    pub front_extinction: f32,
+    /// Depth of that layer, scene units, [0, ∞), default 20 spacings (the source's 7 shows drops
+    /// before the foam as discs: it begins anew behind each).
+    pub front_depth: f32,
+    /// Speed at which a sprite is stretched to twice its width, spacings a second, (0, ∞), default 21.
+    pub motion_threshold: f32,
+    /// Strength of the noise in a sprite, 0 (none) to 1 (default).
+    pub noise: f32,
+    /// Cells of the noise that pass in a second of age, [0, ∞), default 2.
+    pub noise_rate: f32,
+    /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.7 and white 0.95 (the
+    /// source's are colours on the screen, 0.25 and 1).
+    pub back_color: [f32; 3],
+    /// As above.
+    pub front_color: [f32; 3],
+}
+
+impl FoamLook {
+    /// The defaults for particles of a spacing.
+    pub fn of_spacing(spacing: f32) -> Self {
+        Self {
+            extinction: 0.7 / spacing,
+            front_extinction: 0.15 / spacing,
+            front_depth: 20.0 * spacing,
+            motion_threshold: 21.0,
+            noise: 1.0,
+            noise_rate: 2.0,
+            back_color: [0.7; 3],
+            front_color: [0.95; 3],
+        }
+    }
+
+    /// Checks the ranges; the message names the field.
+    pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
+        let range = |field, value: f32, least: f32, most: f32| {
+            if value >= least && value <= most {
+                return Ok(());
+            }
+            let why = format!("expected {least} to {most}, found {value}");
+            Err(crate::error::Error::bad(field, why))
+        };
+        range("Settings.foam.extinction", self.extinction, 0.0, f32::MAX)?;
+        range("Settings.foam.front_extinction", self.front_extinction, 0.0, f32::MAX)?;
+        range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
+        range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
+        range("Settings.foam.noise", self.noise, 0.0, 1.0)?;
+        range("Settings.foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;
+        for (back, front) in self.back_color.into_iter().zip(self.front_color) {
+            range("Settings.foam.back_color", back, 0.0, 1.0)?;
+            range("Settings.foam.front_color", front, 0.0, 1.0)?;
+        }
+        Ok(())
+    }
+}
+
+impl Default for FoamLook {
+    fn default() -> Self {
+        Self::of_spacing(0.05)
+    }
+}

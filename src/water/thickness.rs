@@ -8,8 +8,10 @@
 //! order is no matter.
 //! Where `gaps` has found two sheets a second image holds that of each, and of a window of a spacing
 //! round the boundary: water there says that they are one.
-//! Reads: the list of `cull`, scene depth, boundaries. Writes: thickness, R32F; sheets, RGBA32F
-//! (front, back, window).
+//! With foam there is a second channel, of the water before the frontmost (the source asks once a
+//! particle, Listing A.14; here it is once a fragment).
+//! Reads: the list of `cull`, scene depth, boundaries, foam depth. Writes: thickness, R32F or RG32F;
+//! sheets, RGBA32F (front, back, window).
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -76,8 +78,10 @@ impl Thickness {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let image = Self::image(gpu, config)?;
         let sheets = Self::sheets(gpu, config)?;
-        let compute =
-            |shader, large, apart| Pipeline::compute(gpu, shader, &[(0, large), (1, apart)]);
+        let foam = u32::from(config.foam);
+        let compute = |shader, large, apart| {
+            Pipeline::compute(gpu, shader, &[(0, large), (1, apart), (9, foam)])
+        };
         let path = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
                 let formats: Vec<_> = [Some(&image), sheets.as_ref()]
@@ -97,6 +101,7 @@ impl Thickness {
                     },
                     pass.handle,
                     &vec![blend(vk::BlendOp::ADD); formats.len()],
+                    config.foam,
                 )?;
                 let framebuffer = Self::framebuffer(gpu, pass.handle, &image, sheets.as_ref())?;
                 Path::Raster { points, quads, pass, framebuffer }
@@ -112,12 +117,16 @@ impl Thickness {
                             resolve: Pipeline::compute(
                                 gpu,
                                 shader::WATER_THICKNESS_APART_COMP,
-                                &[],
+                                &[(9, foam)],
                             )?,
                         }))
                     })
                     .transpose()?,
-                resolve: Pipeline::compute(gpu, shader::WATER_THICKNESS_RESOLVE_COMP, &[])?,
+                resolve: Pipeline::compute(
+                    gpu,
+                    shader::WATER_THICKNESS_RESOLVE_COMP,
+                    &[(9, foam)],
+                )?,
                 sums: Self::sums(gpu, config, &image)?,
             },
         };
@@ -125,7 +134,9 @@ impl Thickness {
     }
 
     fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
-        Self::image_of(gpu, config, "water/thickness", vk::Format::R32_SFLOAT)
+        let one = vk::Format::R32_SFLOAT;
+        let format = if config.foam { vk::Format::R32G32_SFLOAT } else { one };
+        Self::image_of(gpu, config, "water/thickness", format)
     }
 
     fn sheets(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
@@ -165,13 +176,14 @@ impl Thickness {
         gpu.framebuffer_of("water/thickness", pass, &views, image.extent)
     }
 
-    /// Two words a texel: of all water, and with two sheets of the front one and of the window.
+    /// Two words a texel: of all water, with foam of what is before it, and with two sheets of the
+    /// front one and of the window.
     fn sums(gpu: &Gpu, config: &Config, image: &Image) -> Result<Buffer, Error> {
         let texels = u64::from(image.extent.width) * u64::from(image.extent.height);
         Buffer::new(
             gpu,
             "water/thickness/sums",
-            8 * texels * if config.sheets > 1 { 3 } else { 1 },
+            8 * texels * (u64::from(config.foam) + if config.sheets > 1 { 3 } else { 1 }),
             vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryLocation::GpuOnly,
         )
@@ -206,6 +218,7 @@ impl Thickness {
         r: &mut Recording<'_>,
         list: &SphereList,
         gaps: Option<&Gaps>,
+        foam: Option<&Image>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"thickness");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -217,12 +230,14 @@ impl Thickness {
         // Where there are none they are not read: any buffer will do. The same of the image.
         let boundaries =
             gaps.map_or(Resource::buffer(&list.counts), |gaps| Resource::buffer(&gaps.boundaries));
+        let foam =
+            foam.map_or(r.scene_depth, |foam| Resource::Sampled(foam.view, gpu.samplers.nearest));
         match &self.path {
             Path::Raster { points, quads, pass, framebuffer } => {
                 gpu.barriers(cmd, &hand(BEFORE.discarded(), COLOR_ATTACHMENT), &[]);
                 let area = reduced(r.extent, self.level).into();
                 gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [0.0; 4]);
-                draw_sprites(r, list, points, quads, &[(11, boundaries)])?;
+                draw_sprites(r, list, points, quads, &[(7, foam), (11, boundaries)])?;
                 gpu.end_pass(cmd);
                 gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);
             }
@@ -240,6 +255,7 @@ impl Thickness {
                     (3, r.scene_depth),
                     (4, Resource::buffer(sums)),
                     (5, blocks),
+                    (7, foam),
                     (11, boundaries),
                 ];
                 dispatch_sprites(r, list, small, large, &bound)?;
@@ -257,6 +273,7 @@ impl Thickness {
                         (0, r.uniforms),
                         (1, Resource::buffer(sums)),
                         (2, Resource::storage(&self.image)),
+                        (7, foam),
                     ],
                 )?;
                 r.dispatch_over(reduced(r.extent, self.level), resolve.local_size);

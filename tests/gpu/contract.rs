@@ -4,8 +4,8 @@
 use ash::vk;
 use whitewater::water::{Gate, Rule, Shading, Smoothing, Splat};
 use whitewater::{
-    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Renderer, Settings,
-    Slot, Stream,
+    Access, Config, Count, Enabled, Error, Foam, Frame, HostImage, Packets, Recorded, Renderer,
+    Settings, Slot, Stream,
 };
 
 use crate::reference::Image;
@@ -182,6 +182,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { smoothing: Some(Smoothing::Fused), max_iterations: 9, ..base },
         Config { sheets: 2, ..base },
         Config { sheets: 2, smoothing_level: 0, depth_splat: Some(Splat::Raster), ..base },
+        Config { foam: true, sheets: 2, extent: extent(50, 40), ..base },
+        Config { foam: true, thickness_splat: Some(Splat::Raster), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -461,6 +463,32 @@ fn spoils() -> Vec<Spoil> {
         ("sun", "Settings.light", |g| g.settings.light.direction[0] = f32::NAN),
         ("light", "Settings.light", |g| g.settings.light.color[1] = -1.0),
         ("ambient", "Settings.light", |g| g.settings.light.ambient[2] = f32::INFINITY),
+        ("irradiance", "Settings.light", |g| g.settings.light.irradiance[0] = f32::NAN),
+        ("foam", "Frame.particles.foam", |g| {
+            let any = g.frame.particles.positions;
+            g.frame.particles.foam = Some(Foam { amounts: any, velocities: any, ids: None });
+        }),
+        ("foam stride", "Frame.particles.foam.amounts", |g| {
+            let any = g.frame.particles.positions;
+            let amounts = Stream { stride: 4, ..any };
+            g.frame.particles.foam = Some(Foam { amounts, velocities: any, ids: None });
+        }),
+        ("foam speeds", "Frame.particles.foam.velocities", |g| {
+            let any = g.frame.particles.positions;
+            let velocities = Stream { stride: 8, ..any };
+            g.frame.particles.foam = Some(Foam { amounts: any, velocities, ids: None });
+        }),
+        ("foam ids", "Frame.particles.foam.ids", |g| {
+            let any = g.frame.particles.positions;
+            let ids = Some(Stream { offset: 1 << 40, ..any });
+            g.frame.particles.foam = Some(Foam { amounts: any, velocities: any, ids });
+        }),
+        ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
+        ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
+        ("threshold", "Settings.foam.motion_threshold", |g| {
+            g.settings.foam.motion_threshold = 0.0;
+        }),
+        ("white", "Settings.foam.front_color", |g| g.settings.foam.front_color[1] = 1.1),
     ]
 }
 
@@ -712,10 +740,10 @@ fn ten_million_particles_have_room() {
 #[test]
 fn memory_is_as_documented() {
     let gpu = Gpu::shared();
-    let needed = |width: u32, height: u32, count: u32, (sheets, coarsening): (u32, u32)| {
+    let needed = |width: u32, height: u32, count: u32, (sheets, coarsening, foam)| {
         let format = vk::Format::R16G16B16A16_SFLOAT;
         let size = extent(width, height);
-        let config = Config { sheets, coarsening, ..Config::new(size, format, count) };
+        let config = Config { sheets, coarsening, foam, ..Config::new(size, format, count) };
         // SAFETY: live handles.
         let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
         let memory = renderer.memory();
@@ -728,13 +756,20 @@ fn memory_is_as_documented() {
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
-        for (sheets, coarsening, smoothing, apart) in
-            [(1, 3, 4.5, 0.0), (1, 0, 3.0, 0.0), (2, 3, 4.5, 2.5), (2, 0, 4.5, 2.5)]
-        {
-            let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + apart) + 32.0 * n + cube;
-            let found = needed(width, height, count, (sheets, coarsening));
+        // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
+        for (sheets, coarsening, foam, smoothing, more) in [
+            (1, 3, false, 4.5, 0.0),
+            (1, 0, false, 3.0, 0.0),
+            (2, 3, false, 4.5, 2.5),
+            (2, 0, false, 4.5, 2.5),
+            (1, 3, true, 4.5, 5.25),
+            (2, 3, true, 4.5, 7.75),
+        ] {
+            let each = if foam { 84.0 } else { 32.0 };
+            let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
+            let found = needed(width, height, count, (sheets, coarsening, foam));
             let off = (found - said).abs();
-            let name = format!("{width}x{height}, {sheets} sheets");
+            let name = format!("{width}x{height}, {sheets} sheets, foam {foam}");
             assert!(off < 0.01 * said + 512.0 * 1024.0, "{name}: {found}, said {said}");
         }
     }
@@ -745,7 +780,7 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let mut rig = Rig::with_slots(&gpu, &Config { sheets: 2, ..config(size) }, 2);
+    let mut rig = Rig::with_slots(&gpu, &Config { sheets: 2, foam: true, ..config(size) }, 2);
     let shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
     assert!(rig.renderer().timings(Slot(9)).is_empty(), "no such slot");
@@ -757,6 +792,7 @@ fn timings_name_every_pass() {
             "cull",
             "front",
             "depth",
+            "foam",
             "gaps",
             "thickness",
             "reduce",

@@ -228,7 +228,7 @@ fn words(values: &[u32]) -> Vec<u8> {
 
 fn packed(positions: Stream, count: Count) -> Particles {
     let (before, after) = (HOST_WRITE, HOST_WRITE);
-    Particles { positions, densities: None, count, packets: None, before, after }
+    Particles { positions, densities: None, count, packets: None, foam: None, before, after }
 }
 
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;

@@ -61,6 +61,7 @@ fn claimed(
                 densities: Some(stream(&data, 4 * (start + density) as u64, bytes)),
                 count: if apart { Count::Cpu(n) } else { Count::Gpu { buffer, offset: 256 } },
                 packets: (!apart).then_some(Packets { buffer, offset: 512, count }),
+                foam: None,
                 before: HOST_WRITE,
                 after: HOST_WRITE,
             };

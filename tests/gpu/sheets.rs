@@ -747,6 +747,7 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         levels,
         thickness: thickness.map(|[front, back, _]| (front + back) as f32),
         sheets: Some(sheets),
+        foam: None,
         dropped: 0,
         spray: 0,
     };

@@ -18,6 +18,7 @@ pub mod composite;
 pub mod cull;
 pub mod depth;
 pub mod environment;
+pub mod foam;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;

@@ -199,9 +199,21 @@ pub struct Drawn {
     pub thickness: Image<f32>,
     /// With two sheets.
     pub sheets: Option<Sheets>,
+    /// With foam.
+    pub foam: Option<Foaming>,
     /// Particles dropped for their positions, and set aside as spray.
     pub dropped: u32,
     pub spray: u32,
+}
+
+/// What a frame with foam gave besides.
+#[derive(Clone)]
+pub struct Foaming {
+    pub depth: Image<f32>,
+    /// Of all foam, and of what lies right behind the frontmost.
+    pub thickness: Image<[f32; 2]>,
+    /// Of the water before the frontmost.
+    pub before: Image<f32>,
 }
 
 /// What a frame with two sheets gave besides.
@@ -420,6 +432,7 @@ impl<'g> Rig<'g> {
             levels,
             thickness: empty(),
             sheets: None,
+            foam: None,
             dropped: 0,
             spray: 0,
         };
@@ -443,11 +456,21 @@ impl<'g> Rig<'g> {
             surface: empty(),
             plan: Image::new(0, 0, 0),
         });
+        let mut foam =
+            Foaming { depth: empty(), thickness: Image::new(0, 0, [0.0; 2]), before: empty() };
+        let mut foams = false;
         for layer in &recorded.layers {
             let whole = layer.extent.into();
             match layer.name {
                 "water.depth" => drawn.depth = self.floats(layer, whole),
+                "water.thickness" if layer.format == vk::Format::R32G32_SFLOAT => {
+                    let both = self.pairs(layer, whole);
+                    drawn.thickness = both.map(|t| t[0]);
+                    foam.before = both.map(|t| t[1]);
+                }
                 "water.thickness" => drawn.thickness = self.floats(layer, whole),
+                "foam.depth" => (foam.depth, foams) = (self.floats(layer, whole), true),
+                "foam.thickness" => foam.thickness = self.pairs(layer, whole),
                 "water.thickness.sheets" => {
                     let sheets = sheets.as_mut().expect("boundaries of two sheets");
                     sheets.thickness = self.sheets(layer, whole);
@@ -476,6 +499,7 @@ impl<'g> Rig<'g> {
         }
         drawn.coarser = fading.then_some(second);
         drawn.sheets = sheets;
+        drawn.foam = foams.then_some(foam);
         drawn
     }
 
@@ -516,6 +540,14 @@ impl<'g> Rig<'g> {
             .map(|[x, y, z, _]| [*x, *y, *z])
     }
 
+    fn pairs(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 2]> {
+        assert_eq!(layer.format, vk::Format::R32G32_SFLOAT);
+        let bytes = self.bytes(layer, area);
+        let pairs = bytes.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+        let (width, height) = (area.extent.width as usize, area.extent.height as usize);
+        Image { width, height, data: pairs }
+    }
+
     fn floats(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {
         self.texels(layer, area).map(|bits| f32::from_bits(*bits))
     }
@@ -547,6 +579,7 @@ impl Cloud {
             densities: self.densities.as_ref().map(|d| stream(d, 0, 4)),
             count: Count::Cpu(self.count),
             packets: None,
+            foam: None,
             before: HOST_WRITE,
             after: HOST_WRITE,
         }

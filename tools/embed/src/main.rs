@@ -151,6 +151,7 @@ pub fn draw(
             densities: Some(stream(std::mem::offset_of!(Particle, density))),
             count: Count::Cpu(wave.len() as u32),
             packets: None,
+            foam: None,
             before: CPU,
             after: CPU,
         };

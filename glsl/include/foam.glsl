@@ -1,0 +1,76 @@
+// A particle's foam as a sprite (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which turns
+// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl.
+
+struct FoamSprite {
+    vec4 centre;   // eye space; foam, 0 to 1
+    vec4 velocity; // eye space; age in seconds
+    vec4 rest;     // bits of the id
+};
+
+// Half-axis across the motion in drawn radii. That of the depth shrinks with the last of the foam; else
+// it is the thickness', which ends softly: a narrower one cuts it off (the source has 2 to 3).
+const float FOAM_AXIS = 2.0;
+// Least that a sprite counts as turned towards the eye: seen from its edge it would be endless.
+const float LEAST_FACING = 0.2;
+
+// Unit vectors along the motion and across it; how far it is stretched, 0 to 1.
+float foam_axes(FoamSprite sprite, out vec3 along, out vec3 across) {
+    vec3 v = normalize(sprite.centre.xyz);
+    float speed = length(sprite.velocity.xyz);
+    vec3 direction = sprite.velocity.xyz / max(speed, 1.0e-20);
+    across = cross(direction, v);
+    float turned = length(across);
+    if (speed <= 1.0e-6 * frame.particle.y || turned < 1.0e-3) {
+        across = cross(v, vec3(0.0, 1.0, 0.0));
+        across = dot(across, across) < 1.0e-6 ? cross(v, vec3(1.0, 0.0, 0.0)) : across;
+        across = normalize(across);
+        along = cross(across, v);
+        return 0.0;
+    }
+    across /= turned;
+    vec3 facing = cross(across, v);
+    facing = dot(facing, direction) < 0.0 ? -facing : facing;
+    float stretch = smoothstep(0.0, frame.foam.z, speed / frame.particle.y)
+                  * (1.0 - smoothstep(0.9, 1.0, abs(dot(v, direction))));
+    along = normalize(mix(facing, direction, stretch));
+    return stretch;
+}
+
+uint pcg(uint x) {
+    uint s = x * 747796405u + 2891336453u;
+    uint w = ((s >> ((s >> 28) + 4u)) ^ s) * 277803737u;
+    return (w >> 22) ^ w;
+}
+
+// Three uniform numbers of an id, 0 to 1.
+vec3 foam_phase(uint id) {
+    uvec3 h = uvec3(pcg(3u * id), pcg(3u * id + 1u), pcg(3u * id + 2u)) >> 8;
+    return vec3(h) * (1.0 / 16777216.0);
+}
+
+float lattice_gradient(ivec3 cell, vec3 off) {
+    uint h = pcg(uint(cell.x) + pcg(uint(cell.y) + pcg(uint(cell.z)))) & 15u;
+    float u = h < 8u ? off.x : off.y;
+    float v = h < 4u ? off.y : h == 12u || h == 14u ? off.x : off.z;
+    return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
+}
+
+// Gradient noise (Perlin 2002), mean 0.
+float gradient_noise(vec3 p) {
+    vec3 cell = floor(p);
+    vec3 f = p - cell;
+    vec3 fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    ivec3 c = ivec3(cell);
+    vec2 planes;
+    for (int k = 0; k < 2; ++k) {
+        vec2 rows;
+        for (int j = 0; j < 2; ++j) {
+            ivec3 at = c + ivec3(0, j, k);
+            float a = lattice_gradient(at, f - vec3(0.0, j, k));
+            float b = lattice_gradient(at + ivec3(1, 0, 0), f - vec3(1.0, j, k));
+            rows[j] = mix(a, b, fade.x);
+        }
+        planes[k] = mix(rows.x, rows.y, fade.y);
+    }
+    return mix(planes.x, planes.y, fade.z);
+}

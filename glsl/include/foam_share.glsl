@@ -1,0 +1,18 @@
+// How much of the water is before the frontmost foam. Needs frame.glsl.
+
+// 1: there may be foam; else it is not read.
+layout(constant_id = 9) const uint FOAM = 0;
+
+layout(set = 0, binding = 7) uniform sampler2D foam_depth;
+
+// Depth of the frontmost foam at the middle of a texel of the thickness.
+float foam_at(ivec2 texel) {
+    ivec2 pixel = ivec2((vec2(texel) + 0.5) * frame.thick_extent.z);
+    return texelFetch(foam_depth, min(pixel, ivec2(frame.extent.xy) - 1), 0).x;
+}
+
+// Share of a sprite whose centre lies at a depth.
+float share_before(float z, float foam) {
+    float spacing = frame.particle.y;
+    return foam < EMPTY ? 1.0 - smoothstep(-0.5 * spacing, 0.5 * spacing, z - foam) : 1.0;
+}

@@ -1,0 +1,21 @@
+#version 460
+// Pass `foam`: the frontmost foam (thesis Sec. 4.6.2). MIN blending keeps the nearest.
+// Reads: scene depth. Writes: foam depth (R32F).
+
+#include "frame.glsl"
+#include "foam_hit.glsl"
+
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+
+layout(location = 0) out float depth;
+
+void main() {
+    vec2 place;
+    if (!foam_hit(ray_slope(gl_FragCoord.xy, frame.slope), place, depth)) {
+        discard;
+    }
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
+    if (scene > 0.0 && depth >= scene) {
+        discard;
+    }
+}

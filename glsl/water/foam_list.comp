@@ -1,0 +1,70 @@
+#version 460
+// Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 4.5).
+// Reads: Counts (particles), positions, foam, velocities, ids. Writes: Counts (foam), sprites.
+
+#include "frame.glsl"
+#include "counts.glsl"
+#include "foam.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Amounts { float amounts[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Velocities { float velocities[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Ids { uint ids[]; };
+layout(set = 0, binding = 5, std430) buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 6, std430) writeonly buffer Sprites { FoamSprite sprites[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;   // of the chunk's first particle
+    uint position_stride; // in words
+    uint amount_word;
+    uint amount_stride;
+    uint velocity_word;
+    uint velocity_stride;
+    uint id_word;
+    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint chunk_first;
+} push;
+
+bool in_frustum(vec3 centre, float radius) {
+    bool inside = true;
+    for (int i = 0; i < 6; ++i) {
+        inside = inside && dot(frame.planes[i].xyz, centre) + frame.planes[i].w >= -radius;
+    }
+    return inside;
+}
+
+void visit(uint index) {
+    uint at = push.amount_word + index * push.amount_stride;
+    // Comparisons with NaN are false.
+    if (!(amounts[at] > 0.0)) {
+        return;
+    }
+    float foam = min(amounts[at], 1.0);
+    float age = amounts[at + 1u];
+    at = push.position_word + index * push.position_stride;
+    vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+    at = push.velocity_word + index * push.velocity_stride;
+    vec3 velocity = vec3(velocities[at], velocities[at + 1u], velocities[at + 2u]);
+    if (!(all(lessThan(abs(position), vec3(1.0e18))) && all(lessThan(abs(velocity), vec3(1.0e18))))) {
+        return;
+    }
+    vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
+    // The longest half-axis of all. A centre behind the near plane has no sprite.
+    if (-centre.z <= frame.depth.z || !in_frustum(centre, 2.0 * FOAM_AXIS * frame.particle.x)) {
+        return;
+    }
+    uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;
+    age = age > 0.0 && age < 1.0e6 ? age : 0.0;
+    uint slot = atomicAdd(counts.foam, 1u);
+    sprites[slot] = FoamSprite(vec4(centre, foam), vec4(mat3(frame.view) * velocity, age),
+                               vec4(uintBitsToFloat(id), 0.0, 0.0, 0.0));
+}
+
+void main() {
+    uint count = counts.particles;
+    for (uint i = gl_GlobalInvocationID.x; i < count; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
+        visit(i);
+    }
+}

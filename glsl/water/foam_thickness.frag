@@ -1,0 +1,35 @@
+#version 460
+// Pass `foam`: metres of foam, of all and of the layer right behind the frontmost (thesis Sec. 4.8).
+// A noise of its own in each sprite, that changes as it ages, breaks up the discs.
+// Reads: scene depth, foam depth. Writes: foam thickness (RG32F).
+
+#include "frame.glsl"
+#include "foam.glsl"
+#include "foam_hit.glsl"
+
+layout(location = 4) flat in vec4 look;
+
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 3) uniform sampler2D foam_depth;
+
+layout(location = 0) out vec2 thickness;
+
+void main() {
+    vec2 place;
+    float depth;
+    if (!foam_hit(ray_slope(gl_FragCoord.xy, frame.thick_slope), place, depth)) {
+        discard;
+    }
+    vec2 pixel = gl_FragCoord.xy * frame.thick_extent.z;
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    if (scene > 0.0 && depth >= scene) {
+        discard;
+    }
+    float rho2 = dot(place, place);
+    float noise = gradient_noise(vec3(3.0 * place, 0.0) + look.yzw);
+    float amount = look.x * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
+    amount *= max(1.0 + frame.foam_noise.x * noise, 0.0);
+    ivec2 last = ivec2(frame.extent.xy) - 1;
+    float front = texelFetch(foam_depth, min(ivec2(pixel), last), 0).x;
+    thickness = vec2(amount, depth <= front + frame.foam.w && front < EMPTY ? amount : 0.0);
+}

@@ -1,0 +1,337 @@
+//! Pass `foam`: the frontmost foam and how much there is (thesis Sec. 3.2, 4.6.2 and 4.8).
+//!
+//! Particles with foam are sprites along their motion; where they are slow or come towards the eye
+//! they turn into discs, smoothly (the source switches, which pops). The corners are pulled in the
+//! vertex shader, the fragment meets the sprite's plane exactly. Thickness is in metres, as that of
+//! the water: what a particle is foam of it is no water.
+//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
+//! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost).
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::Recording;
+use super::cull::{self, LIST_USE, SphereList, window};
+use crate::contract::{Config, Foam as FoamStreams, Particles};
+use crate::error::Error;
+use crate::frame::{EMPTY, reduced};
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+    FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::{Graphics, Pipeline, blend};
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+
+/// Bytes of a sprite.
+pub const SPRITE: u64 = 48;
+/// Workgroups of the list at most; more particles share them.
+const MOST_GROUPS: u32 = 1024;
+
+/// Both images are read by compute (`reduce`) and by what shades.
+pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
+/// Last uses in a frame: those, or the host's copy of the layer.
+const BEFORE: Access = AFTER.and(COPY_READ);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    position_word: u32,
+    position_stride: u32,
+    amount_word: u32,
+    amount_stride: u32,
+    velocity_word: u32,
+    velocity_stride: u32,
+    id_word: u32,
+    id_stride: u32,
+    chunk_first: u32,
+}
+shader::assert_layout!(
+    shader::WATER_FOAM_LIST_COMP,
+    "Push",
+    Push {
+        position_word,
+        position_stride,
+        amount_word,
+        amount_stride,
+        velocity_word,
+        velocity_stride,
+        id_word,
+        id_stride,
+        chunk_first,
+    }
+);
+
+/// An image that sprites are blended into.
+struct Target {
+    image: Image,
+    pass: Owned<vk::RenderPass>,
+    framebuffer: Owned<vk::Framebuffer>,
+    pipeline: Pipeline,
+    level: u32,
+}
+
+/// What an image is for.
+#[derive(Clone, Copy)]
+enum Kind {
+    Depth,
+    Thickness,
+}
+
+impl Target {
+    fn new(gpu: &Gpu, config: &Config, kind: Kind) -> Result<Self, Error> {
+        let (fragment, thick, op) = match kind {
+            Kind::Depth => (shader::WATER_FOAM_DEPTH_FRAG, 0, vk::BlendOp::MIN),
+            Kind::Thickness => (shader::WATER_FOAM_THICKNESS_FRAG, 1, vk::BlendOp::ADD),
+        };
+        let image = Self::image(gpu, config, kind)?;
+        let name = image_name(kind);
+        let pass = gpu.color_pass(name, &[image.format], vk::AttachmentLoadOp::CLEAR)?;
+        let pipeline = Pipeline::graphics(
+            gpu,
+            &Graphics {
+                vertex: shader::WATER_FOAM_VERT,
+                fragment,
+                topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                pass: pass.handle,
+                blend: &[blend(op)],
+                constants: &[(0, thick)],
+            },
+        )?;
+        let framebuffer = gpu.framebuffer(name, pass.handle, image.view, image.extent)?;
+        Ok(Self { image, pass, framebuffer, pipeline, level: level(config, kind) })
+    }
+
+    fn image(gpu: &Gpu, config: &Config, kind: Kind) -> Result<Image, Error> {
+        let format = match kind {
+            Kind::Depth => vk::Format::R32_SFLOAT,
+            Kind::Thickness => vk::Format::R32G32_SFLOAT,
+        };
+        let usage = vk::ImageUsageFlags::SAMPLED
+            | vk::ImageUsageFlags::COLOR_ATTACHMENT
+            | vk::ImageUsageFlags::TRANSFER_SRC;
+        let extent = reduced(config.extent, level(config, kind));
+        Image::new(gpu, &ImageDesc::new(image_name(kind), extent, format, usage))
+    }
+
+    fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        kind: Kind,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let image = Self::image(gpu, config, kind)?;
+        let name = image_name(kind);
+        let framebuffer = gpu.framebuffer(name, self.pass.handle, image.view, image.extent)?;
+        retired.retire(std::mem::replace(&mut self.framebuffer, framebuffer));
+        retired.retire(std::mem::replace(&mut self.image, image));
+        Ok(())
+    }
+
+    /// Clears the image, and blends all sprites into it, if there are any.
+    fn record(
+        &self,
+        r: &mut Recording<'_>,
+        foam: &Foam,
+        list: &SphereList,
+        clear: f32,
+        any: bool,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let to = COLOR_ATTACHMENT;
+        gpu.barriers(cmd, &[access::image(&self.image, BEFORE.discarded(), to)], &[]);
+        let area = reduced(r.extent, self.level).into();
+        let clear = [clear, 0.0, 0.0, 0.0];
+        gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, clear);
+        for index in 0..if any { list.chunks } else { 0 } {
+            let resources = [
+                (0, r.uniforms),
+                (1, foam.chunk(list, index)),
+                (2, r.scene_depth),
+                (3, Resource::Sampled(foam.depth.image.view, gpu.samplers.nearest)),
+            ];
+            r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
+            let draw = list.chunk(index).arguments + cull::FOAM;
+            // SAFETY: inside a render pass; the arguments are visible (barrier of the list).
+            unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
+        }
+        gpu.end_pass(cmd);
+        gpu.barriers(cmd, &[access::image(&self.image, COLOR_ATTACHMENT, AFTER)], &[]);
+        Ok(())
+    }
+}
+
+fn image_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Depth => "water/foam/depth",
+        Kind::Thickness => "water/foam/thickness",
+    }
+}
+
+fn level(config: &Config, kind: Kind) -> u32 {
+    match kind {
+        Kind::Depth => 0,
+        Kind::Thickness => config.thickness_level,
+    }
+}
+
+/// The pass.
+pub struct Foam {
+    list: Pipeline,
+    sprites: Buffer,
+    depth: Target,
+    thickness: Target,
+}
+
+impl Foam {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let (chunk, chunks) = super::chunks(&gpu.limits, config);
+        Ok(Self {
+            list: Pipeline::compute(gpu, shader::WATER_FOAM_LIST_COMP, &[])?,
+            sprites: Buffer::new(
+                gpu,
+                "water/foam/sprites",
+                SPRITE * u64::from(chunk) * u64::from(chunks),
+                vk::BufferUsageFlags::STORAGE_BUFFER,
+                MemoryLocation::GpuOnly,
+            )?,
+            depth: Target::new(gpu, config, Kind::Depth)?,
+            thickness: Target::new(gpu, config, Kind::Thickness)?,
+        })
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        self.depth.resize(gpu, config, Kind::Depth, retired)?;
+        self.thickness.resize(gpu, config, Kind::Thickness, retired)
+    }
+
+    /// A chunk's part of the sprites.
+    fn chunk(&self, list: &SphereList, index: u32) -> Resource {
+        let bytes = SPRITE * u64::from(list.chunk_size);
+        Resource::Buffer(self.sprites.handle, bytes * u64::from(index), bytes)
+    }
+
+    /// Eye depth of the frontmost foam.
+    pub fn depth(&self) -> &Image {
+        &self.depth.image
+    }
+
+    /// Metres of foam.
+    pub fn thickness(&self) -> &Image {
+        &self.thickness.image
+    }
+
+    /// `list`: of `cull`, for its counts.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: &Particles,
+        list: &SphereList,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"foam");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        if let Some(foam) = &particles.foam {
+            let (counts, sprites) = (list.counts.handle, self.sprites.handle);
+            gpu.barriers(
+                cmd,
+                &[],
+                &[
+                    buffer(counts, LIST_USE, COMPUTE_READ_WRITE),
+                    buffer(sprites, VERTEX_READ, COMPUTE_WRITE),
+                ],
+            );
+            for index in 0..list.chunks {
+                self.record_list(r, particles, foam, list, index)?;
+            }
+            gpu.barriers(
+                cmd,
+                &[],
+                &[
+                    buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
+                    buffer(sprites, COMPUTE_WRITE, VERTEX_READ),
+                ],
+            );
+        }
+        let any = particles.foam.is_some();
+        self.depth.record(r, self, list, EMPTY, any)?;
+        self.thickness.record(r, self, list, 0.0, any)?;
+        r.end(scope);
+        Ok(())
+    }
+
+    fn record_list(
+        &self,
+        r: &Recording<'_>,
+        particles: &Particles,
+        foam: &FoamStreams,
+        list: &SphereList,
+        index: u32,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let first = index * list.chunk_size;
+        // A stream that ends before the chunk has no particles in it: the count was clamped.
+        let bound = [&particles.positions, &foam.amounts, &foam.velocities];
+        let [Some(positions), Some(amounts), Some(velocities)] =
+            bound.map(|stream| window(gpu, stream, first))
+        else {
+            return Ok(());
+        };
+        let (ids, id_word, id_stride) = match &foam.ids {
+            Some(stream) => match window(gpu, stream, first) {
+                Some((resource, word)) => (resource, word, stream.stride / 4),
+                None => return Ok(()),
+            },
+            None => (positions.0, 0, 0),
+        };
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.list,
+            &[
+                (0, r.uniforms),
+                (1, positions.0),
+                (2, amounts.0),
+                (3, velocities.0),
+                (4, ids),
+                (5, list.chunk(index).counts),
+                (6, self.chunk(list, index)),
+            ],
+        )?;
+        self.list.push(
+            gpu,
+            cmd,
+            &Push {
+                position_word: positions.1,
+                position_stride: particles.positions.stride / 4,
+                amount_word: amounts.1,
+                amount_stride: foam.amounts.stride / 4,
+                velocity_word: velocities.1,
+                velocity_stride: foam.velocities.stride / 4,
+                id_word,
+                id_stride,
+                chunk_first: first,
+            },
+        );
+        let groups = list.chunk_size.div_ceil(self.list.local_size[0]).min(MOST_GROUPS);
+        // SAFETY: outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+        Ok(())
+    }
+
+    /// Bytes of images and buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        (self.depth.image.size + self.thickness.image.size, self.sprites.size)
+    }
+}

@@ -1,0 +1,380 @@
+//! Pass `foam`: sprites against the twin, what is foam is no water, and the picture with foam.
+
+use glam::DVec3;
+use whitewater::water::{Shading, Splat};
+use whitewater::{Config, Foam, Particles};
+
+use crate::depth::spheres;
+use crate::reference::foam::{self, Sprite};
+use crate::reference::{EMPTY, Image, is_surface, smoothstep};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::Data;
+use crate::support::rig::{Cloud, Drawn, Foaming, Rig, Shot, config, extent, stream};
+use crate::support::scenes::{self, LENSES, Lens, Random};
+use crate::support::tolerance::{self, Between, Sum, U};
+
+const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
+
+fn foaming(size: ash::vk::Extent2D) -> Config {
+    Config { foam: true, ..config(size) }
+}
+
+/// A shot with foam.
+#[derive(Clone)]
+struct Foamy {
+    shot: Shot,
+    /// Foam and age.
+    amounts: Vec<[f32; 2]>,
+    /// In the world.
+    velocities: Vec<[f32; 3]>,
+    ids: Option<Vec<u32>>,
+}
+
+/// Its buffers.
+struct Streams {
+    cloud: Cloud,
+    amounts: Data,
+    velocities: Data,
+    ids: Option<Data>,
+}
+
+impl Streams {
+    fn particles(&self) -> Particles {
+        let foam = Foam {
+            amounts: stream(&self.amounts, 0, 8),
+            velocities: stream(&self.velocities, 0, 12),
+            ids: self.ids.as_ref().map(|ids| stream(ids, 0, 4)),
+        };
+        Particles { foam: Some(foam), ..self.cloud.particles() }
+    }
+}
+
+impl Foamy {
+    /// Particles of all amounts of foam, at all speeds up to `fastest` spacings a second.
+    fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
+        let shot = Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0));
+        let mut random = Random(5);
+        let most = fastest * shot.settings.water.spacing / 3.0_f32.sqrt();
+        let count = shot.positions.len();
+        let velocities = (0..count).map(|_| [0; 3].map(|_| random.between(-most, most))).collect();
+        let amounts = (0..count)
+            .map(|i| match i % 8 {
+                0 => [0.0, 0.0],
+                1 => [1.0, random.between(0.0, 9.0)],
+                _ => [random.between(0.0, 1.0), random.between(0.0, 3.0)],
+            })
+            .collect();
+        let ids = Some((0..count).map(|_| random.bits() as u32).collect());
+        Self { shot, amounts, velocities, ids }
+    }
+
+    fn streams(&self, rig: &Rig<'_>) -> Streams {
+        let data = |bytes: &[u8]| rig.stub.data(bytes, STORAGE);
+        Streams {
+            cloud: rig.particles(&self.shot),
+            amounts: data(bytemuck::cast_slice(&self.amounts)),
+            velocities: data(bytemuck::cast_slice(&self.velocities)),
+            ids: self.ids.as_ref().map(|ids| data(bytemuck::cast_slice(ids))),
+        }
+    }
+
+    fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
+        let streams = self.streams(rig);
+        rig.draw_particles(&self.shot, &streams.particles())
+    }
+
+    /// As the twin takes them.
+    fn sprites(&self) -> Vec<Sprite> {
+        let view = self.shot.camera_view();
+        let wide = |v: &[f32; 3]| DVec3::from(v.map(f64::from));
+        (0..self.amounts.len())
+            .map(|i| Sprite {
+                center: view.transform_point3(wide(&self.shot.positions[i])),
+                foam: f64::from(self.amounts[i][0]),
+                velocity: view.transform_vector3(wide(&self.velocities[i])),
+                age: f64::from(self.amounts[i][1]),
+                id: self.ids.as_ref().map_or(i as u32, |ids| ids[i]),
+            })
+            .collect()
+    }
+
+    fn settings(&self) -> foam::Settings {
+        let (look, spacing) = (&self.shot.settings.foam, self.shot.settings.water.spacing);
+        foam::Settings {
+            spacing: f64::from(spacing),
+            motion_threshold: f64::from(look.motion_threshold),
+            front_depth: f64::from(look.front_depth),
+            noise: f64::from(look.noise),
+            noise_rate: f64::from(look.noise_rate),
+        }
+    }
+}
+
+fn of(drawn: &Drawn) -> &Foaming {
+    drawn.foam.as_ref().expect("a frame with foam")
+}
+
+fn wide(image: &Image<f32>) -> Image<f64> {
+    image.map(|d| if *d < 1e9 { f64::from(*d) } else { EMPTY })
+}
+
+/// Depth and both thicknesses of a frame are the twin's.
+fn check(name: &str, case: &Foamy, drawn: &Drawn, level: u32) {
+    let (shot, found) = (&case.shot, of(drawn));
+    let (view, sprites, settings) = (shot.view(shot.size), case.sprites(), case.settings());
+    let scene = shot.scene_at(shot.size, 0);
+    let bounds = foam::depth_bounds(&sprites, &view, &settings, &scene);
+    compare::between(&format!("{name}-depth"), &found.depth, &bounds);
+    let depth = Between { low: wide(&found.depth), high: wide(&found.depth) };
+    let bounds = foam::thickness_bounds(&sprites, &view, level, &settings, &scene, &depth);
+    for (i, bounds) in bounds.iter().enumerate() {
+        let found = found.thickness.map(|t| t[i]);
+        compare::between(&format!("{name}-thickness-{i}"), &found, bounds);
+    }
+}
+
+#[test]
+fn foam_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for level in [1, 0, 2] {
+        let mut rig = Rig::new(&gpu, &Config { thickness_level: level, ..foaming(size) });
+        let lenses = if level == 1 { &LENSES[..] } else { &[Lens::OffAxis] };
+        for lens in lenses {
+            for fastest in [0.0, 40.0] {
+                let mut case = Foamy::new(size, *lens, fastest);
+                let name = format!("foam-{level}-{lens:?}-{fastest}");
+                let drawn = case.draw(&mut rig);
+                check(&name, &case, &drawn, level);
+                let covered = of(&drawn).depth.data.iter().filter(|z| **z < 1e9).count();
+                assert!(covered * 4 > drawn.depth.data.len(), "{name}: {covered} pixels");
+                case.shot.scene_depth(|x, y| ((x / 9 + y / 5) % 2 == 0).then_some(4.0));
+                let drawn = case.draw(&mut rig);
+                check(&format!("{name}-cut"), &case, &drawn, level);
+            }
+        }
+    }
+}
+
+/// A quarter that is foam: three quarters of the water, in spheres of three quarters of the radius.
+#[test]
+fn what_is_foam_is_no_water() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for splat in [Splat::Raster, Splat::Compute] {
+        let config = Config {
+            thickness_splat: Some(splat),
+            depth_splat: Some(splat),
+            sheets: 1,
+            thickness_level: 1,
+            ..foaming(size)
+        };
+        let mut rig = Rig::new(&gpu, &config);
+        let mut case = Foamy::new(size, Lens::Reversed, 10.0);
+        case.shot.settings.water.smoothing_width = 0.0;
+        case.amounts.fill([0.25, 0.0]);
+        let (shot, view) = (case.shot.clone(), case.shot.view(size));
+        let drawn = case.draw(&mut rig);
+        let mut small = spheres(&shot);
+        small.iter_mut().for_each(|s| s.radius *= 0.75);
+        let name = format!("foam-water-{splat:?}");
+        compare::between(&format!("{name}-depth"), &drawn.depth, &tolerance::depth(&small, &view));
+
+        let spacing = f64::from(shot.settings.water.spacing);
+        let sum = if splat == Splat::Raster { Sum::Float } else { Sum::Fixed };
+        let front = wide(&of(&drawn).depth);
+        let bounds = |share: &dyn Fn(usize, usize, f64) -> (f64, f64)| {
+            tolerance::thickness_where(
+                &spheres(&shot),
+                &view,
+                1,
+                &shot.scene_at(size, 1),
+                spacing.powi(3),
+                f64::from(shot.settings.water.radius()),
+                sum,
+                |x, y, sphere| share(x, y, -sphere.center.z),
+            )
+        };
+        // The share is a difference and a quotient, and back again.
+        let whole = (0.75 * (1.0 - 4.0 * U), 0.75 * (1.0 + 4.0 * U));
+        compare::between(&format!("{name}-all"), &drawn.thickness, &bounds(&|_, _, _| whole));
+        let before = bounds(&|x, y, z| {
+            let foam = front.at((2 * x + 1).min(96), (2 * y + 1).min(60));
+            if !is_surface(foam) {
+                return whole;
+            }
+            // Centres are 16u of the depth off; the ramp's slope is 1.5 a spacing.
+            let share = |z: f64| 1.0 - smoothstep(-0.5 * spacing, 0.5 * spacing, z - foam);
+            let slack = 32.0 * U * z;
+            let (low, high) = (share(z + slack), share(z - slack));
+            (whole.0 * (low - 16.0 * U).max(0.0), whole.1 * (high + 16.0 * U).min(1.0))
+        });
+        compare::between(&format!("{name}-before"), &of(&drawn).before, &before);
+        let parted = drawn.thickness.data.iter().zip(&of(&drawn).before.data);
+        let parted =
+            parted.filter(|(all, before)| **before > 0.01 * **all && **before < 0.99 * **all);
+        assert!(parted.count() > 50, "{name}: foam in the midst of water");
+    }
+}
+
+/// All foam is no water at all; no foam, NaN, or none of the stream, is the picture without the pass.
+#[test]
+fn without_foam_nothing_changes() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut plain = Rig::lit(&gpu, &config(size), 1);
+    let mut rig = Rig::lit(&gpu, &foaming(size), 1);
+    let mut case = Foamy::new(size, Lens::Standard, 10.0);
+    let expected = plain.draw(&case.shot);
+    for none in [0.0, -1.0, f32::NAN] {
+        case.amounts.fill([none, 1.0]);
+        let drawn = case.draw(&mut rig);
+        compare::same_color(&format!("foam-none-{none}"), &drawn.output, &expected.output);
+        compare::same("foam-none-depth", &drawn.depth, &expected.depth);
+        assert!(of(&drawn).depth.data.iter().all(|z| *z >= 1e9));
+    }
+    let drawn = rig.draw(&case.shot);
+    compare::same_color("foam-no-stream", &drawn.output, &expected.output);
+    case.amounts.fill([2.0, 1.0]);
+    let drawn = case.draw(&mut rig);
+    assert!(drawn.depth.data.iter().all(|z| *z >= 1e9), "more than whole foam is no water");
+    assert!(of(&drawn).depth.data.iter().any(|z| *z < 1e9));
+    // Neither position nor velocity may be anything.
+    case.amounts.fill([0.5, 1.0]);
+    case.velocities.fill([f32::NAN, 0.0, 0.0]);
+    let drawn = case.draw(&mut rig);
+    assert!(of(&drawn).depth.data.iter().all(|z| *z >= 1e9));
+}
+
+/// Opaque foam before all water has its own colour, whatever is behind it; foam alone lies over the
+/// scene by Beer's law; both ways of shading agree.
+#[test]
+fn foam_covers_what_is_behind_it() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let half = ash::vk::Format::R32G32B32A32_SFLOAT;
+    for shading in [Shading::Raster, Shading::Compute] {
+        let config = Config {
+            composite: Some(shading),
+            output_format: half,
+            thickness_level: 0,
+            smoothing_level: 0,
+            ..foaming(size)
+        };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut case = Foamy::new(size, Lens::Standard, 10.0);
+        // A particle of foam alone, before the eye.
+        case.shot.positions = scenes::world(&case.shot.camera, &[[0.0, 0.0, 2.0]]);
+        case.amounts = vec![[1.0, 0.0]];
+        case.velocities = vec![[0.0; 3]];
+        case.ids = None;
+        let look = &mut case.shot.settings.foam;
+        look.noise = 0.0;
+        (look.extinction, look.front_extinction) = (3.0, 5.0);
+        (look.back_color, look.front_color) = ([0.2, 0.4, 0.6], [0.9, 0.8, 0.7]);
+        case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn);
+        let mut seen = 0;
+        for (i, [r, g, b, _]) in drawn.output.data.iter().enumerate() {
+            let scene = case.shot.color[i];
+            if found.depth.data[i] >= 1e9 {
+                assert_eq!([*r, *g, *b], [scene[0], scene[1], scene[2]], "beside the foam");
+                continue;
+            }
+            let [t, front] = found.thickness.data[i].map(f64::from);
+            seen += usize::from(t > 0.01);
+            let (kept, back) = ((-3.0 * t).exp(), (-5.0 * front).exp());
+            for (c, found) in [r, g, b].into_iter().enumerate() {
+                let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
+                let foam = thick + (thin - thick) * back;
+                let expected = foam + (f64::from(scene[c]) - foam) * kept;
+                // exp: 3 + 2|x| ulp; the mixes and the light a few more.
+                let bound = 40.0 * U * (1.0 + expected);
+                assert!((f64::from(*found) - expected).abs() <= bound, "{found} not {expected}");
+            }
+        }
+        assert!(seen > 100, "{seen} pixels with foam");
+        // Behind a wall of foam there is nothing to be seen.
+        let mut wall = Foamy::new(size, Lens::Standard, 0.0);
+        let block = scenes::block(3, 0.1, [40, 28, 3], [-2.0, -1.4, 2.0]);
+        wall.shot.positions = scenes::world(&wall.shot.camera, &block);
+        wall.amounts = vec![[1.0, 0.0]; block.len()];
+        wall.velocities = vec![[0.0; 3]; block.len()];
+        wall.ids = None;
+        wall.shot.settings.foam.extinction = 1.0e4;
+        wall.shot.settings.foam.front_extinction = 1.0e5;
+        let over = wall.draw(&mut rig);
+        wall.shot.color.fill([7.0; 4]);
+        let other = wall.draw(&mut rig);
+        let centre = 30 * 97 + 48;
+        assert_eq!(over.output.data[centre], other.output.data[centre], "the scene shows through");
+        let white = f64::from(wall.shot.settings.foam.front_color[0])
+            * f64::from(wall.shot.settings.light.irradiance[0])
+            / std::f64::consts::PI;
+        let found = f64::from(over.output.data[centre][0]);
+        assert!((found - white).abs() < 1e-4, "{found} is not the front colour, {white}");
+    }
+}
+
+/// A sprite that is stretched to be seen, away from its disc: the pass reads velocities and ids.
+#[test]
+fn motion_and_ids_show() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &foaming(size));
+    let still = Foamy::new(size, Lens::Standard, 0.0);
+    let moving =
+        Foamy { velocities: Foamy::new(size, Lens::Standard, 60.0).velocities, ..still.clone() };
+    let others = Foamy { ids: None, ..still.clone() };
+    let [still, moving, others] = [still, moving, others].map(|case| case.draw(&mut rig));
+    assert_ne!(of(&still).depth.data, of(&moving).depth.data);
+    assert_eq!(of(&still).depth.data, of(&others).depth.data);
+    assert_ne!(of(&still).thickness.data, of(&others).thickness.data);
+}
+
+/// More particles than can be bound at once, without ids too: their number goes on from chunk to chunk.
+#[test]
+fn chunks_of_foam_are_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig =
+        Rig::new(&gpu, &Config { max_stride: 1 << 21, thickness_level: 1, ..foaming(size) });
+    let mut case = Foamy::new(size, Lens::OffAxis, 20.0);
+    for _ in 0..2 {
+        let drawn = case.draw(&mut rig);
+        check("foam-chunks", &case, &drawn, 1);
+        case.ids = None;
+    }
+}
+
+/// Odd sizes, of the frame and of the part of the image it is; no particles; all behind the eye.
+#[test]
+fn foam_of_any_size() {
+    let gpu = Gpu::shared();
+    for (width, height) in [(1, 1), (1, 7), (3, 5), (17, 33), (130, 9)] {
+        let size = extent(width, height);
+        // At full resolution: the middle of a wider texel may be out of the view, which is culled.
+        let config = Config { thickness_level: 0, ..foaming(size) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut case = Foamy::new(size, Lens::Reversed, 20.0);
+        case.shot.margin = [3, 1, 2, 4];
+        let drawn = case.draw(&mut rig);
+        check(&format!("foam-{width}x{height}"), &case, &drawn, rig.config.thickness_level);
+        let behind = case.shot.positions.len();
+        let back = scenes::world(&case.shot.camera, &vec![[0.0, 0.0, -3.0]; behind]);
+        for positions in [back, Vec::new()] {
+            let mut none = case.clone();
+            (none.amounts, none.velocities) = (
+                none.amounts[..positions.len()].to_vec(),
+                none.velocities[..positions.len()].to_vec(),
+            );
+            none.ids = None;
+            none.shot.positions = positions;
+            let drawn = none.draw(&mut rig);
+            assert!(of(&drawn).depth.data.iter().all(|z| *z >= 1e9));
+            assert_eq!(drawn.output.data, none.shot.color, "{width}x{height}");
+        }
+    }
+}
