@@ -113,6 +113,10 @@ pub struct DrawArgs {
     /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
+    /// What of the water foams: auto (the fastest twentieth of it, where there are velocities), none,
+    /// or the Weber number from which on it does
+    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = foaming)]
+    pub foam: Foaming,
     /// How particles become pixels [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,
@@ -202,6 +206,25 @@ impl From<SplatArg> for Splat {
     }
 }
 
+/// What of the water foams.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Foaming {
+    Auto,
+    None,
+    /// From this Weber number on, of the source's reduced form.
+    From(f32),
+}
+
+fn foaming(text: &str) -> Result<Foaming, String> {
+    match text {
+        "auto" => Ok(Foaming::Auto),
+        "none" => Ok(Foaming::None),
+        _ => positive(text)
+            .map(Foaming::From)
+            .map_err(|_| "expected auto, none or a number above 0".into()),
+    }
+}
+
 fn finite(text: &str) -> Result<f32, String> {
     match text.trim().parse::<f32>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -264,6 +287,8 @@ mod tests {
         assert!(size("0x2").is_err() && size("12").is_err());
         assert_eq!(times_as_large("4"), Ok(4));
         assert!(times_as_large("0").is_err() && times_as_large("3").is_err());
+        assert_eq!(foaming("80"), Ok(Foaming::From(80.0)));
+        assert!(foaming("-1").is_err() && foaming("much").is_err());
         assert_eq!(vector("1,-2, 3e1"), Ok([1.0, -2.0, 30.0]));
         assert!(vector("1,2").is_err() && vector("1,2,nan").is_err());
         assert_eq!(rule("fixed:40"), Ok(Rule::Fixed(40)));

@@ -3,10 +3,12 @@
 use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
+use whitewater::water::FoamLook;
 
 use crate::args::DemoArgs;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
+use crate::foam;
 use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
@@ -51,7 +53,9 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         None => viewpoint(args.camera.fov),
     };
     let count = particles.positions.len();
-    let look = Look { camera, settings, environment, scene };
+    settings.foam = FoamLook::of_spacing(SPACING);
+    let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
+    let look = Look { camera, settings, environment, scene, foam };
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut progress = Progress::new(1);
     session.frame(0, "waterfall", &particles)?;

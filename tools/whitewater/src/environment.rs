@@ -102,6 +102,8 @@ impl Environment {
             },
             // The mean over all directions, half of the sun's taken off by the water above.
             ambient: ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array(),
+            irradiance: (self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0))
+                .to_array(),
         }
     }
 

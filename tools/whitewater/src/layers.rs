@@ -8,7 +8,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 9] = [
+const GROUPS: [&str; 12] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -17,6 +17,9 @@ const GROUPS: [&str; 9] = [
     "water.thickness",
     "water.thickness.front",
     "water.thickness.back",
+    "foam.depth",
+    "foam.thickness",
+    "foam.thickness.front",
     "scene",
 ];
 
@@ -95,7 +98,7 @@ pub fn collect(
         push(name, &color.map(|v| v[c]), Merge::Mean)?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
-    for name in ["water.depth", "water.back"] {
+    for name in ["water.depth", "water.back", "foam.depth"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
@@ -107,6 +110,8 @@ pub fn collect(
         ("water.thickness", Merge::Mean),
         ("water.thickness.front", Merge::Mean),
         ("water.thickness.back", Merge::Mean),
+        ("foam.thickness", Merge::Mean),
+        ("foam.thickness.front", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?

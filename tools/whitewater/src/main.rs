@@ -9,6 +9,7 @@ mod compare;
 mod demo;
 mod environment;
 mod failure;
+mod foam;
 mod info;
 mod layers;
 mod output;

@@ -4,12 +4,14 @@ use glam::Vec3;
 use whitewater::Settings;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
+use whitewater::water::FoamLook;
 
 use crate::args::{RenderArgs, Up};
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::foam;
 use crate::layers;
 use crate::output;
 use crate::progress::Progress;
@@ -245,7 +247,15 @@ fn look(
         }
     };
     scene.sun = environment.sun_light();
-    Ok(Look { camera, settings, environment, scene })
+    settings.foam = FoamLook::of_spacing(spacing);
+    let foam = foam::settings(args.draw.foam, &probes.frames, &settings);
+    if let Some(foam) = &foam {
+        progress.say(&format!(
+            "foam from Weber number {} on (--foam sets it; none)",
+            round(foam.threshold)
+        ));
+    }
+    Ok(Look { camera, settings, environment, scene, foam })
 }
 
 /// Four digits are enough to read.

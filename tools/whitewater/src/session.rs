@@ -7,6 +7,7 @@ use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::Particles;
 use whitewater::io::picture::{self, Layers};
+use whitewater::water::FoamSettings;
 use whitewater::{Camera, Config, Settings};
 
 use crate::args::DrawArgs;
@@ -24,6 +25,8 @@ pub struct Look {
     pub settings: Settings,
     pub environment: Environment,
     pub scene: Scene,
+    /// When water foams; none: never.
+    pub foam: Option<FoamSettings>,
 }
 
 /// Draws frames.
@@ -122,6 +125,7 @@ impl<'a> Session<'a> {
         config.smoothing_level = args.smoothing_level;
         config.thickness_level = args.thickness_level;
         config.sheets = args.sheets;
+        config.foam = self.look.foam.is_some();
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
@@ -162,6 +166,9 @@ impl<'a> Session<'a> {
         times.step("upload", number, || {
             headless.particles(&particles.positions, particles.densities.as_deref())
         })?;
+        if let (Some(settings), Some(velocities)) = (&self.look.foam, &particles.velocities) {
+            times.step("foam", number, || headless.step(velocities, None, 0.0, settings))?;
+        }
         times.step("draw", number, || {
             headless.render(&self.camera, &self.look.settings, &Background::Scene)
         })?;
