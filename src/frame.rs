@@ -275,7 +275,7 @@ impl FrameUniforms {
             sun_color: light_vector(light.color),
             ambient: light_vector(light.ambient),
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
-            foam_noise: [look.noise, look.noise_rate, 0.0, 0.0],
+            foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
             foam_back: foam_color(look.back_color, light),
             foam_front: foam_color(look.front_color, light),
         }

@@ -106,6 +106,8 @@
 //! - A foam sprite turns from an ellipse along its motion into a disc smoothly, by speed and by angle;
 //!   its depth is as wide as its thickness, which ends softly; what is foam of a particle is no water
 //!   of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
+//!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
+//!   the thesis' foam is flat.
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]

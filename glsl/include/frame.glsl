@@ -30,7 +30,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 sun_color;
     vec4 ambient;
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
-    vec4 foam_noise;    // its amplitude, cells a second
+    vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
     vec4 foam_back;     // radiance of little foam, and of much
     vec4 foam_front;
 } frame;

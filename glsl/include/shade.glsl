@@ -256,6 +256,17 @@ struct Foam {
     vec3 color;
 };
 
+// Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
+// 1 where it is turned away. Not in the source, whose foam is flat.
+float relief(vec4 height, vec2 f, float z) {
+    vec2 rise = vec2(mix(height.y - height.x, height.w - height.z, f.y),
+                     mix(height.z - height.x, height.w - height.y, f.x));
+    vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
+    vec3 normal = normalize(vec3(-slope, 1.0));
+    float turned = dot(normal, frame.sun_direction.xyz) - frame.sun_direction.z;
+    return clamp(1.0 + frame.foam_noise.z * turned, 0.3, 1.3);
+}
+
 // Thesis Sec. 4.10: the more foam right behind the frontmost, the nearer the front colour (Listing
 // A.20; Eq. 3.9 has them the other way round).
 Foam foam_of(vec2 pixel) {
@@ -265,14 +276,19 @@ Foam foam_of(vec2 pixel) {
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     vec2 t = vec2(0.0);
+    vec4 front;
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
-        t += weights[i] * texelFetch(foam_thickness, texel, 0).xy;
+        vec2 there = texelFetch(foam_thickness, texel, 0).xy;
+        t += weights[i] * there;
+        front[i] = there.y;
     }
     Foam foam;
     foam.depth = texelFetch(foam_depth, ivec2(pixel), 0).x;
-    foam.kept = exp(-frame.foam.x * t.x);
+    // Of a little nothing: a veil is steam, not foam.
+    foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, 1.0 - exp(-frame.foam.y * t.y));
+    foam.color *= relief(front, f, foam.depth);
     return foam;
 }
 

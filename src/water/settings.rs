@@ -251,13 +251,13 @@ impl FoamSettings {
 /// How foam looks. Of no effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamLook {
-    /// Light that foam takes away, per metre of it, [0, ∞), default 0.7 / spacing: two layers hide
-    /// three quarters.
+    /// Light that foam takes away, per metre of it, [0, ∞), default 0.6 / spacing: two layers hide
+    /// seven tenths.
     pub extinction: f32,
     /// How fast its colour turns to that of the front with the foam right behind the frontmost, per
     /// metre, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
-    /// Depth of that layer, scene units, [0, ∞), default 20 spacings (the source's 7 shows drops
+    /// Depth of that layer, scene units, [0, ∞), default 60 spacings (the source's 7 shows drops
     /// before the foam as discs: it begins anew behind each).
     pub front_depth: f32,
     /// Speed at which a sprite is stretched to twice its width, spacings a second, (0, ∞), default 21.
@@ -266,6 +266,12 @@ pub struct FoamLook {
     pub noise: f32,
     /// Cells of the noise that pass in a second of age, [0, ∞), default 2.
     pub noise_rate: f32,
+    /// Thickness below which foam is less than it is, scene units, [0, ∞), default a spacing: a veil
+    /// reads as steam. Not in the source; 0: none of that.
+    pub veil: f32,
+    /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
+    /// default 0.35.
+    pub relief: f32,
     /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.7 and white 0.95 (the
     /// source's are colours on the screen, 0.25 and 1).
     pub back_color: [f32; 3],
@@ -277,12 +283,14 @@ impl FoamLook {
     /// The defaults for particles of a spacing.
     pub fn of_spacing(spacing: f32) -> Self {
         Self {
-            extinction: 0.7 / spacing,
+            extinction: 0.6 / spacing,
             front_extinction: 0.15 / spacing,
-            front_depth: 20.0 * spacing,
+            front_depth: 60.0 * spacing,
             motion_threshold: 21.0,
             noise: 1.0,
             noise_rate: 2.0,
+            veil: spacing,
+            relief: 0.35,
             back_color: [0.7; 3],
             front_color: [0.95; 3],
         }
@@ -302,6 +310,8 @@ impl FoamLook {
         range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
         range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
         range("Settings.foam.noise", self.noise, 0.0, 1.0)?;
+        range("Settings.foam.veil", self.veil, 0.0, f32::MAX)?;
+        range("Settings.foam.relief", self.relief, 0.0, 2.0)?;
         range("Settings.foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;
         for (back, front) in self.back_color.into_iter().zip(self.front_color) {
             range("Settings.foam.back_color", back, 0.0, 1.0)?;

@@ -1,6 +1,6 @@
 //! Pass `foam`: sprites against the twin, what is foam is no water, and the picture with foam.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use whitewater::water::{Shading, Splat};
 use whitewater::{Config, Foam, Particles};
 
@@ -270,7 +270,7 @@ fn foam_covers_what_is_behind_it() {
         case.velocities = vec![[0.0; 3]];
         case.ids = None;
         let look = &mut case.shot.settings.foam;
-        look.noise = 0.0;
+        (look.noise, look.relief, look.veil) = (0.0, 0.0, 0.05);
         (look.extinction, look.front_extinction) = (3.0, 5.0);
         (look.back_color, look.front_color) = ([0.2, 0.4, 0.6], [0.9, 0.8, 0.7]);
         case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
@@ -285,7 +285,8 @@ fn foam_covers_what_is_behind_it() {
             }
             let [t, front] = found.thickness.data[i].map(f64::from);
             seen += usize::from(t > 0.01);
-            let (kept, back) = ((-3.0 * t).exp(), (-5.0 * front).exp());
+            let whole = smoothstep(0.0, f64::from(0.05_f32), t);
+            let (kept, back) = ((-3.0 * t * whole).exp(), (-5.0 * front).exp());
             for (c, found) in [r, g, b].into_iter().enumerate() {
                 let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                 let foam = thick + (thin - thick) * back;
@@ -303,6 +304,7 @@ fn foam_covers_what_is_behind_it() {
         wall.amounts = vec![[1.0, 0.0]; block.len()];
         wall.velocities = vec![[0.0; 3]; block.len()];
         wall.ids = None;
+        wall.shot.settings.foam.relief = 0.0;
         wall.shot.settings.foam.extinction = 1.0e4;
         wall.shot.settings.foam.front_extinction = 1.0e5;
         let over = wall.draw(&mut rig);
@@ -376,5 +378,59 @@ fn foam_of_any_size() {
             assert!(of(&drawn).depth.data.iter().all(|z| *z >= 1e9));
             assert_eq!(drawn.output.data, none.shot.color, "{width}x{height}");
         }
+    }
+}
+
+/// Foam turned to the sun is lighter, by the slope of its front layer from texel to texel.
+#[test]
+fn the_relief_of_foam_follows_the_sun() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config {
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        ..foaming(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+        let mut case = Foamy::new(size, lens, 0.0);
+        case.shot.positions = scenes::world(&case.shot.camera, &[[0.1, 0.0, 2.0]]);
+        (case.amounts, case.velocities, case.ids) = (vec![[1.0, 0.0]], vec![[0.0; 3]], None);
+        // Opaque at once.
+        (case.shot.settings.foam.extinction, case.shot.settings.foam.veil) = (1.0e6, 0.0);
+        let view = case.shot.view(size);
+        let sun = DVec3::new(-0.6, 0.48, 0.64);
+        let world = case.shot.camera_view().inverse().transform_vector3(sun);
+        case.shot.settings.light.direction = world.as_vec3().to_array();
+        case.shot.settings.foam.relief = 0.0;
+        let flat = case.draw(&mut rig);
+        case.shot.settings.foam.relief = 0.6;
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn);
+        let height =
+            |x: usize, y: usize| f64::from(found.thickness.clamped(x as isize, y as isize)[1]);
+        let (mut lighter, mut darker) = (0, 0);
+        for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+            let z = f64::from(found.depth.at(x, y));
+            if z >= 1e9 || height(x, y) < 1e-4 {
+                continue;
+            }
+            let rise = DVec2::new(height(x + 1, y) - height(x, y), height(x, y + 1) - height(x, y));
+            let wide = view.slope_step() * z;
+            let slope = rise / wide;
+            let normal = DVec3::new(-slope.x, -slope.y, 1.0).normalize();
+            let factor = (1.0 + 0.6 * (normal.dot(sun) - sun.z)).clamp(0.3, 1.3);
+            let expected = factor * f64::from(flat.output.at(x, y)[0]);
+            let found = f64::from(drawn.output.at(x, y)[0]);
+            // The rise is a difference of two sums; the quotients and the unit length a few u more.
+            let bound = U * (40.0 + 16.0 * height(x, y) / wide.abs().min_element());
+            assert!(
+                (found - expected).abs() <= bound * (1.0 + expected),
+                "{found}, not {expected}"
+            );
+            lighter += usize::from(factor > 1.02);
+            darker += usize::from(factor < 0.98);
+        }
+        assert!(lighter > 30 && darker > 30, "{lens:?}: {lighter} lighter, {darker} darker");
     }
 }
