@@ -21,6 +21,11 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "front" => 32 * visible + 2 * full / 16 * 4 + 16 * front,
         // Cleared, spheres in, covered pixels written.
         "depth" => 4 * full + 16 * front + 4 * drawn.covered,
+        // Two words a particle in; of those with foam position and velocity in, the sprite out and in
+        // twice; both images cleared. What blending moves is not counted.
+        "foam" => {
+            8 * u64::from(drawn.particles) + (24 + 3 * 48) * drawn.foaming + 4 * full + 8 * thick
+        }
         // Depth in, scene depth of covered pixels in, two surfaces and the plan out.
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
         // Three small buffers; a coarser reduction, where there is one, is not counted.
@@ -39,7 +44,9 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         // sheets two sums more, the first read again, both sheets out, boundaries in and out.
         "thickness" => {
             let apart = if drawn.config.sheets > 1 { 32 + 8 + 16 + 8 } else { 0 };
-            16 * visible + (24 + apart) * thick
+            // With foam a sum more, the channel of what is before it, and its depth in.
+            let foam = if drawn.config.foam { 16 + 4 + 4 } else { 0 };
+            16 * visible + (24 + apart + foam) * thick
         }
         // A copy of half-float colour.
         "scene" => 16 * full,

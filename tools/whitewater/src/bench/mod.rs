@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
-use whitewater::water::{Gate, Rule, Shading, Smoothing, Splat};
+use whitewater::water::{FoamLook, FoamSettings, Gate, Rule, Shading, Smoothing, Splat};
 use whitewater::{Camera, Config, Settings};
 
 use crate::failure::Outcome;
@@ -73,6 +73,8 @@ pub enum Path {
     ReadBack,
     /// One sheet of water everywhere
     OneSheet,
+    /// With foam: the highest twentieth of the particles, and some of half as many again
+    Foam,
     /// Composite: a render pass over the tiles
     RasterComposite,
     /// Composite: a compute shader over the tiles
@@ -109,6 +111,7 @@ impl Path {
             Self::QueryPredicate => config.smoothing = query(Gate::Predicate),
             Self::QueryVertex | Self::ReadBack => config.smoothing = query(Gate::VertexCull),
             Self::OneSheet => config.sheets = 1,
+            Self::Foam => config.foam = true,
             Self::RasterComposite => config.composite = Some(Shading::Raster),
             Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,
@@ -123,6 +126,8 @@ pub struct Drawn {
     pub config: Config,
     pub particles: u32,
     pub counts: Counts,
+    /// Particles with foam.
+    pub foaming: u64,
     /// Full-resolution pixels with water.
     pub covered: u64,
     /// Active pixels summed over the iterations of the smoothing.
@@ -198,6 +203,11 @@ fn sample(
     let mut settings = Settings::default();
     settings.water.spacing = pool.spacing;
     headless.particles(&pool.positions, None)?;
+    let mut foaming = 0;
+    if config.foam {
+        settings.foam = FoamLook::of_spacing(pool.spacing);
+        foaming = foam(headless, pool)?;
+    }
     let mut samples: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut totals = Vec::new();
     let mut calibration = Vec::new();
@@ -223,7 +233,7 @@ fn sample(
         }
         totals.push(total);
     }
-    let drawn = drawn(headless, config, pool)?;
+    let drawn = Drawn { foaming, ..drawn(headless, config, pool)? };
     let calibration = report::median(&mut calibration);
     let row = |pass: &str, list: &mut Vec<f64>, moved: Option<u64>| Row {
         particles: drawn.particles,
@@ -247,6 +257,19 @@ fn sample(
     Ok(rows)
 }
 
+/// As fast as it is high: the splash foams. How many particles do.
+fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, whitewater::Error> {
+    let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1].max(0.0)).collect();
+    let velocities: Vec<[f32; 3]> = heights.iter().map(|y| [20.0 * y, 0.0, 0.0]).collect();
+    heights.sort_unstable_by(f32::total_cmp);
+    let high = heights[heights.len() * 95 / 100];
+    let settings = FoamSettings::reduced(pool.spacing, 1.0);
+    let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
+    headless.step(&velocities, None, 0.0, &FoamSettings { threshold, ..settings })?;
+    // The ramp begins at half the Weber number.
+    Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
+}
+
 fn drawn(
     headless: &mut Headless,
     config: Config,
@@ -267,6 +290,7 @@ fn drawn(
         config,
         particles: pool.positions.len() as u32,
         counts,
+        foaming: 0,
         covered,
         iterations: sum as u64,
         most_iterations: most as u32,
