@@ -48,11 +48,18 @@ vec3 foam_phase(uint id) {
     return vec3(h) * (1.0 / 16777216.0);
 }
 
-float lattice_gradient(ivec3 cell, vec3 off) {
-    uint h = pcg(uint(cell.x) + pcg(uint(cell.y) + pcg(uint(cell.z)))) & 15u;
+// Of one of the twelve directions to the edges of a cube.
+float lattice_gradient(uint hash, vec3 off) {
+    uint h = hash & 15u;
     float u = h < 8u ? off.x : off.y;
     float v = h < 4u ? off.y : h == 12u || h == 14u ? off.x : off.z;
     return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
+}
+
+// Along x, of a row whose hash is known.
+float row_noise(uint x, uint row, vec3 off, float fade) {
+    return mix(lattice_gradient(pcg(x + row), off),
+               lattice_gradient(pcg(x + 1u + row), off - vec3(1.0, 0.0, 0.0)), fade);
 }
 
 // Gradient noise (Perlin 2002), mean 0.
@@ -60,17 +67,12 @@ float gradient_noise(vec3 p) {
     vec3 cell = floor(p);
     vec3 f = p - cell;
     vec3 fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    ivec3 c = ivec3(cell);
-    vec2 planes;
-    for (int k = 0; k < 2; ++k) {
-        vec2 rows;
-        for (int j = 0; j < 2; ++j) {
-            ivec3 at = c + ivec3(0, j, k);
-            float a = lattice_gradient(at, f - vec3(0.0, j, k));
-            float b = lattice_gradient(at + ivec3(1, 0, 0), f - vec3(1.0, j, k));
-            rows[j] = mix(a, b, fade.x);
-        }
-        planes[k] = mix(rows.x, rows.y, fade.y);
-    }
-    return mix(planes.x, planes.y, fade.z);
+    uvec3 c = uvec3(ivec3(cell));
+    uint near = pcg(c.z);
+    uint far = pcg(c.z + 1u);
+    float a = mix(row_noise(c.x, pcg(c.y + near), f, fade.x),
+                  row_noise(c.x, pcg(c.y + 1u + near), f - vec3(0.0, 1.0, 0.0), fade.x), fade.y);
+    float b = mix(row_noise(c.x, pcg(c.y + far), f - vec3(0.0, 0.0, 1.0), fade.x),
+                  row_noise(c.x, pcg(c.y + 1u + far), f - vec3(0.0, 1.0, 1.0), fade.x), fade.y);
+    return mix(a, b, fade.z);
 }

@@ -1,5 +1,6 @@
 #version 460
-// Pass `foam`: a quad round each sprite; the ellipse is the fragment's. Reads: sprites.
+// Pass `foam`: a quad round each sprite, in its plane; the ellipse is the fragment's. Seen from its edge,
+// or through the near plane, it is the box of a sphere round it. Reads: sprites.
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -36,13 +37,23 @@ void main() {
     look = vec4(foam * volume / (a * b * facing), phase + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y));
 
     vec2 extent = THICK == 1u ? frame.thick_extent.xy : frame.extent.xy;
-    vec4 slopes;
-    sphere_bounds(centre, a, slopes);
-    vec4 pixels = pixel_bounds(slopes, THICK == 1u ? frame.thick_slope : frame.slope);
-    // Sub-pixel snapping (1/16 at worst) must not cut the footprint.
-    pixels += vec4(-0.125, -0.125, 0.125, 0.125);
-    pixels = clamp(pixels, vec4(-1.0), extent.xyxy + 1.0);
-    vec2 at = vec2((gl_VertexIndex & 1) == 0 ? pixels.x : pixels.z,
-                   (gl_VertexIndex & 2) == 0 ? pixels.y : pixels.w);
+    vec4 scale = THICK == 1u ? frame.thick_slope : frame.slope;
+    vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
+    // A pixel more: snapping (1/16 at worst) must not cut the footprint, even foreshortened.
+    float depth = -centre.z;
+    float pixel = depth * max(abs(scale.x), abs(scale.y));
+    vec3 reach_a = e1 * (a + pixel);
+    vec3 reach_b = e2 * (b + pixel);
+    vec2 at;
+    if (abs(dot(normal, centre)) > 0.3 * length(centre) && depth - abs(reach_a.z) - abs(reach_b.z) > 0.25 * depth) {
+        vec3 corner = centre + side.x * reach_a + side.y * reach_b;
+        at = (corner.xy / -corner.z - scale.zw) / scale.xy;
+    } else {
+        vec4 slopes;
+        sphere_bounds(centre, a, slopes);
+        vec4 pixels = pixel_bounds(slopes, scale) + vec4(-0.125, -0.125, 0.125, 0.125);
+        pixels = clamp(pixels, vec4(-1.0), extent.xyxy + 1.0);
+        at = mix(pixels.xy, pixels.zw, 0.5 + 0.5 * side);
+    }
     gl_Position = vec4(at / extent * 2.0 - 1.0, 0.5, 1.0);
 }
