@@ -183,7 +183,7 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { sheets: 2, ..base },
         Config { sheets: 2, smoothing_level: 0, depth_splat: Some(Splat::Raster), ..base },
         Config { foam: true, sheets: 2, extent: extent(50, 40), ..base },
-        Config { foam: true, thickness_splat: Some(Splat::Raster), ..base },
+        Config { foam: true, depth_splat: Some(Splat::Raster), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;

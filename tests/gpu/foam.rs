@@ -218,6 +218,18 @@ fn what_is_foam_is_no_water() {
     }
 }
 
+/// The same picture by other instructions: the composite of foam splits the water in two, of which one
+/// part is nothing; an exponential and a few products more.
+fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
+    for (i, (found, wanted)) in drawn.output.data.iter().zip(&expected.output.data).enumerate() {
+        let near = found
+            .iter()
+            .zip(wanted)
+            .all(|(a, b)| f64::from((a - b).abs()) <= 16.0 * U * (1.0 + f64::from(b.abs())));
+        assert!(near, "{name}: {found:?}, not {wanted:?}, in pixel {i}");
+    }
+}
+
 /// All foam is no water at all; no foam, NaN, or none of the stream, is the picture without the pass.
 #[test]
 fn without_foam_nothing_changes() {
@@ -230,12 +242,12 @@ fn without_foam_nothing_changes() {
     for none in [0.0, -1.0, f32::NAN] {
         case.amounts.fill([none, 1.0]);
         let drawn = case.draw(&mut rig);
-        compare::same_color(&format!("foam-none-{none}"), &drawn.output, &expected.output);
+        nearly(&drawn, &expected, &format!("foam-none-{none}"));
         compare::same("foam-none-depth", &drawn.depth, &expected.depth);
         assert!(of(&drawn).depth.data.iter().all(|z| *z >= 1e9));
     }
     let drawn = rig.draw(&case.shot);
-    compare::same_color("foam-no-stream", &drawn.output, &expected.output);
+    nearly(&drawn, &expected, "foam-no-stream");
     case.amounts.fill([2.0, 1.0]);
     let drawn = case.draw(&mut rig);
     assert!(drawn.depth.data.iter().all(|z| *z >= 1e9), "more than whole foam is no water");
@@ -342,7 +354,7 @@ fn chunks_of_foam_are_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let mut rig =
-        Rig::new(&gpu, &Config { max_stride: 1 << 21, thickness_level: 1, ..foaming(size) });
+        Rig::new(&gpu, &Config { max_stride: 1 << 20, thickness_level: 1, ..foaming(size) });
     let mut case = Foamy::new(size, Lens::OffAxis, 20.0);
     for _ in 0..2 {
         let drawn = case.draw(&mut rig);
