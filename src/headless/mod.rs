@@ -347,8 +347,8 @@ impl Headless {
     }
 
     /// What of the uploaded particles is foam, with [`Config::foam`]: a step of a [`State`] by their
-    /// velocities. `ids` follow the particles from step to step, `dt` seconds apart; without, each
-    /// step stands for itself.
+    /// velocities. `ids` follow the particles from frame to frame, so that the noise in their foam
+    /// does. `dt`: seconds since the step before; without, or without ids, a frame stands for itself.
     ///
     /// # Errors
     /// Not as many as positions, no memory, and as [`State::record_step`].
@@ -356,7 +356,7 @@ impl Headless {
         &mut self,
         velocities: &[[f32; 3]],
         ids: Option<&[u32]>,
-        dt: f32,
+        dt: Option<f32>,
         settings: &FoamSettings,
     ) -> Result<(), Error> {
         let count = self.count;
@@ -388,9 +388,9 @@ impl Headless {
                 slot: Slot(0),
                 velocities: stream(&foam.velocities, 12),
                 densities,
-                ids: foam.ids.as_ref().map(|ids| stream(ids, 4)),
+                ids: foam.ids.as_ref().filter(|_| dt.is_some()).map(|ids| stream(ids, 4)),
                 count: Count::Cpu(count),
-                dt,
+                dt: dt.unwrap_or(0.0),
                 settings,
                 before: HOST_WRITE,
                 after: HOST_WRITE,

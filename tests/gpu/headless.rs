@@ -4,9 +4,10 @@
 use std::sync::{Arc, Mutex};
 
 use ash::vk;
-use whitewater::Error;
 use whitewater::headless::scene::{Material, Mesh, Scene, Texture};
 use whitewater::headless::{Background, Device, Headless};
+use whitewater::water::FoamSettings;
+use whitewater::{Config, Error};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Shot, config, extent};
@@ -179,4 +180,39 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
         wrong.extend(device.take_messages());
     }
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// Foam by a step of the state: of velocities, ids and time; new particles have none until then.
+#[test]
+fn a_step_makes_foam() {
+    let mut gpu = Gpu::own();
+    let device = gpu.take_device();
+    let size = extent(64, 48);
+    let config = Config { foam: true, ..config(size) };
+    let mut headless = Headless::new(device, &config).expect("headless");
+    let camera = scenes::camera(Lens::Standard, size);
+    let points = scenes::world(&camera, &scenes::cloud(3, 200, 2.0, 6.0));
+    let look = scenes::settings(0.2);
+    let background = Background::Color([0.2; 3]);
+    let foam = FoamSettings::reduced(look.water.spacing, 1.0);
+    let fast = vec![[30.0 * look.water.spacing, 0.0, 0.0]; points.len()];
+    let ids: Vec<u32> = (0..points.len() as u32).collect();
+    let covered = |headless: &mut Headless, stepped: Option<(Option<&[u32]>, Option<f32>)>| {
+        headless.particles(&points, None).expect("particles");
+        if let Some((ids, dt)) = stepped {
+            headless.step(&fast, ids, dt, &foam).expect("a step");
+        }
+        headless.render(&camera, &look, &background).expect("a frame");
+        let depth = headless.layer("foam.depth").expect("read").expect("a layer");
+        depth.data.iter().filter(|z| **z < 1e9).count()
+    };
+    assert_eq!(covered(&mut headless, None), 0, "no step");
+    assert!(covered(&mut headless, Some((None, None))) > 500, "a frame for itself");
+    assert!(covered(&mut headless, Some((Some(&ids), None))) > 500, "ids for the noise alone");
+    // By phases it takes a step to begin, and half a second to be whole.
+    assert_eq!(covered(&mut headless, Some((Some(&ids), Some(0.1)))), 0, "the first step");
+    assert!(covered(&mut headless, Some((Some(&ids), Some(0.1)))) > 0, "the second");
+    assert_eq!(covered(&mut headless, None), 0, "other particles");
+    assert!(headless.step(&fast[1..], None, None, &foam).is_err(), "one is missing");
+    headless.finish().expect("finish");
 }

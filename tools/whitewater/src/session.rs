@@ -167,7 +167,9 @@ impl<'a> Session<'a> {
             headless.particles(&particles.positions, particles.densities.as_deref())
         })?;
         if let (Some(settings), Some(velocities)) = (&self.look.foam, &particles.velocities) {
-            times.step("foam", number, || headless.step(velocities, None, 0.0, settings))?;
+            // Each frame for itself: how a sequence is cut into jobs must not show.
+            let ids = particles.ids.as_deref();
+            times.step("foam", number, || headless.step(velocities, ids, None, settings))?;
         }
         times.step("draw", number, || {
             headless.render(&self.camera, &self.look.settings, &Background::Scene)
