@@ -421,13 +421,22 @@ pub const WATER_THICKNESS_APART_FRAG: Shader = Shader {
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (2, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (7, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), (11, vk::DescriptorType::STORAGE_BUFFER), ],
     members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Frame", "foam", 576), ("Frame", "foam_noise", 592), ("Frame", "foam_back", 608), ("Frame", "foam_front", 624), ("Boundaries", "boundaries", 0), ],
 };
+/// `water/thickness_before.comp`
+pub const WATER_THICKNESS_BEFORE_COMP: Shader = Shader {
+    name: "water/thickness_before.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness_before.comp.spv"))); &CODE.0 },
+    push_size: 0,
+    local_size: [16, 16, 1],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_IMAGE), (7, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Frame", "foam", 576), ("Frame", "foam_noise", 592), ("Frame", "foam_back", 608), ("Frame", "foam_front", 624), ("Sums", "sums", 0), ],
+};
 /// `water/thickness_resolve.comp`
 pub const WATER_THICKNESS_RESOLVE_COMP: Shader = Shader {
     name: "water/thickness_resolve.comp",
     code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/water.thickness_resolve.comp.spv"))); &CODE.0 },
     push_size: 0,
     local_size: [16, 16, 1],
-    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_IMAGE), (7, vk::DescriptorType::COMBINED_IMAGE_SAMPLER), ],
+    bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_IMAGE), ],
     members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Frame", "foam", 576), ("Frame", "foam_noise", 592), ("Frame", "foam_back", 608), ("Frame", "foam_front", 624), ("Sums", "sums", 0), ],
 };
 /// `water/tiles.comp`

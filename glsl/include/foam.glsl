@@ -1,5 +1,6 @@
 // A particle's foam as a sprite (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which turns
-// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl.
+// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl,
+// random.glsl.
 
 struct FoamSprite {
     vec4 centre;   // eye space; foam, 0 to 1
@@ -34,12 +35,6 @@ float foam_axes(FoamSprite sprite, out vec3 along, out vec3 across) {
                   * (1.0 - smoothstep(0.9, 1.0, abs(dot(v, direction))));
     along = normalize(mix(facing, direction, stretch));
     return stretch;
-}
-
-uint pcg(uint x) {
-    uint s = x * 747796405u + 2891336453u;
-    uint w = ((s >> ((s >> 28) + 4u)) ^ s) * 277803737u;
-    return (w >> 22) ^ w;
 }
 
 // Three uniform numbers of an id, 0 to 1.

@@ -292,8 +292,8 @@ Foam foam_of(vec2 pixel) {
     return foam;
 }
 
-// The same with foam in the sheet, `before` metres along z of its water before it. What mirrors is
-// the water before the foam, where there is any.
+// Light through a sheet with foam in it and off it: `before` of its t metres along z are before the foam.
+// What mirrors is the water before the foam, where there is any.
 vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
     float first = before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);

@@ -5,6 +5,7 @@
 // Reads: positions, densities, packets. Writes: Counts, visible.
 
 #include "frame.glsl"
+#include "frustum.glsl"
 #include "sphere.glsl"
 #include "counts.glsl"
 
@@ -44,14 +45,6 @@ shared uint first_large;
 const uint NONE = 0u;
 const uint SMALL = 1u;
 const uint LARGE = 2u;
-
-bool in_frustum(vec3 centre, float radius) {
-    bool inside = true;
-    for (int i = 0; i < 6; ++i) {
-        inside = inside && dot(frame.planes[i].xyz, centre) + frame.planes[i].w >= -radius;
-    }
-    return inside;
-}
 
 // Less water than this is none.
 const float LEAST_SHARE = 1.0 / 256.0;

@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "random.glsl"
 #include "foam.glsl"
 
 // 0: depth, at full resolution. 1: thickness.

@@ -3,7 +3,9 @@
 // Reads: Counts (particles), positions, foam, velocities, ids. Writes: Counts (foam), sprites.
 
 #include "frame.glsl"
+#include "frustum.glsl"
 #include "counts.glsl"
+#include "random.glsl"
 #include "foam.glsl"
 
 layout(local_size_x = 64) in;
@@ -26,14 +28,6 @@ layout(push_constant, std430) uniform Push {
     uint id_stride;       // 0: no ids, the number in the frame instead
     uint chunk_first;
 } push;
-
-bool in_frustum(vec3 centre, float radius) {
-    bool inside = true;
-    for (int i = 0; i < 6; ++i) {
-        inside = inside && dot(frame.planes[i].xyz, centre) + frame.planes[i].w >= -radius;
-    }
-    return inside;
-}
 
 void visit(uint index) {
     uint at = push.amount_word + index * push.amount_stride;

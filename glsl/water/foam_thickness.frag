@@ -4,6 +4,7 @@
 // Reads: scene depth, foam depth. Writes: foam thickness (RG32F).
 
 #include "frame.glsl"
+#include "random.glsl"
 #include "foam.glsl"
 #include "foam_hit.glsl"
 

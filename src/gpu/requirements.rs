@@ -67,6 +67,9 @@ pub struct Offer {
     pub synchronization2: bool,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats.
     pub blend_floats: bool,
+    /// R32_SFLOAT and R32G32_SFLOAT can be blended colour attachments, and the latter a storage image,
+    /// written without its format being known: foam.
+    pub foam_floats: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
     /// The output format can be a storage image, written without its format being known.
@@ -124,6 +127,8 @@ impl Offer {
             synchronization2: v13.synchronization2 == vk::TRUE,
             blend_floats: offers(vk::Format::R32_SFLOAT, blended)
                 && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
+            foam_floats: offers(vk::Format::R32_SFLOAT, blended)
+                && offers(vk::Format::R32G32_SFLOAT, blended | stored),
             output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
             output_storage: offers(output_format, stored),
             limits: properties.limits,
@@ -173,6 +178,12 @@ impl Offer {
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
         }
+        if !self.foam_floats && config.foam {
+            return missing(
+                "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),
+                "Config.foam needs it; leave it off",
+            );
+        }
         match config.smoothing {
             Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {
                 return missing("drawIndirectCount".into(), "Gate::DrawCount; choose another gate");
@@ -186,11 +197,12 @@ impl Offer {
             _ => {}
         }
         let range = u64::from(self.limits.max_storage_buffer_range).saturating_sub(256);
-        if 16 * u64::from(config.max_stride) > range {
+        let least = crate::water::chunk_unit(config);
+        if u64::from(least) * u64::from(config.max_stride) > range {
             return Err(Error::bad(
                 "Config.max_stride",
                 format!(
-                    "{}: sixteen particles are more than the device binds at once",
+                    "{}: {least} particles are more than the device binds at once",
                     config.max_stride
                 ),
             ));

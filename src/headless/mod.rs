@@ -364,24 +364,19 @@ impl Headless {
         if !all(velocities.len()) || ids.is_some_and(|ids| !all(ids.len())) {
             return Err(Error::bad("velocities", "not as many as positions, or as ids"));
         }
+        let make = |name, bytes: &[u8]| input(&self.gpu, name, bytes);
+        let velocities = make("headless/velocities", bytemuck::cast_slice(velocities))?;
+        let ids = ids.map(|ids| make("headless/ids", bytemuck::cast_slice(ids))).transpose()?;
+        // The last that can fail before the state is put back: dropped, it would leak.
         let state = match self.foam.take() {
-            Some(old) => {
-                old.velocities.destroy(&self.gpu);
-                if let Some(ids) = old.ids {
-                    ids.destroy(&self.gpu);
-                }
-                old.state
-            }
+            Some(old) => old.state,
             None => {
                 let config = StateConfig::new(self.renderer.config().max_particles);
                 // SAFETY: the device is ours and outlives the state (field order, `finish`).
                 unsafe { State::new(&self.device.host(1), &config) }?
             }
         };
-        let make = |name, bytes: &[u8]| input(&self.gpu, name, bytes);
-        let velocities = make("headless/velocities", bytemuck::cast_slice(velocities))?;
-        let ids = ids.map(|ids| make("headless/ids", bytemuck::cast_slice(ids))).transpose()?;
-        let mut foam = Foaming { state, velocities, ids, stepped: true };
+        let mut foam = Foaming { state, velocities, ids, stepped: false };
         let densities = self.densities.as_ref().map(|buffer| stream(buffer, 4));
         let result = self.run(|_, cmd| {
             let step = Step {
@@ -398,7 +393,13 @@ impl Headless {
             // SAFETY: cmd is recording outside a render pass; every run waits for its end.
             unsafe { foam.state.record_step(cmd, &step) }
         });
+        match &result {
+            Ok(()) => foam.stepped = true,
+            Err(_) => foam.state.abandon(Slot(0)),
+        }
         self.foam = Some(foam);
+        // The streams of the step before, which is done: every run waits.
+        self.gpu.bury();
         result
     }
 

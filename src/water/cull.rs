@@ -101,14 +101,19 @@ struct EndPush {
     most_groups: u32,
 }
 
+/// Particles that chunks hold a multiple of: 16 spheres are 256 bytes, as are 64 of the shares that go
+/// with foam.
+pub fn chunk_unit(config: &Config) -> u32 {
+    if config.foam { 64 } else { 16 }
+}
+
 /// Particles of a chunk and how many chunks there are: a chunk of every stream can be bound at
 /// once, and the chunks' parts of the list begin at offsets that every device can bind.
 pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
     let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
     let own = if config.foam { super::foam::SPRITE as u32 } else { 16 };
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
-    // 16 spheres are 256 bytes, and 64 of the shares that go with foam.
-    let unit = if config.foam { 64 } else { 16 };
+    let unit = chunk_unit(config);
     let wanted = config.max_particles.max(1).next_multiple_of(unit);
     let size = wanted.min(fits - fits % unit).max(unit);
     (size, config.max_particles.max(1).div_ceil(size))

@@ -31,7 +31,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 
 pub(crate) use classify::{Classify, ROW};
-pub(crate) use cull::chunks;
+pub(crate) use cull::{chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat,

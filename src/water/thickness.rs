@@ -124,8 +124,12 @@ impl Thickness {
                     .transpose()?,
                 resolve: Pipeline::compute(
                     gpu,
-                    shader::WATER_THICKNESS_RESOLVE_COMP,
-                    &[(9, foam)],
+                    if config.foam {
+                        shader::WATER_THICKNESS_BEFORE_COMP
+                    } else {
+                        shader::WATER_THICKNESS_RESOLVE_COMP
+                    },
+                    &[],
                 )?,
                 sums: Self::sums(gpu, config, &image)?,
             },

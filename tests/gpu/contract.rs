@@ -638,6 +638,7 @@ fn what_a_device_lacks_is_named() {
     let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
     offer.check(&config).expect("this device will do");
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
+    let foam = Config { foam: true, ..config };
     let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
     let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
     let drawn = Config { composite: Some(Shading::Raster), ..config };
@@ -652,6 +653,7 @@ fn what_a_device_lacks_is_named() {
         ),
         (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
         (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
+        (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
@@ -665,6 +667,14 @@ fn what_a_device_lacks_is_named() {
     }
     let unblended = whitewater::Offer { blend_floats: false, ..offer };
     unblended.check(&config).expect("the compute paths need no blending");
+    let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
+    unfoamed.check(&raster).expect("water needs nothing of foam's");
+    // Foam's chunks are 64 particles at least.
+    let mut narrow = offer;
+    narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
+    let wide = |foam| Config { foam, max_stride: 1 << 16, ..config };
+    narrow.check(&wide(false)).expect("sixteen particles are bound at once");
+    assert!(matches!(narrow.check(&wide(true)), Err(Error::BadInput { .. })));
     let unattached = whitewater::Offer { output_attachment: false, ..offer };
     unattached.check(&stored).expect("nothing is drawn into the output");
     let unstored = whitewater::Offer { output_storage: false, ..offer };

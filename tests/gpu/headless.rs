@@ -216,3 +216,29 @@ fn a_step_makes_foam() {
     assert!(headless.step(&fast[1..], None, None, &foam).is_err(), "one is missing");
     headless.finish().expect("finish");
 }
+
+/// A step that fails for want of memory loses nothing of the state, and the next one is good.
+#[test]
+fn a_failed_step_keeps_the_state() {
+    let (_gpu, device) = spied();
+    let config = Config { foam: true, ..config(SIZE) };
+    let mut headless = Headless::new(device, &config).expect("headless");
+    let points = [[0.0, 0.0, -3.0]; 8];
+    let ids: Vec<u32> = (0..8).collect();
+    let foam = FoamSettings::reduced(0.1, 1.0);
+    headless.particles(&points, None).expect("particles");
+    let step = |headless: &mut Headless| {
+        headless.step(&[[9.0, 0.0, 0.0]; 8], Some(&ids), Some(0.1), &foam)
+    };
+    step(&mut headless).expect("a step");
+    let held = allocations(headless.device());
+    for k in 1..=2 {
+        spy::reset();
+        spy::CREATE_BUFFER.fail(k, NO_MEMORY);
+        assert!(is_memory_error(&step(&mut headless).expect_err("no memory")), "buffer {k}");
+    }
+    spy::reset();
+    step(&mut headless).expect("the next step");
+    assert_eq!(allocations(headless.device()), held, "nothing is left behind");
+    drop(headless.finish().expect("finish"));
+}

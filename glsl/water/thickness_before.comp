@@ -1,0 +1,24 @@
+#version 460
+// Pass `thickness`, compute path with foam, last part: fixed point to metres, of all water and of what
+// is before the frontmost foam: all of it where there is none.
+// Reads: sums, foam depth. Writes: thickness (RG32F).
+
+#include "frame.glsl"
+#include "kernel.glsl"
+#include "foam_share.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(set = 0, binding = 1, std430) readonly buffer Sums { uvec2 sums[]; };
+// Of a format that shaders may only be told of by a feature: written without being told.
+layout(set = 0, binding = 2) uniform writeonly image2D thickness;
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(p, ivec2(frame.thick_extent.xy)))) {
+        uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
+        uint at = uint(p.y) * uint(frame.thick_extent.x) + uint(p.x);
+        float all = metres(sums[at]);
+        float before = foam_at(p) < EMPTY ? metres(sums[at + texels]) : all;
+        imageStore(thickness, p, vec4(all, before, 0.0, 0.0));
+    }
+}
