@@ -9,6 +9,7 @@
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"
+#include "beside.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -24,7 +25,7 @@ void shade_pixel(ivec2 pixel) {
         return;
     }
     float front = texelFetch(depth, pixel, 0).x;
-    if (front < EMPTY || foam_there(pixel)) {
+    if (front < EMPTY || beside(pixel)) {
         imageStore(target, pixel + ivec2(frame.target.xy), vec4(shade(vec2(pixel) + 0.5, front), 1.0));
     }
 }

@@ -6,6 +6,7 @@
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"
+#include "beside.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;
@@ -13,7 +14,7 @@ layout(location = 0) out vec4 color;
 void main() {
     vec2 pixel = gl_FragCoord.xy - frame.target.xy;
     float front = texelFetch(depth, ivec2(pixel), 0).x;
-    if (front >= EMPTY && !foam_there(ivec2(pixel))) {
+    if (front >= EMPTY && !beside(ivec2(pixel))) {
         discard;
     }
     color = vec4(shade(pixel, front), 1.0);

@@ -65,10 +65,12 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
-    let foam = u32::from(config.foam);
+    let beside = [(9, u32::from(config.foam)), (10, u32::from(config.spray))];
     let make = |configured: u32, sheets: u32| {
         let wanted = sheets <= config.sheets && (configured == 1 || coarsening(config) > 0);
-        wanted.then(|| make(&[(0, thickness), (2, configured), (8, sheets), (9, foam)])).transpose()
+        wanted
+            .then(|| make(&[(0, thickness), (2, configured), (8, sheets), beside[0], beside[1]]))
+            .transpose()
     };
     Ok([make(1, 1)?, make(1, 2)?, make(0, 1)?, make(0, 2)?])
 }
@@ -164,6 +166,7 @@ impl Composite {
             (12, Resource::Sampled(layers.sheets.unwrap_or(layers.thickness).view, nearest)),
             (13, Resource::Sampled(foam[0].view, nearest)),
             (14, Resource::Sampled(foam[1].view, nearest)),
+            (15, Resource::Sampled(layers.spray.unwrap_or(layers.thickness).view, nearest)),
         ];
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();
@@ -184,7 +187,12 @@ impl Composite {
             Path::Compute { pipelines } => {
                 let images = [layers.smoothed, layers.depth, layers.thickness];
                 let foam = layers.foam.into_iter().flatten();
-                let images: Vec<_> = images.into_iter().chain(layers.sheets).chain(foam).collect();
+                let images: Vec<_> = images
+                    .into_iter()
+                    .chain(layers.sheets)
+                    .chain(foam)
+                    .chain(layers.spray)
+                    .collect();
                 let hand = |from, to| -> Vec<_> {
                     images.iter().map(|image| access::image(image, from, to)).collect()
                 };

@@ -10,7 +10,7 @@ use gpu_allocator::vulkan::Allocator;
 use crate::error::Error;
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
-    FoamLook, FoamSettings, Rule, Shading, Smoothing, Splat, WaterSettings,
+    FoamLook, FoamSettings, Rule, Shading, Smoothing, Splat, SprayLook, WaterSettings,
 };
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
@@ -100,6 +100,9 @@ pub struct Config {
     /// Foam is drawn (default: not): the passes `foam`, and the particles' water shrinks by what of
     /// them is foam. 52 bytes a particle more.
     pub foam: bool,
+    /// Spray is drawn (default: not): the pass `spray`, of particles between and below the two
+    /// densities of [`WaterSettings`]. 32 bytes a particle more.
+    pub spray: bool,
     /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// The output is the scene's colour image itself (default): it is copied before it is written
@@ -128,6 +131,7 @@ impl Config {
             coarsening: 3,
             sheets: 2,
             foam: false,
+            spray: false,
             environment_size: 256,
             in_place: true,
             keep_layers: false,
@@ -242,37 +246,51 @@ pub struct Packets {
     pub count: u32,
 }
 
-/// The foam of particles, in their order. Only read.
-#[derive(Clone, Copy, Debug)]
-pub struct Foam {
-    /// Share that is foam (0 water to 1 foam, NaN: water) and age (seconds), 2×f32: what
-    /// [`State::foam`](crate::State::foam) holds, at a stride of 8.
-    pub amounts: Stream,
-    /// World velocities, 3×f32, scene units a second.
-    pub velocities: Stream,
-    /// Numbers that follow the particles (u32), for the noise in their sprites; `None`: their place.
-    pub ids: Option<Stream>,
-}
-
 /// The particles of one frame. Only read.
 #[derive(Clone, Copy, Debug)]
 pub struct Particles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
     /// and counted.
     pub positions: Stream,
-    /// SPH densities (f32); `None`: every particle has the rest density.
+    /// SPH densities (f32); `None`: every particle has the rest density, none is spray.
     pub densities: Option<Stream>,
+    /// World velocities (3×f32, scene units a second), along which foam and spray are drawn; read
+    /// with [`Config::foam`] or [`Config::spray`] alone. `None`: at rest.
+    pub velocities: Option<Stream>,
+    /// Numbers that follow the particles from frame to frame (u32), for the noise in foam and the
+    /// droplets of spray; read as the velocities. `None`: their place.
+    pub ids: Option<Stream>,
     /// How many.
     pub count: Count,
     /// Groups to cull by instead of each particle.
     pub packets: Option<Packets>,
-    /// What of them is foam, with [`Config::foam`]; `None`: nothing is.
-    pub foam: Option<Foam>,
+    /// Share of each that is foam (0 water to 1 foam, NaN: water) and its age (seconds), 2×f32: what
+    /// [`State::foam`](crate::State::foam) holds, at a stride of 8. With [`Config::foam`]; `None`:
+    /// nothing is.
+    pub foam: Option<Stream>,
     /// Last use of all these buffers before `record`; the layout is ignored. For buffers that the
     /// CPU wrote before the submit, [`access::NOTHING`](crate::access::NOTHING).
     pub before: Access,
     /// First use of them after `record` (layout ignored).
     pub after: Access,
+}
+
+impl Particles {
+    /// Positions alone, in buffers that the CPU wrote before the submit and only shaders read
+    /// otherwise.
+    pub fn new(positions: Stream, count: Count) -> Self {
+        Self {
+            positions,
+            densities: None,
+            velocities: None,
+            ids: None,
+            count,
+            packets: None,
+            foam: None,
+            before: crate::gpu::access::NOTHING,
+            after: crate::gpu::access::NOTHING,
+        }
+    }
 }
 
 /// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
@@ -347,6 +365,8 @@ pub struct Settings {
     pub water: WaterSettings,
     /// Foam in it.
     pub foam: FoamLook,
+    /// Drops too small for the particles.
+    pub spray: SprayLook,
     /// Light on it.
     pub light: Light,
 }
@@ -360,7 +380,7 @@ pub struct Light {
     pub color: [f32; 3],
     /// Mean radiance of the environment, linear RGB, [0, ∞): lights what the water scatters.
     pub ambient: [f32; 3],
-    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞): lights the foam.
+    /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞): lights foam and spray.
     pub irradiance: [f32; 3],
 }
 

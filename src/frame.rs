@@ -5,10 +5,10 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
 
-use crate::contract::{Camera, Config, Frame, Light};
+use crate::contract::{Camera, Config, Frame, Light, Settings};
 use crate::error::Error;
 use crate::gpu::shader;
-use crate::water::settings::{Amplitude, Fresnel, Medium, Rule, WaterSettings};
+use crate::water::settings::{Amplitude, Fresnel, Medium, Rule, SprayLook, WaterSettings};
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
 pub const EMPTY: f32 = 1.0e10;
@@ -47,6 +47,8 @@ pub struct FrameUniforms {
     pub foam_noise: [f32; 4],
     pub foam_back: [f32; 4],
     pub foam_front: [f32; 4],
+    pub spray: [f32; 4],
+    pub spray_color: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -82,6 +84,8 @@ shader::assert_layout!(
         foam_noise,
         foam_back,
         foam_front,
+        spray,
+        spray_color,
     }
 );
 
@@ -247,12 +251,7 @@ impl FrameUniforms {
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
             target: [target_at[0], target_at[1], 0.0, 0.0],
             particle: [radius, water.spacing, axis, amplitude],
-            density: [
-                water.density_threshold * water.rest_density,
-                water.density_full * water.rest_density,
-                water.rest_density,
-                0.0,
-            ],
+            density: densities(frame.settings, config),
             smoothing: [
                 water.smoothing_width * radius,
                 water.depth_falloff * radius,
@@ -278,6 +277,8 @@ impl FrameUniforms {
             foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
             foam_back: foam_color(look.back_color, light),
             foam_front: foam_color(look.front_color, light),
+            spray: spray_shape(&frame.settings.spray, water),
+            spray_color: spray_color(&frame.settings.spray, light),
         }
     }
 }
@@ -286,6 +287,27 @@ impl FrameUniforms {
 fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
+}
+
+/// Where water begins and is whole, and where spray ends; droplets of a particle.
+fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
+    let (water, spray) = (&settings.water, &settings.spray);
+    let own = [water.density_threshold, water.density_full, water.density_threshold];
+    let [all, full, none] =
+        if config.spray { spray.densities } else { own }.map(|part| part * water.rest_density);
+    [all, full, none, spray.droplets as f32]
+}
+
+fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
+    let optical_depth = -(1.0 - spray.opacity).ln();
+    // Droplets together cover what one would.
+    let half_axis = spray.size * water.radius() / (spray.droplets as f32).sqrt();
+    [optical_depth, half_axis, spray.spread * water.spacing, spray.shutter]
+}
+
+fn spray_color(spray: &SprayLook, light: &Light) -> [f32; 4] {
+    let [r, g, b, _] = foam_color(spray.color, light);
+    [r, g, b, f32::from(u8::from(spray.additive))]
 }
 
 fn light_vector(c: [f32; 3]) -> [f32; 4] {

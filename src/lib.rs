@@ -33,7 +33,9 @@
 //! | `particles.densities` | f32; 0 marks a particle just emitted | as above | as above |
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, to cull by | storage buffer, aligned offset | as above |
-//! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]), world velocities (3×f32), ids (u32) | as above | as above |
+//! | `particles.velocities` | 3×f32, world space, with `Config.foam` or `Config.spray` | as above | as above |
+//! | `particles.ids` | u32 that follow the particles, likewise | as above | as above |
+//! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]) | as above | as above |
 //! | `camera` | view and projection: perspective, standard or reversed, finite or infinite, off-axis, looking down −z or +z | | |
 //!
 //! # Promises
@@ -81,6 +83,8 @@
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
 //! | foam: depth, thickness, what water is before it (`foam`) | 5¼ w h | 4.6 MiB | 10.4 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
+//! | spray: optical depth (`spray`) | 2 w h | 1.8 MiB | 4.0 MiB |
+//! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! # Where it differs from its sources
@@ -108,6 +112,8 @@
 //!   of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
 //!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat.
+//! - Spray is water that turns into droplets as its density falls, laid over the picture; the thesis
+//!   adds a sprite a particle ([`water::SprayLook::SOURCE`]).
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -398,6 +398,7 @@ impl Renderer {
         }
         check_settings(&frame.settings.water, &frame.settings.light)?;
         frame.settings.foam.check()?;
+        frame.settings.spray.check()?;
         let (part, most) = (frame.output.rect.extent, self.config.extent);
         if part.width > most.width || part.height > most.height {
             return Err(Error::bad(
@@ -484,12 +485,14 @@ fn check_particles(
     if let Some(densities) = &particles.densities {
         stream("Frame.particles.densities", densities, 4)?;
     }
+    if let Some(velocities) = &particles.velocities {
+        stream("Frame.particles.velocities", velocities, 12)?;
+    }
+    if let Some(ids) = &particles.ids {
+        stream("Frame.particles.ids", ids, 4)?;
+    }
     if let Some(foam) = &particles.foam {
-        stream("Frame.particles.foam.amounts", &foam.amounts, 8)?;
-        stream("Frame.particles.foam.velocities", &foam.velocities, 12)?;
-        if let Some(ids) = &foam.ids {
-            stream("Frame.particles.foam.ids", ids, 4)?;
-        }
+        stream("Frame.particles.foam", foam, 8)?;
         if !config.foam {
             let why = "given, but Config.foam is false";
             return Err(Error::bad("Frame.particles.foam", why));
@@ -601,7 +604,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        84 + 20 * crate::water::chunks(&gpu.limits, config).1
+        86 + 22 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -633,9 +636,9 @@ fn particle_buffers(particles: &Particles) -> impl Iterator<Item = vk::Buffer> {
         Some(particles.positions.buffer),
         particles.densities.map(|s| s.buffer),
         particles.packets.map(|p| p.buffer),
-        particles.foam.map(|f| f.amounts.buffer),
-        particles.foam.map(|f| f.velocities.buffer),
-        particles.foam.and_then(|f| f.ids).map(|s| s.buffer),
+        particles.velocities.map(|s| s.buffer),
+        particles.ids.map(|s| s.buffer),
+        particles.foam.map(|s| s.buffer),
         count,
     ]
     .into_iter()

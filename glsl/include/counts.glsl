@@ -19,4 +19,8 @@ struct Counts {
     uint foam;            // instanceCount
     uint foam_vertex;
     uint foam_instance;
+    uint spray_vertices;  // spray: vertexCount = 4
+    uint droplets;        // instanceCount
+    uint spray_vertex;
+    uint spray_instance;
 };

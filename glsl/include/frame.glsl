@@ -20,7 +20,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 scene_origin;  // first pixel of the part: of the scene's depth, of its colour
     vec4 target;        // first pixel of the part of the output
     vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
-    vec4 density;       // spray below, full radius above, rest
+    vec4 density;       // nothing but spray below, full radius above, no spray above; droplets a particle
     vec4 smoothing;     // width, depth falloff, most iterations, fixed count
     vec4 medium_a;      // physical: absorption; source: base colour; w: 1 = source
     vec4 medium_b;      // physical: scattering; source: falloff
@@ -33,6 +33,8 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
     vec4 foam_back;     // radiance of little foam, and of much
     vec4 foam_front;
+    vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
+    vec4 spray_color;   // radiance; w: 1 = added
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -3,14 +3,13 @@
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Reads: smoothed, levels, depth, thickness, boundaries, scene colour and depth, environment.
-// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl.
+// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, beside.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
 // 1: the surface is smoothed at the configured level alone. A pipeline each, not a branch: a CPU
 // would run both sides.
 layout(constant_id = 2) const uint CONFIGURED = 1;
-layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -18,12 +17,7 @@ layout(set = 0, binding = 4) uniform sampler2D scene_color;
 layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
 layout(set = 0, binding = 12) uniform sampler2D sheets;
-layout(set = 0, binding = 13) uniform sampler2D foam_depth;
 layout(set = 0, binding = 14) uniform sampler2D foam_thickness;
-
-bool foam_there(ivec2 pixel) {
-    return FOAM == 1u && texelFetch(foam_depth, pixel, 0).x < EMPTY;
-}
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -304,8 +298,8 @@ vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
     return mix(c, sheet.mirrored, sheet.mirror * first) + sheet.shine * first;
 }
 
-// Colour of water and foam at a pixel (its centre, at +0.5) where one of their depths is not empty.
-vec3 shade(vec2 pixel, float front) {
+// Colour of scene, water and foam at a pixel (its centre, at +0.5).
+vec3 layers_at(vec2 pixel, float front) {
     float threshold = frame.surface.w;
     uint finer = CONFIGURED == 1u ? 0u : finer_level();
     Level level = levels.level[finer];
@@ -354,6 +348,9 @@ vec3 shade(vec2 pixel, float front) {
     Sheet sheet = sheet_of(surface, pixel, t);
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     if (FOAM == 0u) {
+        if (front >= EMPTY) {
+            return scene_at(pixel);
+        }
         if (back.path > 0.0) {
             c = over(back, c);
         }
@@ -361,7 +358,7 @@ vec3 shade(vec2 pixel, float front) {
     }
     Foam foam = foam_of(pixel);
     if (front >= EMPTY) {
-        return mix(foam.color, scene_at(pixel), foam.kept);
+        return mix(foam.color, scene_at(pixel), foam.depth < EMPTY ? foam.kept : 1.0);
     }
     bool behind_air = covers && foam.depth >= boundary;
     if (behind_air) {
@@ -369,4 +366,14 @@ vec3 shade(vec2 pixel, float front) {
     }
     c = back.path > 0.0 ? over(back, c) : c;
     return over_with(sheet, min(all.y, t), t, foam, c);
+}
+
+// All layers at a pixel where water, foam or spray is: spray lies over the others.
+vec3 shade(vec2 pixel, float front) {
+    vec3 c = layers_at(pixel, front);
+    if (SPRAY == 0u) {
+        return c;
+    }
+    float kept = exp(-texelFetch(spray, ivec2(pixel), 0).x);
+    return c * mix(kept, 1.0, frame.spray_color.w) + frame.spray_color.rgb * (1.0 - kept);
 }

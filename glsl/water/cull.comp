@@ -8,6 +8,7 @@
 #include "frustum.glsl"
 #include "sphere.glsl"
 #include "counts.glsl"
+#include "density.glsl"
 
 layout(local_size_x = 64) in;
 // 1: one workgroup per host packet.
@@ -73,8 +74,7 @@ uint classify(uint index, out vec4 sphere, out float share) {
                 atomicAdd(counts.spray, 1u);
                 return NONE;
             }
-            float full = smoothstep(frame.density.x, max(frame.density.y, frame.density.x + 1.0e-6), density);
-            radius *= 0.5 + 0.5 * full;
+            radius *= 0.5 + 0.5 * bulk(density);
         }
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;

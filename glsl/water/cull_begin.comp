@@ -30,15 +30,16 @@ void main() {
     uint groups = push.packets > 0u ? (here > 0u ? push.packets : 0u)
                                     : (here + push.group_size - 1u) / push.group_size;
     uint base = chunk * 64u;
-    uint values[24] = uint[24](
+    uint values[28] = uint[28](
         0u, 1u, 0u, 0u,
         4u, 0u, 0u, 0u,
         0u, 1u, 1u,
         0u, 1u, 1u,
         groups, 1u, 1u,
         here, 0u, 0u,
+        4u, 0u, 0u, 0u,
         4u, 0u, 0u, 0u);
-    for (uint i = 0u; i < 24u; ++i) {
+    for (uint i = 0u; i < 28u; ++i) {
         words[base + i] = values[i];
     }
 }

@@ -3,7 +3,7 @@
 // Reads: scene depth. Writes: foam depth (R32F).
 
 #include "frame.glsl"
-#include "foam_hit.glsl"
+#include "sprite_hit.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 
@@ -11,7 +11,7 @@ layout(location = 0) out float depth;
 
 void main() {
     vec2 place;
-    if (!foam_hit(ray_slope(gl_FragCoord.xy, frame.slope), place, depth)) {
+    if (!sprite_hit(ray_slope(gl_FragCoord.xy, frame.slope), place, depth)) {
         discard;
     }
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);

@@ -1,10 +1,12 @@
 #version 460
 // Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 4.5).
-// Reads: Counts (particles), positions, foam, velocities, ids. Writes: Counts (foam), sprites.
+// Spray is none: what is turning into it is that much less foam.
+// Reads: Counts (particles), positions, foam, velocities, ids, densities. Writes: Counts (foam), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
 #include "counts.glsl"
+#include "density.glsl"
 #include "random.glsl"
 #include "foam.glsl"
 
@@ -16,6 +18,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Velocities { float velociti
 layout(set = 0, binding = 4, std430) readonly buffer Ids { uint ids[]; };
 layout(set = 0, binding = 5, std430) buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 6, std430) writeonly buffer Sprites { FoamSprite sprites[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Densities { float densities[]; };
 
 layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle
@@ -23,9 +26,11 @@ layout(push_constant, std430) uniform Push {
     uint amount_word;
     uint amount_stride;
     uint velocity_word;
-    uint velocity_stride;
+    uint velocity_stride; // 0: at rest
     uint id_word;
     uint id_stride;       // 0: no ids, the number in the frame instead
+    uint density_word;
+    uint density_stride;  // 0: no densities
     uint chunk_first;
 } push;
 
@@ -37,10 +42,18 @@ void visit(uint index) {
     }
     float foam = min(amounts[at], 1.0);
     float age = amounts[at + 1u];
+    if (push.density_stride > 0u) {
+        float density = densities[push.density_word + index * push.density_stride];
+        foam *= density > 0.0 ? bulk(density) : 1.0;
+        if (!(foam > 0.0)) {
+            return;
+        }
+    }
     at = push.position_word + index * push.position_stride;
     vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
     at = push.velocity_word + index * push.velocity_stride;
-    vec3 velocity = vec3(velocities[at], velocities[at + 1u], velocities[at + 2u]);
+    vec3 velocity = push.velocity_stride > 0u
+        ? vec3(velocities[at], velocities[at + 1u], velocities[at + 2u]) : vec3(0.0);
     if (!(all(lessThan(abs(position), vec3(1.0e18))) && all(lessThan(abs(velocity), vec3(1.0e18))))) {
         return;
     }

@@ -6,7 +6,7 @@
 #include "frame.glsl"
 #include "random.glsl"
 #include "foam.glsl"
-#include "foam_hit.glsl"
+#include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec4 look;
 
@@ -18,7 +18,7 @@ layout(location = 0) out vec2 thickness;
 void main() {
     vec2 place;
     float depth;
-    if (!foam_hit(ray_slope(gl_FragCoord.xy, frame.thick_slope), place, depth)) {
+    if (!sprite_hit(ray_slope(gl_FragCoord.xy, frame.thick_slope), place, depth)) {
         discard;
     }
     vec2 pixel = gl_FragCoord.xy * frame.thick_extent.z;

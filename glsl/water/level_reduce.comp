@@ -15,10 +15,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
-// 1: tiles with foam alone are drawn too.
-layout(constant_id = 9) const uint FOAM = 0;
-layout(set = 0, binding = 9) uniform sampler2D foam_depth;
 
+#include "beside.glsl"
 #include "block.glsl"
 #include "reduction.glsl"
 
@@ -40,11 +38,11 @@ void main() {
     if (all(lessThan(block, level.rect.zw))) {
         ivec2 end = min((block + 1) * edge, ivec2(frame.extent.xy));
         float z = EMPTY;
-        bool foam = false;
+        bool other = false;
         for (int y = block.y * edge; y < end.y; ++y) {
             for (int x = block.x * edge; x < end.x; ++x) {
                 z = min(z, imageLoad(depth, ivec2(x, y)).x);
-                foam = foam || FOAM == 1u && texelFetch(foam_depth, ivec2(x, y), 0).x < EMPTY;
+                other = other || beside(ivec2(x, y));
             }
         }
         z = block_depth(block * edge, end, z);
@@ -54,7 +52,7 @@ void main() {
         imageStore(smooth_a, p, vec4(z));
         imageStore(smooth_b, p, vec4(z));
         imageStore(plan, p, uvec4(planned));
-        if (z < EMPTY || foam) {
+        if (z < EMPTY || other) {
             atomicMax(most, plan_count(planned) + 1u);
         }
     }

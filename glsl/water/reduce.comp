@@ -18,23 +18,21 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
-// 1: tiles with foam alone are drawn too.
-layout(constant_id = 9) const uint FOAM = 0;
-layout(set = 0, binding = 9) uniform sampler2D foam_depth;
 // Pixels that pass the cap until the smoothing is one, two, three, more levels coarser.
 layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
 
 layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a row
 
+#include "beside.glsl"
 #include "block.glsl"
 #include "reduction.glsl"
 
 shared uint most;
 shared uint tile_over[4];
 
-// Depth of the block in front of the scene; whether there is foam.
-float reduced(ivec2 block, out bool foam) {
-    foam = false;
+// Depth of the block in front of the scene; whether something is drawn there that is no water.
+float reduced(ivec2 block, out bool other) {
+    other = false;
     ivec2 extent = ivec2(frame.extent.xy);
     float best = EMPTY;
     for (int y = 0; y < (1 << LEVEL); ++y) {
@@ -44,7 +42,7 @@ float reduced(ivec2 block, out bool foam) {
                 continue;
             }
             float z = imageLoad(depth, pixel).x;
-            foam = foam || FOAM == 1u && texelFetch(foam_depth, pixel, 0).x < EMPTY;
+            other = other || beside(pixel);
             if (z < EMPTY) {
                 float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
                 // Reversed infinite depth at infinity: 1/0, or negative by rounding.
@@ -68,8 +66,8 @@ void main() {
     barrier();
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(block, ivec2(frame.extent.zw)))) {
-        bool foam;
-        float z = reduced(block, foam);
+        bool other;
+        float z = reduced(block, other);
         float count;
         vec2 slope = ray_slope(vec2(block) + 0.5, frame.reduced_slope);
         uint planned = plan_pixel(z, slope, frame.texel.zw, count);
@@ -77,7 +75,7 @@ void main() {
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
         // One more than the iterations: a tile with water and nothing to smooth is still drawn.
-        if (z < EMPTY || foam) {
+        if (z < EMPTY || other) {
             atomicMax(most, plan_count(planned) + 1u);
         }
         float cap = frame.smoothing.z;

@@ -20,8 +20,8 @@ use transfer::staging;
 
 use crate::composite::way;
 use crate::contract::{
-    Access, Camera, Config, Count, Foam, Frame, HostImage, Layer, ParticleCounts, Particles,
-    Settings, Slot, Step, Stream,
+    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
+    Slot, Step, Stream,
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
@@ -93,6 +93,8 @@ pub struct Headless {
     parts: Vec<vk::CommandBuffer>,
     positions: Option<Buffer>,
     densities: Option<Buffer>,
+    velocities: Option<Buffer>,
+    ids: Option<Buffer>,
     foam: Option<Foaming>,
     count: u32,
     layers: Vec<Layer>,
@@ -134,6 +136,8 @@ impl Headless {
             parts: Vec::new(),
             positions: None,
             densities: None,
+            velocities: None,
+            ids: None,
             foam: None,
             count: 0,
             layers: Vec::new(),
@@ -335,7 +339,8 @@ impl Headless {
         }
         self.count = u32::try_from(positions.len())
             .map_err(|_| Error::bad("positions", "more than 2^32"))?;
-        for old in [self.positions.take(), self.densities.take()].into_iter().flatten() {
+        let old = [&mut self.positions, &mut self.densities, &mut self.velocities, &mut self.ids];
+        for old in old.into_iter().filter_map(Option::take) {
             old.destroy(&self.gpu);
         }
         let make = |name, bytes: &[u8]| input(&self.gpu, name, bytes);
@@ -346,29 +351,40 @@ impl Headless {
         Ok(())
     }
 
-    /// What of the uploaded particles is foam, with [`Config::foam`]: a step of a [`State`] by their
-    /// velocities. `ids` follow the particles from frame to frame, so that the noise in their foam
-    /// does. `dt`: seconds since the step before; without, or without ids, a frame stands for itself.
+    /// Uploads how the particles uploaded last move: their velocities, for foam and spray, and `ids`
+    /// that follow them from frame to frame, so that the noise in their foam and their droplets do.
     ///
     /// # Errors
-    /// Not as many as positions, no memory, and as [`State::record_step`].
-    pub fn step(
-        &mut self,
-        velocities: &[[f32; 3]],
-        ids: Option<&[u32]>,
-        dt: Option<f32>,
-        settings: &FoamSettings,
-    ) -> Result<(), Error> {
-        let count = self.count;
-        let all = |length: usize| length == count as usize;
+    /// Not as many as positions, no memory.
+    pub fn motion(&mut self, velocities: &[[f32; 3]], ids: Option<&[u32]>) -> Result<(), Error> {
+        let all = |length: usize| length == self.count as usize;
         if !all(velocities.len()) || ids.is_some_and(|ids| !all(ids.len())) {
             return Err(Error::bad("velocities", "not as many as positions, or as ids"));
         }
+        for old in [self.velocities.take(), self.ids.take()].into_iter().flatten() {
+            old.destroy(&self.gpu);
+        }
         let make = |name, bytes: &[u8]| input(&self.gpu, name, bytes);
-        let velocities = make("headless/velocities", bytemuck::cast_slice(velocities))?;
-        let ids = ids.map(|ids| make("headless/ids", bytemuck::cast_slice(ids))).transpose()?;
+        self.velocities = Some(make("headless/velocities", bytemuck::cast_slice(velocities))?);
+        if let Some(ids) = ids {
+            self.ids = Some(make("headless/ids", bytemuck::cast_slice(ids))?);
+        }
+        Ok(())
+    }
+
+    /// What of the particles is foam, with [`Config::foam`]: a step of a [`State`] by their
+    /// [`motion`](Self::motion). `dt`: seconds since the step before; without, or without ids, a
+    /// frame stands for itself.
+    ///
+    /// # Errors
+    /// No motion, no memory, and as [`State::record_step`].
+    pub fn step(&mut self, dt: Option<f32>, settings: &FoamSettings) -> Result<(), Error> {
+        let Some(velocities) = &self.velocities else {
+            return Err(Error::bad("velocities", "none uploaded"));
+        };
+        let velocities = stream(velocities, 12);
         // The last that can fail before the state is put back: dropped, it would leak.
-        let state = match self.foam.take() {
+        let mut state = match self.foam.take() {
             Some(old) => old.state,
             None => {
                 let config = StateConfig::new(self.renderer.config().max_particles);
@@ -376,30 +392,23 @@ impl Headless {
                 unsafe { State::new(&self.device.host(1), &config) }?
             }
         };
-        let mut foam = Foaming { state, velocities, ids, stepped: false };
-        let densities = self.densities.as_ref().map(|buffer| stream(buffer, 4));
-        let result = self.run(|_, cmd| {
-            let step = Step {
-                slot: Slot(0),
-                velocities: stream(&foam.velocities, 12),
-                densities,
-                ids: foam.ids.as_ref().filter(|_| dt.is_some()).map(|ids| stream(ids, 4)),
-                count: Count::Cpu(count),
-                dt: dt.unwrap_or(0.0),
-                settings,
-                before: HOST_WRITE,
-                after: HOST_WRITE,
-            };
-            // SAFETY: cmd is recording outside a render pass; every run waits for its end.
-            unsafe { foam.state.record_step(cmd, &step) }
-        });
-        match &result {
-            Ok(()) => foam.stepped = true,
-            Err(_) => foam.state.abandon(Slot(0)),
+        let step = Step {
+            slot: Slot(0),
+            velocities,
+            densities: self.densities.as_ref().map(|buffer| stream(buffer, 4)),
+            ids: self.ids.as_ref().filter(|_| dt.is_some()).map(|ids| stream(ids, 4)),
+            count: Count::Cpu(self.count),
+            dt: dt.unwrap_or(0.0),
+            settings,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+        };
+        // SAFETY: cmd is recording outside a render pass; every run waits for its end.
+        let result = self.run(|_, cmd| unsafe { state.record_step(cmd, &step) });
+        if result.is_err() {
+            state.abandon(Slot(0));
         }
-        self.foam = Some(foam);
-        // The streams of the step before, which is done: every run waits.
-        self.gpu.bury();
+        self.foam = Some(Foaming { state, stepped: result.is_ok() });
         result
     }
 
@@ -441,24 +450,20 @@ impl Headless {
         let Some(positions) = &self.positions else {
             return Err(Error::bad("particles", "none uploaded"));
         };
-        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| Foam {
-            amounts: Stream {
-                buffer: foam.state.foam(),
-                size: 8 * u64::from(self.renderer.config().max_particles),
-                offset: 0,
-                stride: 8,
-            },
-            velocities: stream(&foam.velocities, 12),
-            ids: foam.ids.as_ref().map(|ids| stream(ids, 4)),
+        let foam = self.foam.as_ref().filter(|foam| foam.stepped).map(|foam| Stream {
+            buffer: foam.state.foam(),
+            size: 8 * u64::from(self.renderer.config().max_particles),
+            offset: 0,
+            stride: 8,
         });
         let particles = Particles {
-            positions: stream(positions, 12),
             densities: self.densities.as_ref().map(|buffer| stream(buffer, 4)),
-            count: Count::Cpu(self.count),
-            packets: None,
+            velocities: self.velocities.as_ref().map(|buffer| stream(buffer, 12)),
+            ids: self.ids.as_ref().map(|buffer| stream(buffer, 4)),
             foam,
             before: HOST_WRITE,
             after: HOST_WRITE,
+            ..Particles::new(stream(positions, 12), Count::Cpu(self.count))
         };
         let image = |image: &Image, rest| HostImage {
             image: image.handle,
@@ -593,7 +598,8 @@ impl Headless {
             unsafe { foam.state.destroy() };
         }
         // Freed with the shared objects.
-        drop((self.commands, self.color, self.depth, self.positions, self.densities, self.scene));
+        drop((self.commands, self.color, self.depth, self.scene));
+        drop((self.positions, self.densities, self.velocities, self.ids));
         // SAFETY: the device is idle, or lost.
         unsafe { renderer.destroy() };
         gpu.destroy();
@@ -604,8 +610,6 @@ impl Headless {
 /// What the foam of the particles goes by.
 struct Foaming {
     state: State,
-    velocities: Buffer,
-    ids: Option<Buffer>,
     /// By the particles that are here now.
     stepped: bool,
 }

@@ -200,6 +200,10 @@ impl Headless {
             // Iterations are the low nine bits of the plan.
             return Ok(Some(plan.map(|p| (p & 511) as f32)));
         }
+        if layer.format == vk::Format::R16_SFLOAT {
+            let half: Picture<u16> = self.read(layer.image, layer.format, area, layer.access)?;
+            return Ok(Some(half.map(|bits| half::f16::from_bits(*bits).to_f32())));
+        }
         self.read(layer.image, layer.format, area, layer.access).map(Some)
     }
 

@@ -9,8 +9,8 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::cull::{capacity, window};
-use crate::contract::{Count, Step, Stream};
+use super::cull::{Window, capacity};
+use crate::contract::{Count, Step};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -212,16 +212,11 @@ impl Classify {
         while first < count {
             let chunk = self.chunk.min(count - first);
             // A stream that ends before the chunk has no particles in it: the count was clamped.
-            let Some((velocities, velocity_word)) = window(gpu, &step.velocities, first) else {
+            let Some(velocities) = Window::new(gpu, &step.velocities, first) else {
                 break;
             };
-            // A stream that is not there is never read: any buffer will do.
-            let optional = |stream: &Option<Stream>| match stream {
-                Some(s) => window(gpu, s, first).map(|(r, word)| (r, word, s.stride / 4)),
-                None => Some((velocities, 0, 0)),
-            };
-            let (Some((densities, density_word, density_stride)), Some((ids, id_word, id_stride))) =
-                (optional(&step.densities), optional(&step.ids))
+            let [Some(densities), Some(ids)] =
+                [&step.densities, &step.ids].map(|stream| velocities.or(gpu, stream, first))
             else {
                 break;
             };
@@ -230,10 +225,10 @@ impl Classify {
                 cmd,
                 &self.pipeline,
                 &[
-                    (1, velocities),
-                    (2, densities),
-                    (3, ids),
-                    (4, from_gpu.unwrap_or(velocities)),
+                    (1, velocities.resource),
+                    (2, densities.resource),
+                    (3, ids.resource),
+                    (4, from_gpu.unwrap_or(velocities.resource)),
                     (5, Resource::buffer(old)),
                     (6, Resource::buffer(new)),
                     (7, Resource::buffer(&self.foam)),
@@ -243,12 +238,12 @@ impl Classify {
                 gpu,
                 cmd,
                 &Push {
-                    velocity_word,
-                    velocity_stride: step.velocities.stride / 4,
-                    density_word,
-                    density_stride,
-                    id_word,
-                    id_stride,
+                    velocity_word: velocities.word,
+                    velocity_stride: velocities.stride,
+                    density_word: densities.word,
+                    density_stride: densities.stride,
+                    id_word: ids.word,
+                    id_stride: ids.stride,
                     first,
                     count,
                     from_gpu: u32::from(from_gpu.is_some()),

@@ -35,6 +35,7 @@ pub const LARGE_GROUPS: u64 = 44;
 const CULL_GROUPS: u64 = 56;
 const DROPPED: u64 = 72;
 pub const FOAM: u64 = 80;
+pub const SPRAY: u64 = 96;
 
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "quads_vertices") == QUADS as usize);
 const _: () =
@@ -44,6 +45,7 @@ const _: () =
 const _: () =
     assert!(shader::WATER_CULL_COMP.offset("Counts", "cull_groups") == CULL_GROUPS as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "foam_vertices") == FOAM as usize);
+const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "spray_vertices") == SPRAY as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DROPPED as usize);
 
 /// Particles of a chunk at most: 64 an invocation group, 65 535 groups.
@@ -111,7 +113,11 @@ pub fn chunk_unit(config: &Config) -> u32 {
 /// once, and the chunks' parts of the list begin at offsets that every device can bind.
 pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) {
     let range = u64::from(limits.max_storage_buffer_range).saturating_sub(256);
-    let own = if config.foam { super::foam::SPRITE as u32 } else { 16 };
+    let own = match (config.foam, config.spray) {
+        (true, _) => super::foam::SPRITE as u32,
+        (false, true) => super::spray::SPRITE as u32,
+        (false, false) => 16,
+    };
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     let unit = chunk_unit(config);
     let wanted = config.max_particles.max(1).next_multiple_of(unit);
@@ -316,20 +322,9 @@ impl Cull {
         let scope = r.begin(c"cull");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let list = &self.list;
-        let foam = particles.foam;
-        let streams = [
-            Some(particles.positions),
-            particles.densities,
-            foam.map(|f| f.amounts),
-            foam.map(|f| f.velocities),
-            foam.and_then(|f| f.ids),
-        ];
-
         // In: the host's buffers, and ours from the frame before.
-        let mut host: Vec<_> = streams
-            .iter()
-            .flatten()
-            .map(|s| s.buffer)
+        let mut host: Vec<_> = streams(particles)
+            .map(|(stream, _)| stream.buffer)
             .chain(particles.packets.map(|p| p.buffer))
             .chain(match particles.count {
                 Count::Gpu { buffer, .. } => Some(buffer),
@@ -380,16 +375,7 @@ impl Cull {
 
     /// Particles of which every stream holds the value.
     fn most(&self, particles: &Particles) -> u32 {
-        let foam = particles.foam;
-        let streams = [
-            (Some(particles.positions), 12),
-            (particles.densities, 4),
-            (foam.map(|f| f.amounts), 8),
-            (foam.map(|f| f.velocities), 12),
-            (foam.and_then(|f| f.ids), 4),
-        ];
-        let there = streams.iter().filter_map(|(s, bytes)| Some((s.as_ref()?, *bytes)));
-        there.map(capacity).fold(self.max_particles, u32::min)
+        streams(particles).map(capacity).fold(self.max_particles, u32::min)
     }
 
     fn record_chunk(
@@ -404,24 +390,15 @@ impl Cull {
         let chunk = self.list.chunk(index);
         let first = index * self.list.chunk_size;
         // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let Some((positions, position_word)) = window(gpu, &particles.positions, first) else {
+        let Some(positions) = Window::new(gpu, &particles.positions, first) else {
             return Ok(());
         };
-        let (densities, density_word, density_stride) = match &particles.densities {
-            Some(stream) => match window(gpu, stream, first) {
-                Some((resource, word)) => (resource, word, stream.stride / 4),
-                None => return Ok(()),
-            },
-            None => (positions, 0, 0),
+        let [Some(densities), Some(foam)] =
+            [&particles.densities, &particles.foam].map(|stream| positions.or(gpu, stream, first))
+        else {
+            return Ok(());
         };
-        let (amounts, foam_word, foam_stride) = match &particles.foam {
-            Some(foam) => match window(gpu, &foam.amounts, first) {
-                Some((resource, word)) => (resource, word, foam.amounts.stride / 4),
-                None => return Ok(()),
-            },
-            None => (positions, 0, 0),
-        };
-        let packets = particles.packets.map_or(positions, |p| {
+        let packets = particles.packets.map_or(positions.resource, |p| {
             Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count.max(1)))
         });
         let pipeline = if particles.packets.is_some() { &self.packets } else { &self.each };
@@ -431,12 +408,12 @@ impl Cull {
             pipeline,
             &[
                 (0, r.uniforms),
-                (1, positions),
-                (2, densities),
+                (1, positions.resource),
+                (2, densities.resource),
                 (3, packets),
                 (4, chunk.counts),
                 (5, chunk.spheres),
-                (6, amounts),
+                (6, foam.resource),
                 (7, chunk.shares),
             ],
         )?;
@@ -444,16 +421,16 @@ impl Cull {
             gpu,
             cmd,
             &CullPush {
-                position_word,
-                position_stride: particles.positions.stride / 4,
-                density_word,
-                density_stride,
+                position_word: positions.word,
+                position_stride: positions.stride,
+                density_word: densities.word,
+                density_stride: densities.stride,
                 chunk_first: first,
                 capacity: chunk.capacity,
                 small_limit,
                 small_inside: u32::from(inside),
-                foam_word,
-                foam_stride,
+                foam_word: foam.word,
+                foam_stride: foam.stride,
             },
         );
         // SAFETY: outside a render pass; the arguments were written by `begin` and made visible.
@@ -476,14 +453,49 @@ pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
     }
 }
 
-/// The part of a stream from a particle on that can be bound, and the word at which that particle
-/// lies in it; none when the stream ends before.
-pub fn window(gpu: &Gpu, stream: &Stream, first: u32) -> Option<(Resource, u32)> {
-    let start = stream.offset + u64::from(first) * u64::from(stream.stride);
-    let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
-    let left = stream.size.checked_sub(aligned).filter(|left| *left >= 4)?;
-    let range = left.min(u64::from(gpu.limits.max_storage_buffer_range));
-    // WHOLE_SIZE keeps the range legal for buffers whose size is no multiple of 4.
-    let range = if range == left { vk::WHOLE_SIZE } else { range & !3 };
-    Some((Resource::Buffer(stream.buffer, aligned, range), ((start - aligned) / 4) as u32))
+/// The streams that there are, with the bytes of a value.
+fn streams(particles: &Particles) -> impl Iterator<Item = (&Stream, u64)> {
+    let all = [
+        (Some(&particles.positions), 12),
+        (particles.densities.as_ref(), 4),
+        (particles.velocities.as_ref(), 12),
+        (particles.ids.as_ref(), 4),
+        (particles.foam.as_ref(), 8),
+    ];
+    all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
+}
+
+/// The part of a stream from a particle on that can be bound.
+#[derive(Clone, Copy)]
+pub struct Window {
+    pub resource: Resource,
+    /// At which that particle lies in it.
+    pub word: u32,
+    /// In words; 0: there is no such stream.
+    pub stride: u32,
+}
+
+impl Window {
+    /// None when the stream ends before the particle: none is there, the count was clamped.
+    pub fn new(gpu: &Gpu, stream: &Stream, first: u32) -> Option<Self> {
+        let start = stream.offset + u64::from(first) * u64::from(stream.stride);
+        let aligned = start - start % gpu.limits.min_storage_buffer_offset_alignment.max(4);
+        let left = stream.size.checked_sub(aligned).filter(|left| *left >= 4)?;
+        let range = left.min(u64::from(gpu.limits.max_storage_buffer_range));
+        // WHOLE_SIZE keeps the range legal for buffers whose size is no multiple of 4.
+        let range = if range == left { vk::WHOLE_SIZE } else { range & !3 };
+        Some(Self {
+            resource: Resource::Buffer(stream.buffer, aligned, range),
+            word: ((start - aligned) / 4) as u32,
+            stride: stream.stride / 4,
+        })
+    }
+
+    /// The same of a stream that need not be there: then this one is bound and not read.
+    pub fn or(&self, gpu: &Gpu, stream: &Option<Stream>, first: u32) -> Option<Self> {
+        match stream {
+            Some(stream) => Self::new(gpu, stream, first),
+            None => Some(Self { word: 0, stride: 0, ..*self }),
+        }
+    }
 }

@@ -4,6 +4,7 @@
 //! they turn into discs, smoothly (the source switches, which pops). The corners are pulled in the
 //! vertex shader, the fragment meets the sprite's plane exactly. Thickness is in metres, as that of
 //! the water: what a particle is foam of it is no water.
+//! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
 //! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost).
 
@@ -12,8 +13,8 @@ use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::cull::{self, LIST_USE, SphereList, window};
-use crate::contract::{Config, Foam as FoamStreams, Particles};
+use super::cull::{self, LIST_USE, SphereList, Window};
+use crate::contract::{Config, Particles, Stream};
 use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
 use crate::gpu::Gpu;
@@ -50,6 +51,8 @@ struct Push {
     velocity_stride: u32,
     id_word: u32,
     id_stride: u32,
+    density_word: u32,
+    density_stride: u32,
     chunk_first: u32,
 }
 shader::assert_layout!(
@@ -64,6 +67,8 @@ shader::assert_layout!(
         velocity_stride,
         id_word,
         id_stride,
+        density_word,
+        density_stride,
         chunk_first,
     }
 );
@@ -275,25 +280,22 @@ impl Foam {
         &self,
         r: &Recording<'_>,
         particles: &Particles,
-        foam: &FoamStreams,
+        foam: &Stream,
         list: &SphereList,
         index: u32,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let first = index * list.chunk_size;
         // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let bound = [&particles.positions, &foam.amounts, &foam.velocities];
-        let [Some(positions), Some(amounts), Some(velocities)] =
-            bound.map(|stream| window(gpu, stream, first))
-        else {
+        let bound = [&particles.positions, foam].map(|stream| Window::new(gpu, stream, first));
+        let [Some(positions), Some(amounts)] = bound else {
             return Ok(());
         };
-        let (ids, id_word, id_stride) = match &foam.ids {
-            Some(stream) => match window(gpu, stream, first) {
-                Some((resource, word)) => (resource, word, stream.stride / 4),
-                None => return Ok(()),
-            },
-            None => (positions.0, 0, 0),
+        let more = [&particles.velocities, &particles.ids, &particles.densities];
+        let [Some(velocities), Some(ids), Some(densities)] =
+            more.map(|stream| positions.or(gpu, stream, first))
+        else {
+            return Ok(());
         };
         r.descriptors.bind(
             gpu,
@@ -301,26 +303,29 @@ impl Foam {
             &self.list,
             &[
                 (0, r.uniforms),
-                (1, positions.0),
-                (2, amounts.0),
-                (3, velocities.0),
-                (4, ids),
+                (1, positions.resource),
+                (2, amounts.resource),
+                (3, velocities.resource),
+                (4, ids.resource),
                 (5, list.chunk(index).counts),
                 (6, self.chunk(list, index)),
+                (7, densities.resource),
             ],
         )?;
         self.list.push(
             gpu,
             cmd,
             &Push {
-                position_word: positions.1,
-                position_stride: particles.positions.stride / 4,
-                amount_word: amounts.1,
-                amount_stride: foam.amounts.stride / 4,
-                velocity_word: velocities.1,
-                velocity_stride: foam.velocities.stride / 4,
-                id_word,
-                id_stride,
+                position_word: positions.word,
+                position_stride: positions.stride,
+                amount_word: amounts.word,
+                amount_stride: amounts.stride,
+                velocity_word: velocities.word,
+                velocity_stride: velocities.stride,
+                id_word: ids.word,
+                id_stride: ids.stride,
+                density_word: densities.word,
+                density_stride: densities.stride,
                 chunk_first: first,
             },
         );

@@ -111,7 +111,11 @@ impl Level {
             let usage = usage | Usage::STORAGE_BUFFER;
             Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly)
         };
-        let rule = [(1, rule_constant(config.rule)), (9, u32::from(config.foam))];
+        let rule = [
+            (1, rule_constant(config.rule)),
+            (9, u32::from(config.foam)),
+            (10, u32::from(config.spray)),
+        ];
         let coarsening = coarsening(config);
         let size = size_of::<SmoothingLevels>() as u64;
         Ok(Self {
@@ -216,6 +220,7 @@ impl Level {
                 buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_WRITE),
             ],
         );
+        let [foam, spray] = depths.beside(r);
         r.descriptors.bind(
             gpu,
             cmd,
@@ -228,7 +233,8 @@ impl Level {
                 (5, Resource::storage(&reduce.plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (7, self.resource()),
-                (9, depths.foam(r)),
+                foam,
+                spray,
             ],
         )?;
         // SAFETY: as above; the arguments are visible (barrier).

@@ -14,6 +14,7 @@ pub mod settings;
 mod smooth;
 mod smooth_query;
 mod split;
+mod spray;
 mod thickness;
 mod tiles;
 
@@ -35,7 +36,7 @@ pub(crate) use cull::{chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat,
-    WaterSettings,
+    SprayLook, WaterSettings,
 };
 
 /// What every pass records with.
@@ -91,6 +92,8 @@ pub(crate) struct WaterLayers<'a> {
     pub boundaries: Option<&'a Buffer>,
     /// Depth and thickness of the foam, where there may be some.
     pub foam: Option<[&'a Image; 2]>,
+    /// Spray, where there may be some.
+    pub spray: Option<&'a Image>,
 }
 
 /// The passes that tell two sheets apart.
@@ -111,6 +114,7 @@ pub(crate) struct Water {
     front: front::Front,
     depth: depth::Depth,
     foam: Option<foam::Foam>,
+    spray: Option<spray::Spray>,
     reduce: reduce::Reduce,
     level: level::Level,
     sheets: Option<Sheets>,
@@ -127,6 +131,7 @@ impl Water {
             front: front::Front::new(gpu, config)?,
             depth: depth::Depth::new(gpu, config)?,
             foam: config.foam.then(|| foam::Foam::new(gpu, config)).transpose()?,
+            spray: config.spray.then(|| spray::Spray::new(gpu, config)).transpose()?,
             reduce: reduce::Reduce::new(gpu, config)?,
             level: level::Level::new(gpu, config)?,
             sheets: (config.sheets > 1).then(|| Sheets::new(gpu, config)).transpose()?,
@@ -149,6 +154,9 @@ impl Water {
         if let Some(foam) = &mut self.foam {
             foam.resize(gpu, config, retired)?;
         }
+        if let Some(spray) = &mut self.spray {
+            spray.resize(gpu, config, retired)?;
+        }
         self.reduce.resize(gpu, config, retired)?;
         if let Some(Sheets { gaps, back }) = &mut self.sheets {
             gaps.resize(gpu, config, retired)?;
@@ -168,13 +176,17 @@ impl Water {
         if let Some(foam) = &self.foam {
             foam.record(r, particles, &self.cull.list)?;
         }
+        if let Some(spray) = &self.spray {
+            spray.record(r, particles, &self.cull.list, &self.depth.image)?;
+        }
         let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
         if let Some(gaps) = gaps {
             gaps.record(r, &self.front.list, &self.cull.list)?;
         }
         let foam = self.foam.as_ref().map(foam::Foam::depth);
         self.thickness.record(r, &self.cull.list, gaps, foam)?;
-        let depths = reduce::Depths { water: &self.depth.image, foam };
+        let spray = self.spray.as_ref().map(|spray| &spray.image);
+        let depths = reduce::Depths { water: &self.depth.image, foam, spray };
         self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
         let (plan, tiles, level) = (&self.reduce.plan, &self.tiles, &self.level);
@@ -199,6 +211,7 @@ impl Water {
             sheets: self.thickness.sheets.as_ref(),
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
+            spray: self.spray.as_ref().map(|spray| &spray.image),
         }
     }
 
@@ -251,6 +264,9 @@ impl Water {
             layers.push(layer("foam.depth", foam.depth(), 0, foam::AFTER));
             layers.push(layer("foam.thickness", foam.thickness(), level, foam::AFTER));
         }
+        if let Some(spray) = &self.spray {
+            layers.push(layer("spray", &spray.image, 0, spray::AFTER));
+        }
         layers
     }
 
@@ -268,10 +284,16 @@ impl Water {
         };
         let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
         let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
+        let (spray, droplets) = self.spray.as_ref().map_or((0, 0), spray::Spray::memory);
         MemoryUse {
-            images: images.iter().map(|image| image.size).sum::<u64>() + back + sheets + foam,
+            images: images.iter().map(|image| image.size).sum::<u64>()
+                + back
+                + sheets
+                + foam
+                + spray,
             buffers: gaps
                 + sprites
+                + droplets
                 + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()

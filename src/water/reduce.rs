@@ -32,14 +32,19 @@ pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 /// What is reduced.
 pub struct Depths<'a> {
     pub water: &'a Image,
-    /// Where there is some its tiles are drawn too.
+    /// Where there is some of either its tiles are drawn too.
     pub foam: Option<&'a Image>,
+    pub spray: Option<&'a Image>,
 }
 
 impl Depths<'_> {
-    /// The foam's, or anything where there is none.
-    pub fn foam(&self, r: &Recording<'_>) -> Resource {
-        self.foam.map_or(r.scene_depth, |foam| Resource::Sampled(foam.view, r.gpu.samplers.nearest))
+    /// Foam and spray for glsl/include/beside.glsl, or anything where there is none.
+    pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 2] {
+        let nearest = r.gpu.samplers.nearest;
+        let bound = |image: Option<&Image>| {
+            image.map_or(r.scene_depth, |image| Resource::Sampled(image.view, nearest))
+        };
+        [(13, bound(self.foam)), (15, bound(self.spray))]
     }
 }
 
@@ -67,6 +72,7 @@ impl Reduce {
             (0, config.smoothing_level),
             (1, rule_constant(config.rule)),
             (9, u32::from(config.foam)),
+            (10, u32::from(config.spray)),
         ];
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
@@ -129,6 +135,7 @@ impl Reduce {
                 buffer(over, COPY_WRITE, COMPUTE_READ_WRITE),
             ],
         );
+        let [foam, spray] = depths.beside(r);
         r.descriptors.bind(
             gpu,
             cmd,
@@ -142,7 +149,8 @@ impl Reduce {
                 (5, Resource::storage(&self.plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (8, Resource::buffer(&level.over)),
-                (9, depths.foam(r)),
+                foam,
+                spray,
             ],
         )?;
         self.pipeline.push(gpu, cmd, &tiles.atlas.columns);

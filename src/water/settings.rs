@@ -62,7 +62,8 @@ pub struct WaterSettings {
     pub spacing: f32,
     /// Rest density in the unit of the density stream, (0, ∞), default 1000.
     pub rest_density: f32,
-    /// Below this fraction of the rest density a particle is spray: left out here. [0, ∞), default
+    /// Below this fraction of the rest density a particle is spray: left out (with
+    /// [`Config::spray`](crate::Config) [`SprayLook::densities`] count instead). [0, ∞), default
     /// 0.35 (an isolated particle reads 0.318 with the usual cubic spline).
     pub density_threshold: f32,
     /// From this fraction on a particle has its full radius. Default 0.45.
@@ -270,9 +271,9 @@ pub struct FoamLook {
     /// reads as steam. Not in the source; 0: none of that.
     pub veil: f32,
     /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
-    /// default 0.35.
+    /// default 0.45.
     pub relief: f32,
-    /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.7 and white 0.95 (the
+    /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.65 and white 0.9 (the
     /// source's are colours on the screen, 0.25 and 1).
     pub back_color: [f32; 3],
     /// As above.
@@ -290,21 +291,14 @@ impl FoamLook {
             noise: 1.0,
             noise_rate: 2.0,
             veil: spacing,
-            relief: 0.35,
-            back_color: [0.7; 3],
-            front_color: [0.95; 3],
+            relief: 0.45,
+            back_color: [0.65; 3],
+            front_color: [0.9; 3],
         }
     }
 
     /// Checks the ranges; the message names the field.
     pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
-        let range = |field, value: f32, least: f32, most: f32| {
-            if value >= least && value <= most {
-                return Ok(());
-            }
-            let why = format!("expected {least} to {most}, found {value}");
-            Err(crate::error::Error::bad(field, why))
-        };
         range("Settings.foam.extinction", self.extinction, 0.0, f32::MAX)?;
         range("Settings.foam.front_extinction", self.front_extinction, 0.0, f32::MAX)?;
         range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
@@ -319,6 +313,97 @@ impl FoamLook {
         }
         Ok(())
     }
+}
+
+/// How spray looks: particles that are too few together to be a body of water. Of no effect without
+/// [`Config::spray`](crate::Config).
+///
+/// As its density falls a particle becomes spray, until it is nothing else. It is drawn as droplets round its centre, each streaking along its motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SprayLook {
+    /// Share of the light that the middle of a droplet at rest takes away, [0, 1), default 0.5 (the
+    /// source: 0.4).
+    pub opacity: f32,
+    /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as the source. Its
+    /// droplets together are about as large.
+    pub size: f32,
+    /// Droplets that a particle is drawn as, 1 (the source) to 64, default 16.
+    pub droplets: u32,
+    /// Fractions of the rest density, rising, [0, ∞): below the first a particle is nothing but
+    /// spray, from the second on its water has its full radius and its foam is whole, from the third
+    /// on it is no spray. Default 0.6, 0.7, 0.85: lines of particles are spray (0.48 with the usual
+    /// cubic spline), sheets of one layer (0.70) hardly. They take the place of
+    /// [`WaterSettings::density_threshold`] and [`density_full`](WaterSettings::density_full).
+    pub densities: [f32; 3],
+    /// How far they lie from its centre at most, in spacings, [0, 8], default 0.7; 0: nowhere else
+    /// (the source).
+    pub spread: f32,
+    /// Seconds of motion that a droplet streaks over, [0, 1], default 1/60; as it is longer it is
+    /// thinner.
+    pub shutter: f32,
+    /// Albedo, linear RGB, 0 to 1, default 0.95.
+    pub color: [f32; 3],
+    /// Its light is added to that from behind (the source), not laid over it (default).
+    pub additive: bool,
+}
+
+impl Default for SprayLook {
+    fn default() -> Self {
+        Self {
+            opacity: 0.5,
+            size: 0.5,
+            droplets: 16,
+            densities: [0.6, 0.7, 0.85],
+            spread: 0.7,
+            shutter: 1.0 / 60.0,
+            color: [0.95; 3],
+            additive: false,
+        }
+    }
+}
+
+impl SprayLook {
+    /// As the source has it: a sprite a particle, added.
+    pub const SOURCE: Self = Self {
+        opacity: 0.4,
+        size: 0.5,
+        droplets: 1,
+        densities: [0.35, 0.45, 0.35],
+        spread: 0.0,
+        shutter: 1.0 / 60.0,
+        color: [1.0; 3],
+        additive: true,
+    };
+
+    /// Checks the ranges; the message names the field.
+    pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
+        range("Settings.spray.opacity", self.opacity, 0.0, 1.0 - f32::EPSILON)?;
+        range("Settings.spray.size", self.size, 1.0e-6, 8.0)?;
+        range("Settings.spray.droplets", self.droplets as f32, 1.0, 64.0)?;
+        let [all, full, none] = self.densities;
+        range("Settings.spray.densities", all, 0.0, f32::MAX)?;
+        range("Settings.spray.densities", full, all, f32::MAX)?;
+        range("Settings.spray.densities", none, all, f32::MAX)?;
+        range("Settings.spray.spread", self.spread, 0.0, 8.0)?;
+        range("Settings.spray.shutter", self.shutter, 0.0, 1.0)?;
+        for color in self.color {
+            range("Settings.spray.color", color, 0.0, 1.0)?;
+        }
+        Ok(())
+    }
+}
+
+fn range(
+    field: &'static str,
+    value: f32,
+    least: f32,
+    most: f32,
+) -> Result<(), crate::error::Error> {
+    if value >= least && value <= most {
+        return Ok(());
+    }
+    let why = format!("expected {least} to {most}, found {value}");
+    Err(crate::error::Error::bad(field, why))
 }
 
 impl Default for FoamLook {

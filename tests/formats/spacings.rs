@@ -1,6 +1,6 @@
-//! The guess at the rest spacing where the answer is known.
+//! The guesses at the rest spacing and at densities where the answer is known.
 
-use whitewater::io::particles::estimate_spacing;
+use whitewater::io::particles::{estimate_densities, estimate_spacing};
 
 /// A cubic grid, moved a little by a hash.
 fn grid(n: usize, spacing: f32, noise: f32) -> Vec<[f32; 3]> {
@@ -66,4 +66,29 @@ fn a_million() {
     close(spacing, 0.025, 0.1);
     // Generous: test machines are shared, and this build is not optimised.
     assert!(took.as_secs_f32() < 20.0, "{took:?}");
+}
+
+/// The numbers of the cubic spline by hand: W(0) = 1/π, W(1) = 1/4π, W(√2) = 0.25 (2 - √2)³ / π.
+#[test]
+fn densities_of_few_and_of_many() {
+    let pi = std::f64::consts::PI;
+    let close = |found: f32, expected: f64| {
+        assert!((f64::from(found) - expected).abs() < 2e-5, "{found} for {expected}");
+    };
+    for spacing in [1e-3_f32, 0.05, 40.0] {
+        let at = |x: f32, y: f32, z: f32| [x * spacing, y * spacing, z * spacing];
+        let isolated = [at(7.0, 3.0, -9.0), [f32::NAN; 3], [1e30; 3], [f32::INFINITY, 0.0, 0.0]];
+        let found = estimate_densities(&isolated, spacing);
+        close(found[0], 1.0 / pi);
+        assert_eq!([found[1], found[3]], [0.0; 2], "no positions");
+        close(found[2], 1.0 / pi);
+        let line: Vec<_> = (-9..9).map(|i| at(i as f32, 0.0, 0.0)).collect();
+        close(estimate_densities(&line, spacing)[9], 1.5 / pi);
+        let sheet: Vec<_> = (0..81).map(|i| at((i % 9) as f32, 0.0, (i / 9) as f32)).collect();
+        let corner = 0.25 * (2.0 - 2.0_f64.sqrt()).powi(3);
+        close(estimate_densities(&sheet, spacing)[40], (2.0 + 4.0 * corner) / pi);
+        let full = estimate_densities(&grid(9, spacing, 0.0), spacing)[4 * 91];
+        assert!((0.98..1.02).contains(&full), "{full}");
+    }
+    assert!(estimate_densities(&[], 1.0).is_empty());
 }

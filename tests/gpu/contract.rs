@@ -4,8 +4,8 @@
 use ash::vk;
 use whitewater::water::{Gate, Rule, Shading, Smoothing, Splat};
 use whitewater::{
-    Access, Config, Count, Enabled, Error, Foam, Frame, HostImage, Packets, Recorded, Renderer,
-    Settings, Slot, Stream,
+    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Renderer, Settings,
+    Slot, Stream,
 };
 
 use crate::reference::Image;
@@ -184,6 +184,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { sheets: 2, smoothing_level: 0, depth_splat: Some(Splat::Raster), ..base },
         Config { foam: true, sheets: 2, extent: extent(50, 40), ..base },
         Config { foam: true, depth_splat: Some(Splat::Raster), ..base },
+        Config { spray: true, ..base },
+        Config { spray: true, foam: true, composite: Some(Shading::Compute), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -465,24 +467,25 @@ fn spoils() -> Vec<Spoil> {
         ("ambient", "Settings.light", |g| g.settings.light.ambient[2] = f32::INFINITY),
         ("irradiance", "Settings.light", |g| g.settings.light.irradiance[0] = f32::NAN),
         ("foam", "Frame.particles.foam", |g| {
-            let any = g.frame.particles.positions;
-            g.frame.particles.foam = Some(Foam { amounts: any, velocities: any, ids: None });
+            g.frame.particles.foam = Some(g.frame.particles.positions);
         }),
-        ("foam stride", "Frame.particles.foam.amounts", |g| {
-            let any = g.frame.particles.positions;
-            let amounts = Stream { stride: 4, ..any };
-            g.frame.particles.foam = Some(Foam { amounts, velocities: any, ids: None });
+        ("foam stride", "Frame.particles.foam", |g| {
+            g.frame.particles.foam = Some(Stream { stride: 4, ..g.frame.particles.positions });
         }),
-        ("foam speeds", "Frame.particles.foam.velocities", |g| {
-            let any = g.frame.particles.positions;
-            let velocities = Stream { stride: 8, ..any };
-            g.frame.particles.foam = Some(Foam { amounts: any, velocities, ids: None });
+        ("velocities", "Frame.particles.velocities", |g| {
+            let velocities = Stream { stride: 8, ..g.frame.particles.positions };
+            g.frame.particles.velocities = Some(velocities);
         }),
-        ("foam ids", "Frame.particles.foam.ids", |g| {
-            let any = g.frame.particles.positions;
-            let ids = Some(Stream { offset: 1 << 40, ..any });
-            g.frame.particles.foam = Some(Foam { amounts: any, velocities: any, ids });
+        ("ids", "Frame.particles.ids", |g| {
+            g.frame.particles.ids = Some(Stream { offset: 1 << 40, ..g.frame.particles.positions });
         }),
+        ("opacity", "Settings.spray.opacity", |g| g.settings.spray.opacity = 1.0),
+        ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
+        ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
+        ("densities", "Settings.spray.densities", |g| g.settings.spray.densities[1] = 0.1),
+        ("spread", "Settings.spray.spread", |g| g.settings.spray.spread = f32::NAN),
+        ("shutter", "Settings.spray.shutter", |g| g.settings.spray.shutter = -1.0),
+        ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),
         ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
         ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
         ("threshold", "Settings.foam.motion_threshold", |g| {
@@ -750,10 +753,10 @@ fn ten_million_particles_have_room() {
 #[test]
 fn memory_is_as_documented() {
     let gpu = Gpu::shared();
-    let needed = |width: u32, height: u32, count: u32, (sheets, coarsening, foam)| {
+    let needed = |width: u32, height: u32, count: u32, (sheets, coarsening, foam, spray)| {
         let format = vk::Format::R16G16B16A16_SFLOAT;
         let size = extent(width, height);
-        let config = Config { sheets, coarsening, foam, ..Config::new(size, format, count) };
+        let config = Config { sheets, coarsening, foam, spray, ..Config::new(size, format, count) };
         // SAFETY: live handles.
         let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
         let memory = renderer.memory();
@@ -767,19 +770,21 @@ fn memory_is_as_documented() {
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
         // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
-        for (sheets, coarsening, foam, smoothing, more) in [
-            (1, 3, false, 4.5, 0.0),
-            (1, 0, false, 3.0, 0.0),
-            (2, 3, false, 4.5, 2.5),
-            (2, 0, false, 4.5, 2.5),
-            (1, 3, true, 4.5, 5.25),
-            (2, 3, true, 4.5, 7.75),
+        for (sheets, coarsening, foam, spray, smoothing, more) in [
+            (1, 3, false, false, 4.5, 0.0),
+            (1, 0, false, false, 3.0, 0.0),
+            (2, 3, false, false, 4.5, 2.5),
+            (2, 0, false, false, 4.5, 2.5),
+            (1, 3, true, false, 4.5, 5.25),
+            (2, 3, true, false, 4.5, 7.75),
+            (1, 3, false, true, 4.5, 2.0),
+            (2, 3, true, true, 4.5, 9.75),
         ] {
-            let each = if foam { 84.0 } else { 32.0 };
+            let each = 32.0 + if foam { 52.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
             let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
-            let found = needed(width, height, count, (sheets, coarsening, foam));
+            let found = needed(width, height, count, (sheets, coarsening, foam, spray));
             let off = (found - said).abs();
-            let name = format!("{width}x{height}, {sheets} sheets, foam {foam}");
+            let name = format!("{width}x{height}, {sheets} sheets, foam {foam}, spray {spray}");
             assert!(off < 0.01 * said + 512.0 * 1024.0, "{name}: {found}, said {said}");
         }
     }
@@ -790,7 +795,8 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let mut rig = Rig::with_slots(&gpu, &Config { sheets: 2, foam: true, ..config(size) }, 2);
+    let mut rig =
+        Rig::with_slots(&gpu, &Config { sheets: 2, foam: true, spray: true, ..config(size) }, 2);
     let shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
     assert!(rig.renderer().timings(Slot(9)).is_empty(), "no such slot");
@@ -803,6 +809,7 @@ fn timings_name_every_pass() {
             "front",
             "depth",
             "foam",
+            "spray",
             "gaps",
             "thickness",
             "reduce",

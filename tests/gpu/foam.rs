@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::water::{Shading, Splat};
-use whitewater::{Config, Foam, Particles};
+use whitewater::{Config, Particles};
 
 use crate::depth::spheres;
 use crate::reference::foam::{self, Sprite};
@@ -41,12 +41,12 @@ struct Streams {
 
 impl Streams {
     fn particles(&self) -> Particles {
-        let foam = Foam {
-            amounts: stream(&self.amounts, 0, 8),
-            velocities: stream(&self.velocities, 0, 12),
+        Particles {
+            foam: Some(stream(&self.amounts, 0, 8)),
+            velocities: Some(stream(&self.velocities, 0, 12)),
             ids: self.ids.as_ref().map(|ids| stream(ids, 0, 4)),
-        };
-        Particles { foam: Some(foam), ..self.cloud.particles() }
+            ..self.cloud.particles()
+        }
     }
 }
 

@@ -200,7 +200,8 @@ fn a_step_makes_foam() {
     let covered = |headless: &mut Headless, stepped: Option<(Option<&[u32]>, Option<f32>)>| {
         headless.particles(&points, None).expect("particles");
         if let Some((ids, dt)) = stepped {
-            headless.step(&fast, ids, dt, &foam).expect("a step");
+            headless.motion(&fast, ids).expect("motion");
+            headless.step(dt, &foam).expect("a step");
         }
         headless.render(&camera, &look, &background).expect("a frame");
         let depth = headless.layer("foam.depth").expect("read").expect("a layer");
@@ -213,7 +214,9 @@ fn a_step_makes_foam() {
     assert_eq!(covered(&mut headless, Some((Some(&ids), Some(0.1)))), 0, "the first step");
     assert!(covered(&mut headless, Some((Some(&ids), Some(0.1)))) > 0, "the second");
     assert_eq!(covered(&mut headless, None), 0, "other particles");
-    assert!(headless.step(&fast[1..], None, None, &foam).is_err(), "one is missing");
+    assert!(headless.step(None, &foam).is_err(), "no motion");
+    assert!(headless.motion(&fast[1..], None).is_err(), "one is missing");
+    assert!(headless.motion(&fast, Some(&ids[1..])).is_err(), "an id is missing");
     headless.finish().expect("finish");
 }
 
@@ -228,7 +231,8 @@ fn a_failed_step_keeps_the_state() {
     let foam = FoamSettings::reduced(0.1, 1.0);
     headless.particles(&points, None).expect("particles");
     let step = |headless: &mut Headless| {
-        headless.step(&[[9.0, 0.0, 0.0]; 8], Some(&ids), Some(0.1), &foam)
+        headless.motion(&[[9.0, 0.0, 0.0]; 8], Some(&ids))?;
+        headless.step(Some(0.1), &foam)
     };
     step(&mut headless).expect("a step");
     let held = allocations(headless.device());

@@ -192,7 +192,7 @@ fn densities_are_the_twins() {
     let drawn = rig.draw(&shot);
     let below = |d: &&f32| **d > 0.0 && **d < 350.0;
     let spray = shot.densities.iter().flatten().filter(below).count();
-    assert_eq!(drawn.spray as usize, spray, "spray is counted, on the screen or not");
+    assert_eq!(drawn.set_aside as usize, spray, "spray is counted, on the screen or not");
     let radius = f64::from(shot.settings.water.radius());
     let params = CullParams::new(radius, f64::from(shot.settings.water.rest_density));
     let view = shot.view(size);
@@ -227,8 +227,7 @@ fn words(values: &[u32]) -> Vec<u8> {
 }
 
 fn packed(positions: Stream, count: Count) -> Particles {
-    let (before, after) = (HOST_WRITE, HOST_WRITE);
-    Particles { positions, densities: None, count, packets: None, foam: None, before, after }
+    Particles { before: HOST_WRITE, after: HOST_WRITE, ..Particles::new(positions, count) }
 }
 
 const STORAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;

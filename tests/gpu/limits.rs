@@ -57,13 +57,14 @@ fn claimed(
             let (buffer, count) = (data.buffer, ranges.len() as u32);
             let bytes = 4 * stride as u32;
             let particles = Particles {
-                positions: stream(&data, 4 * start as u64, bytes),
                 densities: Some(stream(&data, 4 * (start + density) as u64, bytes)),
-                count: if apart { Count::Cpu(n) } else { Count::Gpu { buffer, offset: 256 } },
                 packets: (!apart).then_some(Packets { buffer, offset: 512, count }),
-                foam: None,
                 before: HOST_WRITE,
                 after: HOST_WRITE,
+                ..Particles::new(
+                    stream(&data, 4 * start as u64, bytes),
+                    if apart { Count::Cpu(n) } else { Count::Gpu { buffer, offset: 256 } },
+                )
             };
             drop(spy::take_bound());
             let drawn = rig.draw_particles(&shot, &particles);

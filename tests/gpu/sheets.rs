@@ -748,8 +748,9 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         thickness: thickness.map(|[front, back, _]| (front + back) as f32),
         sheets: Some(sheets),
         foam: None,
+        spray: None,
         dropped: 0,
-        spray: 0,
+        set_aside: 0,
     };
     let layers = Layers::new(&drawn, shot);
     let sky = Sky::Even.radiance(DVec3::Y);

@@ -201,9 +201,11 @@ pub struct Drawn {
     pub sheets: Option<Sheets>,
     /// With foam.
     pub foam: Option<Foaming>,
+    /// Optical depth, with spray.
+    pub spray: Option<Image<f32>>,
     /// Particles dropped for their positions, and set aside as spray.
     pub dropped: u32,
-    pub spray: u32,
+    pub set_aside: u32,
 }
 
 /// What a frame with foam gave besides.
@@ -433,8 +435,9 @@ impl<'g> Rig<'g> {
             thickness: empty(),
             sheets: None,
             foam: None,
+            spray: None,
             dropped: 0,
-            spray: 0,
+            set_aside: 0,
         };
         if let Some(counts) = &recorded.counts {
             let size = 256 * u64::from(counts.chunks);
@@ -443,7 +446,7 @@ impl<'g> Rig<'g> {
             for chunk in back.bytes().chunks_exact(256) {
                 let words: Vec<u32> = words(chunk).collect();
                 drawn.dropped += words[18];
-                drawn.spray += words[19];
+                drawn.set_aside += words[19];
             }
         }
         let [a, b, back] = &levels.level;
@@ -470,6 +473,9 @@ impl<'g> Rig<'g> {
                 }
                 "water.thickness" => drawn.thickness = self.floats(layer, whole),
                 "foam.depth" => (foam.depth, foams) = (self.floats(layer, whole), true),
+                "spray" => {
+                    drawn.spray = Some(self.halves(layer, whole));
+                }
                 "foam.thickness" => foam.thickness = self.pairs(layer, whole),
                 "water.thickness.sheets" => {
                     let sheets = sheets.as_mut().expect("boundaries of two sheets");
@@ -548,6 +554,14 @@ impl<'g> Rig<'g> {
         Image { width, height, data: pairs }
     }
 
+    fn halves(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {
+        assert_eq!(layer.format, vk::Format::R16_SFLOAT);
+        let bytes = self.bytes(layer, area);
+        let half = |b: &[u8]| half::f16::from_le_bytes([b[0], b[1]]).to_f32();
+        let (width, height) = (area.extent.width as usize, area.extent.height as usize);
+        Image { width, height, data: bytes.chunks_exact(2).map(half).collect() }
+    }
+
     fn floats(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {
         self.texels(layer, area).map(|bits| f32::from_bits(*bits))
     }
@@ -575,13 +589,10 @@ pub struct Cloud {
 impl Cloud {
     pub fn particles(&self) -> Particles {
         Particles {
-            positions: stream(&self.positions, 0, 12),
             densities: self.densities.as_ref().map(|d| stream(d, 0, 4)),
-            count: Count::Cpu(self.count),
-            packets: None,
-            foam: None,
             before: HOST_WRITE,
             after: HOST_WRITE,
+            ..Particles::new(stream(&self.positions, 0, 12), Count::Cpu(self.count))
         }
     }
 }

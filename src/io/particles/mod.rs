@@ -2,7 +2,7 @@
 //!
 //! [`read`] takes one file and gives its [`Particles`]; [`sequence`] turns what a user names (a file, a glob
 //! or a `%04d` pattern) into numbered frames; [`estimate_spacing`] guesses the rest spacing where the file
-//! does not say it; [`write()`] writes four of the formats.
+//! does not say it, [`estimate_densities`] the densities; [`write()`] writes four of the formats.
 //!
 //! | format | read | written |
 //! | --- | --- | --- |
@@ -45,7 +45,7 @@ use std::path::Path;
 pub use columns::{Attribute, AttributeType};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
-pub use spacing::estimate_spacing;
+pub use spacing::{estimate_densities, estimate_spacing};
 pub use write::write;
 
 /// One frame of particles as read from a file.

@@ -1,4 +1,4 @@
-//! A guess at the rest spacing, for files that do not say it.
+//! Guesses at the rest spacing and at densities, for files that do not say them.
 
 /// How many particles are asked for their nearest neighbours.
 const QUERIES: usize = 16_384;
@@ -27,6 +27,18 @@ pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     let middle = nearest.len() / 2;
     let (_, median, _) = nearest.select_nth_unstable_by(middle, f32::total_cmp);
     Some(*median)
+}
+
+/// Densities of particles of a spacing as fractions of the rest density: the sums of the cubic spline that
+/// reaches two spacings. An isolated particle reads 0.318, a line 0.48, a sheet of one layer 0.70, a body of water
+/// about 1. Of positions that are not finite 0.
+pub fn estimate_densities(positions: &[[f32; 3]], spacing: f32) -> Vec<f32> {
+    let finite = |p: &[f32; 3]| p.iter().all(|c| c.is_finite());
+    let points: Vec<[f32; 3]> = positions.iter().copied().filter(finite).collect();
+    let mut grid = Grid { cell: 2.0 * f64::from(spacing), origin: [0.0; 3], points: Vec::new() };
+    grid.fill(&points);
+    let each = |p: &[f32; 3]| if finite(p) { grid.density(*p, spacing) } else { 0.0 };
+    positions.iter().map(each).collect()
 }
 
 /// Points sorted by the cell they lie in.
@@ -103,6 +115,25 @@ impl Grid {
         self.points.get(start..).unwrap_or_default()
     }
 
+    /// Sum of the spline round a point; cells are two spacings wide.
+    fn density(&self, p: [f32; 3], spacing: f32) -> f32 {
+        let [x, y, z] = self.cell_of(p);
+        let mut sum = 0.0;
+        let mut keys = [0; 27];
+        for (i, key) in keys.iter_mut().enumerate() {
+            let shift = |a: i64, by: usize| a.wrapping_add(by as i64 % 3 - 1);
+            *key = self.key([shift(x, i), shift(y, i / 3), shift(z, i / 9)]);
+        }
+        keys.sort_unstable();
+        // Far cells may share a key; none may count twice.
+        for run in keys.chunk_by(|a, b| a == b) {
+            let Some(key) = run.first() else { continue };
+            let same = self.row(*key).iter().take_while(|(found, _)| found == key);
+            sum += same.map(|(_, q)| spline(squared(p, *q).sqrt() / spacing)).sum::<f32>();
+        }
+        sum
+    }
+
     /// Distance to the neighbour of this rank (1 to 3), the nearest being 1; `None` where fewer lie within two
     /// cells, which makes the point a stray.
     fn neighbour(&self, p: [f32; 3], rank: usize) -> Option<f32> {
@@ -135,6 +166,12 @@ impl Grid {
         }
         None
     }
+}
+
+/// The cubic spline of a smoothing length of one, as a share of the rest density.
+fn spline(q: f32) -> f32 {
+    let (near, far) = ((1.0 - q).max(0.0), (2.0 - q).max(0.0));
+    (0.25 * far.powi(3) - near.powi(3)) * std::f32::consts::FRAC_1_PI
 }
 
 fn squared(p: [f32; 3], q: [f32; 3]) -> f32 {

@@ -147,13 +147,13 @@ pub fn draw(
             Stream { buffer, size, offset: offset + field as u64, stride }
         };
         let particles = Particles {
-            positions: stream(std::mem::offset_of!(Particle, position)),
             densities: Some(stream(std::mem::offset_of!(Particle, density))),
-            count: Count::Cpu(wave.len() as u32),
-            packets: None,
-            foam: None,
             before: CPU,
             after: CPU,
+            ..Particles::new(
+                stream(std::mem::offset_of!(Particle, position)),
+                Count::Cpu(wave.len() as u32),
+            )
         };
         // Reversed depth without a far plane; row 0 is up in glam and down in Vulkan.
         let aspect = EXTENT.width as f32 / EXTENT.height as f32;

@@ -117,6 +117,10 @@ pub struct DrawArgs {
     /// or the Weber number from which on it does
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = foaming)]
     pub foam: Foaming,
+    /// Spray, of particles too few together to be a body of water: auto (where densities are known or
+    /// can be found) or none
+    #[arg(long, value_enum, default_value_t = SprayArg::Auto)]
+    pub spray: SprayArg,
     /// How particles become pixels [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,
@@ -204,6 +208,15 @@ impl From<SplatArg> for Splat {
             SplatArg::Compute => Self::Compute,
         }
     }
+}
+
+/// Whether there is spray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum SprayArg {
+    /// Where densities are known or can be found.
+    Auto,
+    /// None.
+    None,
 }
 
 /// What of the water foams.

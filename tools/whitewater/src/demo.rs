@@ -47,13 +47,13 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     scene.sun = environment.sun_light();
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
     settings.water.spacing = SPACING;
+    settings.foam = FoamLook::of_spacing(SPACING);
     settings_file.unwrap_or_default().apply(&mut settings).map_err(Failure::input)?;
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,
         None => viewpoint(args.camera.fov),
     };
     let count = particles.positions.len();
-    settings.foam = FoamLook::of_spacing(SPACING);
     let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
     let look = Look { camera, settings, environment, scene, foam };
     let mut session = Session::new(&args.draw, checked, look)?;

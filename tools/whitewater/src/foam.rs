@@ -23,7 +23,7 @@ pub fn settings(
         Foaming::None => return None,
         Foaming::From(threshold) => moving.next().map(|_| threshold)?,
         Foaming::Auto => {
-            let spray = settings.water.density_threshold * settings.water.rest_density;
+            let spray = settings.spray.densities[0] * settings.water.rest_density;
             let mut numbers: Vec<f32> =
                 moving.flat_map(|frame| numbers(frame, &foam, spray)).collect();
             numbers.sort_unstable_by(f32::total_cmp);

@@ -8,7 +8,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 12] = [
+const GROUPS: [&str; 13] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -20,6 +20,7 @@ const GROUPS: [&str; 12] = [
     "foam.depth",
     "foam.thickness",
     "foam.thickness.front",
+    "spray",
     "scene",
 ];
 
@@ -112,6 +113,7 @@ pub fn collect(
         ("water.thickness.back", Merge::Mean),
         ("foam.thickness", Merge::Mean),
         ("foam.thickness.front", Merge::Mean),
+        ("spray", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
@@ -149,9 +151,9 @@ pub fn collect(
     Ok(layers)
 }
 
-/// Particles of a z-up world, turned to y up.
-pub fn turn_up(positions: &mut [[f32; 3]]) {
-    for p in positions {
+/// Vectors of a z-up world, turned to y up.
+pub fn turn_up<'a>(vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
+    for p in vectors {
         let [x, y, z] = *p;
         *p = Vec3::new(x, z, -y).to_array();
     }

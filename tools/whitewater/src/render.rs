@@ -51,8 +51,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     if left.is_empty() {
         return Ok(());
     }
-    let probes = Probes::read(args, &all, &left)?;
-    let look = look(args, &probes, camera, settings.unwrap_or_default(), environment, &progress)?;
+    let mut probes = Probes::read(args, &all, &left)?;
+    let look =
+        look(args, &mut probes, camera, settings.unwrap_or_default(), environment, &progress)?;
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
@@ -101,7 +102,8 @@ fn draw(
 fn read(args: &RenderArgs, frame: &Frame) -> Outcome<Particles> {
     let mut particles = particles::read(&frame.path)?;
     if args.up_axis == Up::Z {
-        layers::turn_up(&mut particles.positions);
+        let Particles { positions, velocities, .. } = &mut particles;
+        layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
     }
     Ok(particles)
 }
@@ -174,9 +176,13 @@ impl Probes {
     }
 }
 
+/// Of spray, where densities are guessed: walls, which are in no file, are missing from the sums, so that
+/// a layer on a floor reads low.
+const GUESSED_DENSITIES: [f32; 3] = [0.42, 0.5, 0.6];
+
 fn look(
     args: &RenderArgs,
-    probes: &Probes,
+    probes: &mut Probes,
     camera: Option<CameraFile>,
     file: SettingsFile,
     environment: Environment,
@@ -209,6 +215,10 @@ fn look(
                 .say(&format!("rest density {density} (estimated; water.rest_density sets it)"));
         }
         settings.water.rest_density = density;
+    }
+    settings.foam = FoamLook::of_spacing(spacing);
+    if probes.frames.iter().all(|frame| frame.densities.is_none()) {
+        settings.spray.densities = GUESSED_DENSITIES;
     }
     file.apply(&mut settings).map_err(Failure::input)?;
     settings.water.spacing = spacing;
@@ -247,7 +257,10 @@ fn look(
         }
     };
     scene.sun = environment.sun_light();
-    settings.foam = FoamLook::of_spacing(spacing);
+    // As `Session::frame` does it.
+    for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
+        frame.densities = session::guessed_densities(&args.draw, frame, &settings.water);
+    }
     let foam = foam::settings(args.draw.foam, &probes.frames, &settings);
     if let Some(foam) = &foam {
         progress.say(&format!(

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use whitewater::ash::vk;
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
-use whitewater::io::particles::Particles;
+use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
-use whitewater::water::FoamSettings;
+use whitewater::water::{FoamSettings, WaterSettings};
 use whitewater::{Camera, Config, Settings};
 
-use crate::args::DrawArgs;
+use crate::args::{DrawArgs, SprayArg};
 use crate::camera::{CameraFile, Lens};
 use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
@@ -63,6 +63,19 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
         "sky" => Environment::sky(args.sun.or(sun)),
         file => Environment::read(file.as_ref(), args.sun),
     }
+}
+
+/// Of a file that has none, in the unit of the rest density, where there is to be spray.
+pub fn guessed_densities(
+    args: &DrawArgs,
+    particles: &Particles,
+    water: &WaterSettings,
+) -> Option<Vec<f32>> {
+    let wanted = args.spray == SprayArg::Auto && particles.densities.is_none();
+    wanted.then(|| {
+        let shares = particles::estimate_densities(&particles.positions, water.spacing);
+        shares.into_iter().map(|share| share * water.rest_density).collect()
+    })
 }
 
 impl<'a> Session<'a> {
@@ -126,6 +139,7 @@ impl<'a> Session<'a> {
         config.thickness_level = args.thickness_level;
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
+        config.spray = args.spray == SprayArg::Auto;
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
@@ -163,13 +177,21 @@ impl<'a> Session<'a> {
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
+        // Spray goes by density.
+        let water = &self.look.settings.water;
+        let guessed =
+            times.step("densities", number, || guessed_densities(self.args, particles, water));
         times.step("upload", number, || {
-            headless.particles(&particles.positions, particles.densities.as_deref())
+            let densities = particles.densities.as_deref().or(guessed.as_deref());
+            headless.particles(&particles.positions, densities)?;
+            match &particles.velocities {
+                Some(velocities) => headless.motion(velocities, particles.ids.as_deref()),
+                None => Ok(()),
+            }
         })?;
-        if let (Some(settings), Some(velocities)) = (&self.look.foam, &particles.velocities) {
+        if let (Some(settings), Some(_)) = (&self.look.foam, &particles.velocities) {
             // Each frame for itself: how a sequence is cut into jobs must not show.
-            let ids = particles.ids.as_deref();
-            times.step("foam", number, || headless.step(velocities, ids, None, settings))?;
+            times.step("foam", number, || headless.step(None, settings))?;
         }
         times.step("draw", number, || {
             headless.render(&self.camera, &self.look.settings, &Background::Scene)

@@ -13,6 +13,8 @@ use crate::failure::{Failure, Outcome};
 #[serde(deny_unknown_fields, default)]
 pub struct SettingsFile {
     pub water: WaterTable,
+    pub foam: FoamTable,
+    pub spray: SprayTable,
     pub light: LightTable,
 }
 
@@ -34,6 +36,36 @@ pub struct WaterTable {
     shininess: Option<f32>,
 }
 
+/// Table `[foam]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FoamTable {
+    extinction: Option<f32>,
+    front_extinction: Option<f32>,
+    front_depth: Option<f32>,
+    motion_threshold: Option<f32>,
+    noise: Option<f32>,
+    noise_rate: Option<f32>,
+    veil: Option<f32>,
+    relief: Option<f32>,
+    back_color: Option<[f32; 3]>,
+    front_color: Option<[f32; 3]>,
+}
+
+/// Table `[spray]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SprayTable {
+    opacity: Option<f32>,
+    size: Option<f32>,
+    droplets: Option<u32>,
+    densities: Option<[f32; 3]>,
+    spread: Option<f32>,
+    shutter: Option<f32>,
+    color: Option<[f32; 3]>,
+    additive: Option<bool>,
+}
+
 /// Table `[light]`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -41,6 +73,7 @@ pub struct LightTable {
     pub direction: Option<[f32; 3]>,
     pub color: Option<[f32; 3]>,
     pub ambient: Option<[f32; 3]>,
+    pub irradiance: Option<[f32; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -117,10 +150,31 @@ impl SettingsFile {
         if let Some(value) = &table.fresnel {
             water.fresnel = fresnel(value)?;
         }
+        let (foam, table) = (&mut settings.foam, &self.foam);
+        set(&mut foam.extinction, table.extinction);
+        set(&mut foam.front_extinction, table.front_extinction);
+        set(&mut foam.front_depth, table.front_depth);
+        set(&mut foam.motion_threshold, table.motion_threshold);
+        set(&mut foam.noise, table.noise);
+        set(&mut foam.noise_rate, table.noise_rate);
+        set(&mut foam.veil, table.veil);
+        set(&mut foam.relief, table.relief);
+        foam.back_color = table.back_color.unwrap_or(foam.back_color);
+        foam.front_color = table.front_color.unwrap_or(foam.front_color);
+        let (spray, table) = (&mut settings.spray, &self.spray);
+        set(&mut spray.opacity, table.opacity);
+        set(&mut spray.size, table.size);
+        spray.droplets = table.droplets.unwrap_or(spray.droplets);
+        spray.densities = table.densities.unwrap_or(spray.densities);
+        set(&mut spray.spread, table.spread);
+        set(&mut spray.shutter, table.shutter);
+        spray.color = table.color.unwrap_or(spray.color);
+        spray.additive = table.additive.unwrap_or(spray.additive);
         let light = &mut settings.light;
         light.direction = self.light.direction.unwrap_or(light.direction);
         light.color = self.light.color.unwrap_or(light.color);
         light.ambient = self.light.ambient.unwrap_or(light.ambient);
+        light.irradiance = self.light.irradiance.unwrap_or(light.irradiance);
         Ok(())
     }
 }
@@ -196,11 +250,44 @@ pub fn to_toml(settings: &Settings) -> String {
         ("specular", water.specular),
         ("shininess", water.shininess),
     ];
-    let numbers: String = numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect();
+    let (foam, spray) = (&settings.foam, &settings.spray);
+    let of_foam = [
+        ("extinction", foam.extinction),
+        ("front_extinction", foam.front_extinction),
+        ("front_depth", foam.front_depth),
+        ("motion_threshold", foam.motion_threshold),
+        ("noise", foam.noise),
+        ("noise_rate", foam.noise_rate),
+        ("veil", foam.veil),
+        ("relief", foam.relief),
+    ];
+    let of_spray = [
+        ("opacity", spray.opacity),
+        ("size", spray.size),
+        ("spread", spray.spread),
+        ("shutter", spray.shutter),
+    ];
+    let lines = |numbers: &[(&str, f32)]| -> String {
+        numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect()
+    };
     format!(
-        "[water]\n{numbers}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
-         [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\n",
-        light.direction, light.color, light.ambient
+        "[water]\n{}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
+         [foam]\n{}back_color = {:?}\nfront_color = {:?}\n\n\
+         [spray]\n{}droplets = {}\ndensities = {:?}\ncolor = {:?}\nadditive = {}\n\n\
+         [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\n",
+        lines(&numbers),
+        lines(&of_foam),
+        foam.back_color,
+        foam.front_color,
+        lines(&of_spray),
+        spray.droplets,
+        spray.densities,
+        spray.color,
+        spray.additive,
+        light.direction,
+        light.color,
+        light.ambient,
+        light.irradiance,
     )
 }
 
@@ -211,6 +298,7 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use whitewater::water::SprayLook;
 
     #[test]
     fn values_arrive() {
@@ -232,6 +320,10 @@ mod tests {
         settings.water.medium = Medium::source(0.02);
         settings.water.shininess = 1.0e-7;
         settings.water.amplitude = Amplitude::Source;
+        settings.foam.veil = 0.25;
+        settings.foam.front_color = [0.1, 0.2, 0.3];
+        settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
+        settings.light.irradiance = [1.0, 2.0, 3.0];
         let mut back = Settings::default();
         SettingsFile::parse(&to_toml(&settings)).unwrap().apply(&mut back).unwrap();
         assert_eq!(back, settings);

@@ -265,7 +265,8 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, whitewater::E
     let high = heights[heights.len() * 95 / 100];
     let settings = FoamSettings::reduced(pool.spacing, 1.0);
     let threshold = settings.scale * settings.rest_density * (20.0 * high).powi(2);
-    headless.step(&velocities, None, None, &FoamSettings { threshold, ..settings })?;
+    headless.motion(&velocities, None)?;
+    headless.step(None, &FoamSettings { threshold, ..settings })?;
     // The ramp begins at half the Weber number.
     Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
 }

@@ -1,0 +1,14 @@
+// What the density says of a particle. Needs frame.glsl.
+
+// From 0, all spray, to 1, all of it water or foam, over a range of densities.
+float risen(float full, float density) {
+    return smoothstep(frame.density.x, max(full, frame.density.x + 1.0e-6), density);
+}
+
+float bulk(float density) {
+    return risen(frame.density.y, density);
+}
+
+float share_of_spray(float density) {
+    return 1.0 - risen(frame.density.z, density);
+}

@@ -1,0 +1,9 @@
+// Spray as droplets round a particle (thesis Sec. 4.10 has one sprite each). Needs frame.glsl.
+
+struct SpraySprite {
+    vec4 centre;   // eye space; share of the particle that is spray
+    vec4 velocity; // eye space; bits of the id
+};
+
+// Half-axis of the largest droplet, in that of the mean.
+const float LARGEST_DROPLET = 1.5;

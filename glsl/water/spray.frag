@@ -1,0 +1,31 @@
+#version 460
+// Pass `spray`: how much of the light from behind droplets before scene and water take away.
+// Reads: scene depth, water depth. Writes: spray (R16F), summed.
+
+#include "frame.glsl"
+#include "sprite_hit.glsl"
+
+layout(location = 4) flat in float amount;
+
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 3) uniform sampler2D water_depth;
+
+layout(location = 0) out float optical_depth;
+
+void main() {
+    vec2 place;
+    float depth;
+    if (!sprite_hit(ray_slope(gl_FragCoord.xy, frame.slope), place, depth)) {
+        discard;
+    }
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
+    float water = texelFetch(water_depth, ivec2(gl_FragCoord.xy), 0).x;
+    if (scene > 0.0 && depth >= scene) {
+        discard;
+    }
+    // Droplets lie round particles that may be water too: those just behind the surface are seen.
+    float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
+    // As the thickness: the source's exp(-2 rho^2) alone ends with an edge.
+    float rho2 = dot(place, place);
+    optical_depth = before * amount * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
+}

@@ -1,0 +1,59 @@
+#version 460
+// Pass `spray`: a quad round each droplet, an ellipse that faces the eye, along its motion as that looks
+// from there. Reads: sprites.
+
+#include "frame.glsl"
+#include "random.glsl"
+#include "spray.glsl"
+
+layout(set = 0, binding = 1, std430) readonly buffer Sprites { SpraySprite sprites[]; };
+
+layout(location = 0) flat out vec3 centre;
+layout(location = 1) flat out vec3 along;  // over its half-axis
+layout(location = 2) flat out vec3 across;
+layout(location = 3) flat out vec3 normal;
+layout(location = 4) flat out float amount; // optical depth in its middle
+
+// Salts of the random numbers.
+const uint PLACE = 0x5370u;
+
+void main() {
+    uint droplets = uint(frame.density.w);
+    SpraySprite sprite = sprites[gl_InstanceIndex / droplets];
+    uint id = floatBitsToUint(sprite.velocity.w);
+    uint number = 5u * (gl_InstanceIndex % droplets);
+    // Even in the ball of the spread.
+    float level = 2.0 * uniform_of(PLACE, id, number) - 1.0;
+    float turn = 6.2831853 * uniform_of(PLACE, id, number + 1u);
+    float away = frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
+    float level_radius = sqrt(max(1.0 - level * level, 0.0));
+    vec3 off = away * vec3(level_radius * cos(turn), level_radius * sin(turn), level);
+    float size = droplets > 1u ? 0.5 + uniform_of(PLACE, id, number + 3u) : 1.0;
+
+    // World, so that it does not turn with the camera.
+    centre = sprite.centre.xyz + mat3(frame.view) * off;
+    normal = normalize(centre);
+    vec3 motion = sprite.velocity.xyz;
+    motion -= dot(motion, normal) * normal;
+    float speed = length(motion);
+    vec3 side = abs(normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 e1 = speed > 1.0e-6 * frame.particle.y ? motion / speed : normalize(cross(side, normal));
+    vec3 e2 = cross(e1, normal);
+    // Over the time of a streak it covers more, and each place for less long. No smaller than a pixel's
+    // half, or it would flicker; then it is thinner.
+    float depth = -centre.z;
+    float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
+    float still = frame.spray.y * size;
+    vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
+    amount = sprite.centre.w * frame.spray.x * still * still / (axes.x * axes.y);
+    along = e1 / axes.x;
+    across = e2 / axes.y;
+
+    vec2 corner = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
+    // A pixel more: snapping must not cut the footprint.
+    vec3 at = centre + corner.x * e1 * (axes.x + pixel) + corner.y * e2 * (axes.y + pixel);
+    bool whole = depth > 2.0 * (axes.x + pixel) && depth > frame.depth.z;
+    vec2 place = (at.xy / -at.z - frame.slope.zw) / frame.slope.xy;
+    // Off the screen where it comes too near.
+    gl_Position = vec4(whole ? place / frame.extent.xy * 2.0 - 1.0 : vec2(-2.0), 0.5, 1.0);
+}
