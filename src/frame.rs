@@ -275,7 +275,7 @@ impl FrameUniforms {
             ambient: light_vector(light.ambient),
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
             foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
-            foam_back: foam_color(look.back_color, light),
+            foam_back: with(foam_color(look.back_color, light), foam_step(water.spacing)),
             foam_front: foam_color(look.front_color, light),
             spray: spray_shape(&frame.settings.spray, water),
             spray_color: spray_color(&frame.settings.spray, light),
@@ -308,6 +308,16 @@ fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
 fn spray_color(spray: &SprayLook, light: &Light) -> [f32; 4] {
     let [r, g, b, _] = foam_color(spray.color, light);
     [r, g, b, f32::from(u8::from(spray.additive))]
+}
+
+/// Metres that the thickness of foam is a multiple of: a power of two, so that 32-bit sums up to
+/// 4096 spacings are exact.
+pub fn foam_step(spacing: f32) -> f32 {
+    spacing.log2().floor().exp2() / 2048.0
+}
+
+fn with([x, y, z, _]: [f32; 4], w: f32) -> [f32; 4] {
+    [x, y, z, w]
 }
 
 fn light_vector(c: [f32; 3]) -> [f32; 4] {

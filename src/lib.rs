@@ -49,8 +49,9 @@
 //! - `resize` and `reconfigure` are legal with frames in flight; what they replace is freed by
 //!   `collect` when every slot that used it has come back. Only construction, `resize`,
 //!   `reconfigure`, `collect` and `destroy` lock the allocator.
-//! - Equal inputs give equal pictures on one device, but for the order of additive blending in
-//!   [`Splat::Raster`](water::Splat) and of foam (the compute path sums integers).
+//! - Equal inputs give equal pictures on one device, whatever the order of the particles, but for the
+//!   additive blending of [`Splat::Raster`](water::Splat): other sums are of integers, or of steps
+//!   that floats hold exactly.
 //!
 //! # Demands
 //!

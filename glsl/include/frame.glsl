@@ -31,7 +31,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 ambient;
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
-    vec4 foam_back;     // radiance of little foam, and of much
+    vec4 foam_back;     // radiance of little foam, and of much; w: step of its thickness
     vec4 foam_front;
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
     vec4 spray_color;   // radiance; w: 1 = added

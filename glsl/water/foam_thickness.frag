@@ -30,6 +30,8 @@ void main() {
     float noise = gradient_noise(vec3(3.0 * place, 0.0) + look.yzw);
     float amount = look.x * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
     amount *= max(1.0 + frame.foam_noise.x * noise, 0.0);
+    // Whole steps: their sums are exact, in any order.
+    amount = floor(amount / frame.foam_back.w + 0.5) * frame.foam_back.w;
     ivec2 last = ivec2(frame.extent.xy) - 1;
     float front = texelFetch(foam_depth, min(ivec2(pixel), last), 0).x;
     thickness = vec2(amount, depth <= front + frame.foam.w && front < EMPTY ? amount : 0.0);

@@ -107,6 +107,7 @@ impl Foamy {
             front_depth: f64::from(look.front_depth),
             noise: f64::from(look.noise),
             noise_rate: f64::from(look.noise_rate),
+            step: f64::from(spacing).log2().floor().exp2() / 2048.0,
         }
     }
 }
@@ -346,6 +347,40 @@ fn motion_and_ids_show() {
     assert_ne!(of(&still).depth.data, of(&moving).depth.data);
     assert_eq!(of(&still).depth.data, of(&others).depth.data);
     assert_ne!(of(&still).thickness.data, of(&others).thickness.data);
+}
+
+/// Sums of whole steps are exact: the order of the particles is no matter, bit for bit.
+#[test]
+fn the_order_of_particles_does_not_show_in_foam() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config { spray: true, ..foaming(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = Foamy::new(size, Lens::Reversed, 30.0);
+    let n = case.shot.positions.len();
+    case.shot.densities = Some((0..n).map(|i| 1000.0 * (i % 7) as f32 / 6.0).collect());
+    let expected = case.draw(&mut rig);
+    let turned = |i: usize| (i * 37 + 11) % n;
+    let mut other = case.clone();
+    other.shot.positions = (0..n).map(|i| case.shot.positions[turned(i)]).collect();
+    other.shot.densities =
+        case.shot.densities.as_ref().map(|d| (0..n).map(|i| d[turned(i)]).collect());
+    other.amounts = (0..n).map(|i| case.amounts[turned(i)]).collect();
+    other.velocities = (0..n).map(|i| case.velocities[turned(i)]).collect();
+    other.ids = case.ids.as_ref().map(|ids| (0..n).map(|i| ids[turned(i)]).collect());
+    assert_eq!(n, 160, "37 and 160 have no common factor: a permutation");
+    for _ in 0..3 {
+        let drawn = other.draw(&mut rig);
+        let (a, b) = (of(&drawn), of(&expected));
+        assert!(a.thickness.data == b.thickness.data && a.depth.data == b.depth.data);
+        assert_eq!(
+            drawn.spray.as_ref().expect("spray").data,
+            expected.spray.as_ref().expect("spray").data
+        );
+        assert!(drawn.output.data == expected.output.data);
+    }
+    let most = expected.spray.iter().flat_map(|s| &s.data).fold(0.0, |a: f32, b| a.max(*b));
+    assert!(most > 0.2 && most < 4.0, "spray, of sums that are exact: {most}");
 }
 
 /// More particles than can be bound at once, without ids too: their number goes on from chunk to chunk.

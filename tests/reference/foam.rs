@@ -72,13 +72,25 @@ pub struct Settings {
     pub noise: f64,
     /// Cells of the noise that pass in a second.
     pub noise_rate: f64,
+    /// What a sprite adds is rounded to multiples of this, world units; 0: it is not. A power of two.
+    pub step: f64,
 }
 
 impl Settings {
     /// The defaults for a spacing in world units.
     pub fn new(spacing: f64) -> Self {
         let (front_depth, noise) = (7.0 * spacing, 0.9);
-        Self { spacing, motion_threshold: 21.0, front_depth, noise, noise_rate: 2.0 }
+        Self { spacing, motion_threshold: 21.0, front_depth, noise, noise_rate: 2.0, step: 0.0 }
+    }
+
+    /// What an addend may be rounded to, at least or at most by the sign. The quotient is rounded
+    /// by u, which may pass a middle.
+    fn in_steps(&self, addend: f64, sign: f64) -> f64 {
+        if self.step == 0.0 {
+            return addend;
+        }
+        let steps = addend / self.step;
+        ((steps * (1.0 + sign * 2.0 * U) + 0.5 + sign * 2.0 * U).floor() * self.step).max(0.0)
     }
 
     /// r, the drawn radius of a whole particle, world units.
@@ -657,8 +669,9 @@ pub fn thickness_bounds(
             });
             let Some((least, most, sure)) = found else { continue };
             for i in 0..2 {
-                low.at_mut(x, y)[i] += if sure && drawn { least[i] } else { 0.0 };
-                high.at_mut(x, y)[i] += most[i];
+                let least = if sure && drawn { least[i] } else { 0.0 };
+                low.at_mut(x, y)[i] += settings.in_steps(least, -1.0);
+                high.at_mut(x, y)[i] += settings.in_steps(most[i], 1.0);
             }
             *count.at_mut(x, y) += 1.0;
         }

@@ -54,6 +54,10 @@ pub struct RenderArgs {
     /// Particle radius of the solver, half the spacing at rest [default: estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
+    /// Frames a second of the sequence, by which foam comes and goes [default: found from positions and
+    /// velocities]
+    #[arg(long, value_name = "N", value_parser = positive)]
+    pub fps: Option<f32>,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,
@@ -89,7 +93,7 @@ pub struct DrawArgs {
     /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = times_as_large)]
     pub supersample: u32,
-    /// Settings as TOML, tables [water] and [light]
+    /// Settings as TOML, tables [water], [foam], [spray] and [light]
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
@@ -114,7 +118,8 @@ pub struct DrawArgs {
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
     /// What of the water foams: auto (the fastest twentieth of it, where there are velocities), none,
-    /// or the Weber number from which on it does
+    /// or the Weber number from which on it does. In a sequence with ids foam comes and goes in time;
+    /// frames before those that are drawn are read for it
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = foaming)]
     pub foam: Foaming,
     /// Spray, of particles too few together to be a body of water: auto (where densities are known or

@@ -55,7 +55,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     };
     let count = particles.positions.len();
     let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
-    let look = Look { camera, settings, environment, scene, foam };
+    let look = Look { camera, settings, environment, scene, foam, fps: None };
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut progress = Progress::new(1);
     session.frame(0, "waterfall", &particles)?;

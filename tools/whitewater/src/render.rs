@@ -52,12 +52,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         return Ok(());
     }
     let mut probes = Probes::read(args, &all, &left)?;
-    let look =
-        look(args, &mut probes, camera, settings.unwrap_or_default(), environment, &progress)?;
+    let (sequence, settings) = (all.len() > 1, settings.unwrap_or_default());
+    let look = look(args, sequence, &mut probes, camera, settings, environment, &progress)?;
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
-        match draw(args, &mut session, frame, &progress) {
+        match draw(args, &mut session, &all, frame, &progress) {
             Ok(line) => progress.advance(&line),
             Err(failure) if failure.kind == Kind::Input => {
                 progress.advance(&format!("frame {}: {}", frame.number, failure.message));
@@ -80,6 +80,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
 fn draw(
     args: &RenderArgs,
     session: &mut Session<'_>,
+    all: &[Frame],
     frame: &Frame,
     progress: &Progress,
 ) -> Outcome<String> {
@@ -89,6 +90,9 @@ fn draw(
     for warning in &particles.warnings {
         progress.say(&format!("{}: {warning}", frame.path.display()));
     }
+    if session.remembers() {
+        remember(args, session, all, frame, particles.positions.len())?;
+    }
     session.frame(number, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
     Ok(format!(
@@ -97,6 +101,32 @@ fn draw(
         began.elapsed().as_secs_f32(),
         paths.join(" and ")
     ))
+}
+
+/// Lets foam come and go by the frames before one, from the first of the sequence on: how it is cut into
+/// jobs does not show. Those that can't be read are left out.
+fn remember(
+    args: &RenderArgs,
+    session: &mut Session<'_>,
+    all: &[Frame],
+    frame: &Frame,
+    mut room: usize,
+) -> Outcome<()> {
+    loop {
+        session.make_room(room)?;
+        let next = |f: &&Frame| {
+            f.number < frame.number && session.passed().is_none_or(|last| f.number > last)
+        };
+        let Some(next) = all.iter().find(next) else { return Ok(()) };
+        match read(args, next) {
+            // With more room foam begins anew.
+            Ok(particles) if particles.positions.len() > session.room() => {
+                room = particles.positions.len();
+            }
+            Ok(particles) => session.pass(next.number, &particles)?,
+            Err(_) => session.skip(next.number),
+        }
+    }
 }
 
 fn read(args: &RenderArgs, frame: &Frame) -> Outcome<Particles> {
@@ -130,6 +160,8 @@ fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
 /// A few frames of the whole sequence, from which its look is found: the same however it is cut into jobs.
 struct Probes {
     frames: Vec<Particles>,
+    /// Frames a second by two that follow each other.
+    fps: Option<f32>,
 }
 
 impl Probes {
@@ -153,7 +185,16 @@ impl Probes {
                 (None, None) => {}
             }
         }
-        Ok(Self { frames })
+        let middle = (all.len() - 1) / 2;
+        let fps = match &all[middle..] {
+            [a, b, ..] => match [read(args, a), read(args, b)] {
+                [Ok(first), Ok(second)] => foam::seconds(&first, &second)
+                    .map(|seconds| (b.number - a.number) as f32 / seconds),
+                _ => None,
+            },
+            _ => None,
+        };
+        Ok(Self { frames, fps })
     }
 
     fn spacing(&self) -> Option<f32> {
@@ -180,8 +221,12 @@ impl Probes {
 /// a layer on a floor reads low.
 const GUESSED_DENSITIES: [f32; 3] = [0.42, 0.5, 0.6];
 
+/// Where they can't be found.
+const DEFAULT_FPS: f32 = 30.0;
+
 fn look(
     args: &RenderArgs,
+    sequence: bool,
     probes: &mut Probes,
     camera: Option<CameraFile>,
     file: SettingsFile,
@@ -268,7 +313,20 @@ fn look(
             round(foam.threshold)
         ));
     }
-    Ok(Look { camera, settings, environment, scene, foam })
+    let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
+    let remembers = sequence && foam.is_some() && probes.frames.iter().any(moving);
+    let fps = remembers.then(|| match (args.fps, probes.fps) {
+        (Some(fps), _) => fps,
+        (None, Some(fps)) => {
+            progress.say(&format!("{} frames a second (found; --fps sets it)", round(fps)));
+            fps
+        }
+        (None, None) => {
+            progress.say(&format!("{DEFAULT_FPS} frames a second (--fps sets it)"));
+            DEFAULT_FPS
+        }
+    });
+    Ok(Look { camera, settings, environment, scene, foam, fps })
 }
 
 /// Four digits are enough to read.

@@ -27,6 +27,15 @@ pub struct Look {
     pub scene: Scene,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
+    /// Frames a second by which foam comes and goes; none: each frame for itself.
+    pub fps: Option<f32>,
+}
+
+/// Numbers of the frames by which foam came and went.
+#[derive(Clone, Copy, Default)]
+struct Memory {
+    passed: Option<u64>,
+    stepped: Option<u64>,
 }
 
 /// Draws frames.
@@ -40,6 +49,7 @@ pub struct Session<'a> {
     /// A device without a renderer yet, or a renderer, or neither after an error.
     device: Option<Device>,
     headless: Option<Headless>,
+    memory: Memory,
     pub times: Times,
 }
 
@@ -64,6 +74,10 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
         file => Environment::read(file.as_ref(), args.sun),
     }
 }
+
+/// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
+const WARM_UP: u32 = 8;
+const WARM_STEP: f32 = 0.1;
 
 /// Of a file that has none, in the unit of the rest density, where there is to be spray.
 pub fn guessed_densities(
@@ -105,6 +119,7 @@ impl<'a> Session<'a> {
             lens,
             device,
             headless: None,
+            memory: Memory::default(),
             times: Times::new(),
         })
     }
@@ -114,8 +129,9 @@ impl<'a> Session<'a> {
         self.targets.iter().map(|t| t.path(frame)).collect()
     }
 
-    /// Makes a renderer with room for that many particles, if the one there is has not.
-    fn make_room(&mut self, count: usize) -> Outcome<()> {
+    /// Makes a renderer with room for that many particles, if the one there is has not. A new one
+    /// knows of no foam.
+    pub fn make_room(&mut self, count: usize) -> Outcome<()> {
         let count = u32::try_from(count)
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
         if self.headless.as_ref().is_some_and(|h| h.renderer().config().max_particles >= count) {
@@ -155,13 +171,44 @@ impl<'a> Session<'a> {
         }
         headless.scene(&self.look.scene, true)?;
         self.headless = Some(headless);
+        self.memory = Memory::default();
         Ok(())
     }
 
     /// Draws one frame and writes its pictures.
     pub fn frame(&mut self, number: u64, source: &str, particles: &Particles) -> Outcome<()> {
+        self.make_room(particles.positions.len())?;
+        self.timed(|this, times| this.frame_timed(number, source, particles, true, times))
+    }
+
+    /// Lets foam come and go by a frame that is not drawn, after [`make_room`](Self::make_room).
+    pub fn pass(&mut self, number: u64, particles: &Particles) -> Outcome<()> {
+        self.timed(|this, times| this.frame_timed(number, "", particles, false, times))
+    }
+
+    /// Goes past a frame that can't be read.
+    pub fn skip(&mut self, number: u64) {
+        self.memory.passed = Some(number);
+    }
+
+    /// Foam goes by the frames before.
+    pub fn remembers(&self) -> bool {
+        self.look.foam.is_some() && self.look.fps.is_some()
+    }
+
+    /// Number of the last frame that passed; none: no frame did since foam began anew.
+    pub fn passed(&self) -> Option<u64> {
+        self.memory.passed
+    }
+
+    /// How many particles there is room for.
+    pub fn room(&self) -> usize {
+        self.headless.as_ref().map_or(0, |h| h.renderer().config().max_particles as usize)
+    }
+
+    fn timed(&mut self, run: impl FnOnce(&mut Self, &mut Times) -> Outcome<()>) -> Outcome<()> {
         let mut times = std::mem::replace(&mut self.times, Times::new());
-        let result = self.frame_timed(number, source, particles, &mut times);
+        let result = run(self, &mut times);
         self.times = times;
         result
     }
@@ -171,9 +218,9 @@ impl<'a> Session<'a> {
         number: u64,
         source: &str,
         particles: &Particles,
+        drawn: bool,
         times: &mut Times,
     ) -> Outcome<()> {
-        times.step("prepare", number, || self.make_room(particles.positions.len()))?;
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
@@ -190,8 +237,22 @@ impl<'a> Session<'a> {
             }
         })?;
         if let (Some(settings), Some(_)) = (&self.look.foam, &particles.velocities) {
-            // Each frame for itself: how a sequence is cut into jobs must not show.
-            times.step("foam", number, || headless.step(None, settings))?;
+            let fps = self.look.fps.filter(|_| particles.ids.is_some());
+            times.step("foam", number, || match (fps, self.memory.stepped) {
+                (None, _) => headless.step(None, settings),
+                (Some(fps), Some(last)) => {
+                    headless.step(Some(number.saturating_sub(last) as f32 / fps), settings)
+                }
+                // It was as in the first frame for long enough.
+                (Some(_), None) => {
+                    (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
+                }
+            })?;
+            self.memory.stepped = Some(number);
+        }
+        self.memory.passed = Some(number);
+        if !drawn {
+            return Ok(());
         }
         times.step("draw", number, || {
             headless.render(&self.camera, &self.look.settings, &Background::Scene)

@@ -60,6 +60,41 @@ fn parts_of_a_sequence_fit_together() {
     folder.run("render f_*.ply -o c.png --frames 5-3").fails(2, &["5-3"]);
 }
 
+/// Water that is fast from the second frame on: foam needs time to come, and stays when it is slow
+/// again; which frames are drawn together does not show.
+#[test]
+fn foam_comes_and_goes_whichever_frames_are_drawn() {
+    let folder = Folder::new();
+    for (frame, speed) in [(1, 0.0), (2, 9.0), (3, 9.0), (4, 0.0)] {
+        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
+            rows += &format!("{x},{y},{z},{speed},0,0,{i}\n");
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    let common = format!("{SMALL} --foam 1 --fps 4 --layers foam.thickness");
+    folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok();
+    folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 3-4")).ok();
+    folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 4 --overwrite")).ok();
+    for frame in 3..=4 {
+        folder.run(&format!("compare a_{frame}.exr b_{frame}.exr")).ok();
+    }
+    let foam = |name: &str| -> f32 {
+        let picture = folder.picture(name);
+        let layer = picture.channels.iter().find(|c| c.name == "foam.thickness");
+        layer.expect("the layer").data.iter().sum()
+    };
+    let [first, second, third, fourth] = [1, 2, 3, 4].map(|n| foam(&format!("a_{n}.exr")));
+    assert_eq!([first, second], [0.0; 2], "at rest, and it has only begun");
+    assert!(third > 0.0 && fourth > 0.0, "{third} {fourth}");
+    folder.run(&format!("render f_4.csv -o c.exr {common}")).ok();
+    assert_eq!(foam("c.exr"), 0.0, "alone it is at rest");
+    // The frames before need not be good.
+    folder.text("f_2.csv", "x,y\n1,2\n");
+    folder.run(&format!("render f_*.csv -o d_%d.exr {common} --frames 4")).ok();
+    assert!(foam("d_4.exr") < fourth);
+}
+
 #[test]
 fn a_bad_frame_does_not_lose_the_others() {
     let folder = Folder::new();
