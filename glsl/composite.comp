@@ -10,6 +10,7 @@
 #include "sheets.glsl"
 #include "surface.glsl"
 #include "beside.glsl"
+#include "sunlight.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -7,6 +7,7 @@
 #include "sheets.glsl"
 #include "surface.glsl"
 #include "beside.glsl"
+#include "sunlight.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;

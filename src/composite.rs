@@ -66,11 +66,11 @@ fn pipelines(
         _ => 2,
     };
     let beside = [(9, u32::from(config.foam)), (10, u32::from(config.spray))];
+    let light = crate::light::constants(config);
     let make = |configured: u32, sheets: u32| {
         let wanted = sheets <= config.sheets && (configured == 1 || coarsening(config) > 0);
-        wanted
-            .then(|| make(&[(0, thickness), (2, configured), (8, sheets), beside[0], beside[1]]))
-            .transpose()
+        let own = [(0, thickness), (2, configured), (8, sheets)];
+        wanted.then(|| make(&[&own[..], &beside, &light].concat())).transpose()
     };
     Ok([make(1, 1)?, make(1, 2)?, make(0, 1)?, make(0, 2)?])
 }
@@ -150,6 +150,7 @@ impl Composite {
         // Where there are none they are not read: any buffer will do.
         let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
         let foam = layers.foam.unwrap_or([layers.thickness; 2]);
+        let [shadow, light_thickness] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(layers.smoothed.view, nearest)),
@@ -167,6 +168,8 @@ impl Composite {
             (13, Resource::Sampled(foam[0].view, nearest)),
             (14, Resource::Sampled(foam[1].view, nearest)),
             (15, Resource::Sampled(layers.spray.unwrap_or(layers.thickness).view, nearest)),
+            shadow,
+            light_thickness,
         ];
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();

@@ -4,13 +4,13 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use glam::Mat4;
+use glam::{Mat4, Vec3, Vec4};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::error::Error;
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
-    FoamLook, FoamSettings, Rule, Shading, Smoothing, Splat, SprayLook, WaterSettings,
+    FoamLook, FoamSettings, Rule, Shading, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
 };
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
@@ -103,6 +103,14 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles between and below the two
     /// densities of [`WaterSettings`]. 32 bytes a particle more.
     pub spray: bool,
+    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`]; `None`
+    /// (default): it is everywhere.
+    pub shadow: Option<Shadows>,
+    /// Water and foam cast shadows and caustics on the scene and foam on itself: the passes `light`,
+    /// `caustics` and `lit`, with maps of so many texels a side over [`Sun::region`], a multiple of
+    /// 16 from 16 to 4096. 36 bytes a texel, and a lit copy of the scene. `None` (default): they do
+    /// not.
+    pub cast: Option<u32>,
     /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// The output is the scene's colour image itself (default): it is copied before it is written
@@ -132,6 +140,8 @@ impl Config {
             sheets: 2,
             foam: false,
             spray: false,
+            shadow: None,
+            cast: None,
             environment_size: 256,
             in_place: true,
             keep_layers: false,
@@ -330,6 +340,63 @@ pub struct Camera {
     pub projection: Mat4,
 }
 
+/// What is known of the sun's way to the fluid.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sun {
+    /// With [`Config::shadow`].
+    pub shadow: Option<Shadow>,
+    /// With [`Config::cast`]: where there is fluid that casts, and scene that it falls on.
+    pub region: Option<Region>,
+}
+
+/// The host's shadows, only sampled.
+#[derive(Clone, Copy, Debug)]
+pub struct Shadow {
+    /// [`Shadows::Map`]: depth as the light sees the scene. [`Shadows::Mask`]: one channel that
+    /// covers the view, 1 where the sun shines on the fluid, 0 where not. Its `rect` is the part that is meant.
+    pub image: HostImage,
+    /// World to the clip space of the map, standard or reversed depth (mask: not read).
+    pub view_projection: Mat4,
+    /// Metres towards the sun by which points are moved before they are compared (mask: not read);
+    /// about a spacing and a texel of the map.
+    pub bias: f32,
+}
+
+impl Shadow {
+    /// 1 where depth grows away from the light, -1 where it falls.
+    pub(crate) fn nearer(&self, light: &Light) -> f32 {
+        let inverse = self.view_projection.inverse();
+        let middle = inverse.project_point3(Vec3::new(0.0, 0.0, 0.5));
+        let step = Vec3::from(light.direction) * 1.0e-3 * (1.0 + middle.length());
+        let depth = |p| self.view_projection.project_point3(p).z;
+        if depth(middle + step) <= depth(middle) { 1.0 } else { -1.0 }
+    }
+}
+
+/// A ball of the world. The light's maps show its silhouette; beside it nothing is cast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    /// Its middle.
+    pub center: [f32; 3],
+    /// Metres.
+    pub radius: f32,
+}
+
+impl Region {
+    /// World to the light's maps: place 0 to 1, metres along the light.
+    pub(crate) fn to_map(&self, light: &Light) -> Mat4 {
+        let sun = Vec3::from(light.direction).normalize_or(Vec3::Y);
+        let up = if sun.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
+        let right = up.cross(sun).normalize();
+        let side = sun.cross(right);
+        let scale = 0.5 / self.radius;
+        let center = Vec3::from(self.center);
+        let row = |axis: Vec3, offset: f32| axis.extend(offset - axis.dot(center));
+        let (x, y) = (row(right * scale, 0.5), row(side * scale, 0.5));
+        Mat4::from_cols(x, y, row(-sun, 0.0), Vec4::W).transpose()
+    }
+}
+
 /// Everything one `record` draws.
 #[derive(Clone, Copy)]
 pub struct Frame<'a> {
@@ -347,6 +414,8 @@ pub struct Frame<'a> {
     pub particles: Particles,
     /// The view.
     pub camera: Camera,
+    /// The sun's way, with [`Config::shadow`] and [`Config::cast`].
+    pub sun: Sun,
     /// Uniform settings.
     pub settings: &'a Settings,
 }
@@ -382,6 +451,8 @@ pub struct Light {
     pub ambient: [f32; 3],
     /// Irradiance of level ground under sun and sky, linear RGB, [0, ∞): lights foam and spray.
     pub irradiance: [f32; 3],
+    /// The same where the sun does not come, linear RGB, [0, ∞).
+    pub shade: [f32; 3],
 }
 
 impl Default for Light {
@@ -391,6 +462,7 @@ impl Default for Light {
             color: [4.0, 3.8, 3.4],
             ambient: [0.35, 0.45, 0.6],
             irradiance: [3.6, 3.5, 3.4],
+            shade: [0.6, 0.8, 1.1],
         }
     }
 }

@@ -5,10 +5,12 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec4};
 
-use crate::contract::{Camera, Config, Frame, Light, Settings};
+use crate::contract::{Camera, Config, Frame, Light, Region, Settings};
 use crate::error::Error;
 use crate::gpu::shader;
-use crate::water::settings::{Amplitude, Fresnel, Medium, Rule, SprayLook, WaterSettings};
+use crate::water::settings::{
+    Amplitude, FoamLook, Fresnel, Medium, Rule, SprayLook, WaterSettings,
+};
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
 pub const EMPTY: f32 = 1.0e10;
@@ -49,6 +51,14 @@ pub struct FrameUniforms {
     pub foam_front: [f32; 4],
     pub spray: [f32; 4],
     pub spray_color: [f32; 4],
+    pub shadow: [[f32; 4]; 4],
+    pub to_light: [[f32; 4]; 4],
+    pub shadow_map: [f32; 4],
+    pub shadow_rect: [f32; 4],
+    pub light_map: [f32; 4],
+    pub shade: [f32; 4],
+    pub lit_color: [f32; 4],
+    pub lit_origin: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -86,6 +96,14 @@ shader::assert_layout!(
         foam_front,
         spray,
         spray_color,
+        shadow,
+        to_light,
+        shadow_map,
+        shadow_rect,
+        light_map,
+        shade,
+        lit_color,
+        lit_origin,
     }
 );
 
@@ -212,8 +230,15 @@ impl FrameUniforms {
             let (x, y) = (part.extent.width as f32, part.extent.height as f32);
             [x / full.width as f32, y / full.height as f32, x, y]
         };
-        // The copy that stands in for an output that is its own scene begins with the view.
-        let scene_color = if frame.in_place() { full.into() } else { frame.scene_color.rect };
+        // The copy that stands in for an output that is its own scene begins with the view, as does the
+        // lit scene.
+        let own = frame.in_place() || config.cast.is_some();
+        let scene_color = if own { full.into() } else { frame.scene_color.rect };
+        let to_world = lens.view.inverse();
+        let shadow = frame.sun.shadow.as_ref();
+        let region = frame.sun.region.unwrap_or(Region { center: [0.0; 3], radius: 1.0 });
+        let edge = config.cast.unwrap_or(1) as f32;
+        let lit = frame.scene_color.rect;
         let [depth_at, color_at, target_at] =
             [frame.scene_depth.rect, scene_color, frame.output.rect]
                 .map(|part| [part.offset.x as f32, part.offset.y as f32]);
@@ -279,6 +304,24 @@ impl FrameUniforms {
             foam_front: foam_color(look.front_color, light),
             spray: spray_shape(&frame.settings.spray, water),
             spray_color: spray_color(&frame.settings.spray, light),
+            shadow: shadow
+                .map_or(Mat4::ZERO, |s| TO_PLACE * s.view_projection * to_world)
+                .to_cols_array_2d(),
+            to_light: (region.to_map(light) * to_world).to_cols_array_2d(),
+            shadow_map: shadow.map_or([0.0; 4], |s| [s.bias, s.nearer(light), 0.0, 0.0]),
+            shadow_rect: shadow.map_or([0.0; 4], |s| {
+                let part = s.image.rect;
+                [
+                    part.offset.x as f32,
+                    part.offset.y as f32,
+                    part.extent.width as f32,
+                    part.extent.height as f32,
+                ]
+            }),
+            light_map: [edge, 2.0 * region.radius / edge, water.smoothing_width * radius, 0.0],
+            shade: shade(light, look),
+            lit_color: ratio(lit),
+            lit_origin: [lit.offset.x as f32, lit.offset.y as f32, 0.0, 0.0],
         }
     }
 }
@@ -318,6 +361,20 @@ pub fn foam_step(spacing: f32) -> f32 {
 
 fn with([x, y, z, _]: [f32; 4], w: f32) -> [f32; 4] {
     [x, y, z, w]
+}
+
+/// Clip space to places in an image.
+const TO_PLACE: Mat4 = Mat4::from_cols_array(&[
+    0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.5, 0.0, 1.0,
+]);
+
+/// Light in shade over that in the sun; foam's extinction of sunlight.
+fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {
+    let part = |i: usize| {
+        let whole = light.irradiance[i];
+        if whole > 0.0 { (light.shade[i] / whole).clamp(0.0, 1.0) } else { 1.0 }
+    };
+    [part(0), part(1), part(2), foam.shadow]
 }
 
 fn light_vector(c: [f32; 3]) -> [f32; 4] {
@@ -366,7 +423,9 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     if !direction.is_finite() || direction == glam::Vec3::ZERO {
         return Err(Error::bad("Settings.light", format!("direction {direction}: no direction")));
     }
-    for value in light.color.into_iter().chain(light.ambient).chain(light.irradiance) {
+    for value in
+        light.color.into_iter().chain(light.ambient).chain(light.irradiance).chain(light.shade)
+    {
         at_least("Settings.light", value, 0.0)?;
     }
     Ok(())

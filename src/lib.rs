@@ -140,6 +140,7 @@ mod gpu;
 pub mod headless;
 #[cfg(feature = "io")]
 pub mod io;
+mod light;
 mod renderer;
 mod state;
 pub mod water;

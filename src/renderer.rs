@@ -23,6 +23,8 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::requirements::Offer;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
+use crate::light::{Light, Output, Sunlight};
+use crate::water::settings::Shadows;
 use crate::water::{Recording, Water};
 
 /// What one frame in flight owns.
@@ -49,6 +51,7 @@ pub struct Renderer {
     whole: bool,
     water: Water,
     composite: Composite,
+    light: Option<Light>,
     environment: Environment,
     /// Copy of the scene's colour, when it is the output itself.
     scene_copy: Option<Image>,
@@ -89,6 +92,7 @@ impl Renderer {
             whole: true,
             water: parts.water,
             composite: parts.composite,
+            light: parts.light,
             environment: parts.environment,
             scene_copy: parts.scene_copy,
         })
@@ -176,10 +180,12 @@ impl Renderer {
             depth: depth_use(depth_layout),
             output: self.composite.output_use(),
             scene: self.composite.scene_use(),
+            lit: self.light.is_some(),
         };
-        let (acquire, acquired) = acquire(frame, &uses);
-        gpu.barriers(cmd, &acquire[..acquired], &[]);
+        gpu.barriers(cmd, &acquire(frame, &uses), &[]);
 
+        let scene_depth =
+            Resource::SampledIn(frame.scene_depth.view, gpu.samplers.nearest, depth_layout);
         let mut r = Recording {
             gpu,
             cmd,
@@ -187,16 +193,26 @@ impl Renderer {
             timer: &mut slot.timer,
             extent: frame.output.rect.extent,
             uniforms: Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64),
-            scene_depth: Resource::SampledIn(
-                frame.scene_depth.view,
-                gpu.samplers.nearest,
-                depth_layout,
-            ),
+            scene_depth,
+            sunlight: sunlight(frame, self.light.as_ref(), gpu, scene_depth),
             read_back,
         };
-        self.water.record(&mut r, &frame.particles)?;
-        let scene_color = match &self.scene_copy {
-            Some(copy) if in_place => {
+        self.water.record(&mut r, &frame.particles, self.light.as_ref())?;
+        let scene_color = match (&self.scene_copy, &self.light) {
+            (_, Some(light)) => {
+                let output = Output {
+                    view: frame.output.view,
+                    image: frame.output.image,
+                    aspect: frame.output.aspect,
+                    target,
+                    area: frame.output.rect,
+                    before: uses.output_first(),
+                    after: uses.output,
+                };
+                let sunlight = r.sunlight;
+                light.record_lit(&mut r, &frame.scene_color, &output, &sunlight)?.view
+            }
+            (Some(copy), None) if in_place => {
                 copy_scene(&mut r, &frame.output, copy, &uses);
                 copy.view
             }
@@ -215,7 +231,6 @@ impl Renderer {
         )?;
 
         let cmd = r.cmd;
-        let (release, released) = release(frame, &uses);
         let mut buffers = Vec::with_capacity(7);
         for handle in particle_buffers(&frame.particles) {
             let barrier = buffer(handle, COMPUTE_READ, frame.particles.after);
@@ -223,11 +238,13 @@ impl Renderer {
                 buffers.push(barrier);
             }
         }
-        gpu.barriers(cmd, &release[..released], &buffers);
+        gpu.barriers(cmd, &release(frame, &uses), &buffers);
         gpu.end_label(cmd);
         let recorded = Recorded {
             layers: if self.config.keep_layers {
-                self.water.kept(frame.output.rect.extent, FRAGMENT_SAMPLED)
+                let mut layers = self.water.kept(frame.output.rect.extent, FRAGMENT_SAMPLED);
+                layers.extend(self.light.iter().flat_map(Light::layers));
+                layers
             } else {
                 Vec::new()
             },
@@ -293,6 +310,9 @@ impl Renderer {
     fn resize_parts(&mut self, config: &Config) -> Result<(), Error> {
         let copy = Parts::scene_copy(&self.gpu, config)?;
         self.retired.retire(std::mem::replace(&mut self.scene_copy, copy));
+        if let Some(light) = &mut self.light {
+            light.resize(&self.gpu, config, &mut self.retired)?;
+        }
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
@@ -307,13 +327,14 @@ impl Renderer {
         self.check_config(config)?;
         let new = self.make_parts(config);
         self.gpu.bury();
-        let (water, composite, scene_copy, environment, descriptors) = new?;
+        let (water, composite, light, scene_copy, environment, descriptors) = new?;
         let new_environment = environment.is_some();
         self.config = *config;
         self.whole = true;
         let retired = &mut self.retired;
         retired.retire(std::mem::replace(&mut self.water, water));
         retired.retire(std::mem::replace(&mut self.composite, composite));
+        retired.retire(std::mem::replace(&mut self.light, light));
         retired.retire(std::mem::replace(&mut self.scene_copy, scene_copy));
         if let Some(new) = environment {
             retired.retire(std::mem::replace(&mut self.environment, new));
@@ -329,13 +350,16 @@ impl Renderer {
     fn make_parts(
         &self,
         config: &Config,
-    ) -> Result<(Water, Composite, Option<Image>, Option<Environment>, Vec<Descriptors>), Error>
-    {
+    ) -> Result<
+        (Water, Composite, Option<Light>, Option<Image>, Option<Environment>, Vec<Descriptors>),
+        Error,
+    > {
         let gpu = &*self.gpu;
         let same_environment = config.environment_size == self.config.environment_size;
         Ok((
             Water::new(gpu, config)?,
             Composite::new(gpu, config)?,
+            Parts::light(gpu, config)?,
             Parts::scene_copy(gpu, config)?,
             if same_environment { None } else { Some(Environment::new(gpu, config)?) },
             (0..gpu.slots)
@@ -352,6 +376,10 @@ impl Renderer {
     /// Device memory in use.
     pub fn memory(&self) -> MemoryUse {
         let mut memory = self.water.memory();
+        if let Some((images, buffers)) = self.light.as_ref().map(Light::memory) {
+            memory.images += images;
+            memory.buffers += buffers;
+        }
         memory.images += self.environment.cube.size;
         memory.images += self.scene_copy.as_ref().map_or(0, |image| image.size);
         memory.buffers += self.slots.iter().map(|slot| slot.uniforms.size).sum::<u64>();
@@ -415,11 +443,13 @@ impl Renderer {
                 format!("{:?} is not Config.output_format", frame.output.format),
             ));
         }
-        for (field, image) in [
+        let shadow = frame.sun.shadow.as_ref().map(|s| ("Frame.sun.shadow.image.before", &s.image));
+        let images = [
             ("Frame.output.before", &frame.output),
             ("Frame.scene_color.before", &frame.scene_color),
             ("Frame.scene_depth.before", &frame.scene_depth),
-        ] {
+        ];
+        for (field, image) in images.into_iter().chain(shadow) {
             if image.before.layout == vk::ImageLayout::UNDEFINED {
                 return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
             }
@@ -459,6 +489,7 @@ impl Renderer {
             ));
         }
         check_particles(&frame.particles, &self.config, &self.gpu.limits)?;
+        check_sun(frame, &self.config)?;
         Lens::new(&frame.camera)
     }
 }
@@ -521,6 +552,37 @@ fn check_particles(
     Ok(())
 }
 
+fn check_sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
+    let bad = |field, why: &str| Err(Error::bad(field, why));
+    match (config.shadow, &frame.sun.shadow) {
+        (Some(_), None) => return bad("Frame.sun.shadow", "none, but Config.shadow asks for it"),
+        (None, Some(_)) => return bad("Frame.sun.shadow", "given, but Config.shadow is None"),
+        (Some(Shadows::Map), Some(shadow)) => {
+            let clip = &shadow.view_projection;
+            if !clip.is_finite() || clip.determinant().abs() < 1e-30 {
+                return bad("Frame.sun.shadow.view_projection", "not finite, or singular");
+            }
+            if !shadow.bias.is_finite() {
+                return bad("Frame.sun.shadow.bias", "not finite");
+            }
+        }
+        _ => {}
+    }
+    match (config.cast, &frame.sun.region) {
+        (Some(_), None) => bad("Frame.sun.region", "none, but Config.cast asks for it"),
+        (None, Some(_)) => bad("Frame.sun.region", "given, but Config.cast is None"),
+        (Some(_), Some(region)) => {
+            let finite = region.center.iter().all(|c| c.is_finite());
+            if finite && region.radius.is_finite() && region.radius > 0.0 {
+                Ok(())
+            } else {
+                bad("Frame.sun.region", "a finite centre and a radius over 0 expected")
+            }
+        }
+        (None, None) => Ok(()),
+    }
+}
+
 fn check_config(config: &Config) -> Result<(), Error> {
     let bad = |field, why: String| Err(Error::bad(field, why));
     if config.extent.width == 0 || config.extent.height == 0 {
@@ -547,6 +609,12 @@ fn check_config(config: &Config) -> Result<(), Error> {
     if !(1..=2).contains(&config.sheets) {
         return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
     }
+    if let Some(edge) = config.cast
+        && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))
+    {
+        let why = format!("{edge}: a multiple of 16 from 16 to 4096 expected");
+        return bad("Config.cast", why);
+    }
     let size = config.environment_size;
     if !size.is_power_of_two() || !(16..=2048).contains(&size) {
         return bad(
@@ -561,6 +629,7 @@ fn check_config(config: &Config) -> Result<(), Error> {
 struct Parts {
     water: Water,
     composite: Composite,
+    light: Option<Light>,
     environment: Environment,
     scene_copy: Option<Image>,
 }
@@ -570,13 +639,19 @@ impl Parts {
         Ok(Self {
             water: Water::new(gpu, config)?,
             composite: Composite::new(gpu, config)?,
+            light: Self::light(gpu, config)?,
             environment: Environment::new(gpu, config)?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
     }
 
+    fn light(gpu: &Gpu, config: &Config) -> Result<Option<Light>, Error> {
+        config.cast.map(|edge| Light::new(gpu, config, edge)).transpose()
+    }
+
     fn scene_copy(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
-        if !config.in_place {
+        // A lit one takes its place.
+        if !config.in_place || config.cast.is_some() {
             return Ok(None);
         }
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
@@ -604,7 +679,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        86 + 22 * crate::water::chunks(&gpu.limits, config).1
+        94 + 24 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -660,8 +735,6 @@ fn depth_use(layout: vk::ImageLayout) -> Access {
     Access { layout, ..sampled }
 }
 
-type HostBarriers = ([vk::ImageMemoryBarrier2<'static>; 3], usize);
-
 /// How the host's images are used here.
 struct Uses {
     /// The output is the scene's colour too.
@@ -669,33 +742,69 @@ struct Uses {
     depth: Access,
     /// By `composite`.
     output: Access,
-    /// The scene's colour, or its copy.
+    /// The scene's colour, or its copy, by `composite`.
     scene: Access,
+    /// The scene is read by `lit` first.
+    lit: bool,
+}
+
+impl Uses {
+    /// What reads or writes the output first.
+    fn output_first(&self) -> Access {
+        match (self.in_place, self.lit) {
+            (true, true) => Light::SCENE_USE,
+            (true, false) => COPY_READ,
+            (false, _) => self.output,
+        }
+    }
+
+    /// What reads the host's own image of the scene.
+    fn scene_first(&self) -> Access {
+        if self.lit { Light::SCENE_USE } else { self.scene }
+    }
+}
+
+/// How a shadow map or mask is used here.
+fn shadow_use(image: &HostImage) -> Access {
+    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(access::VERTEX_SAMPLED);
+    Access { layout: depth_layout(image), ..sampled }
+}
+
+/// What tells where the sun does not come; the scene's depth stands in for what is not read.
+fn sunlight(frame: &Frame<'_>, light: Option<&Light>, gpu: &Gpu, depth: Resource) -> Sunlight {
+    let shadow = frame.sun.shadow.map_or(depth, |shadow| {
+        let layout = depth_layout(&shadow.image);
+        Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
+    });
+    Sunlight { shadow, thickness: light.map_or(depth, |light| light.thickness(gpu)) }
 }
 
 /// The one barrier of each host image on its way in.
-fn acquire(frame: &Frame<'_>, uses: &Uses) -> HostBarriers {
+fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
     let barrier =
         |image: &HostImage, to| access::raw_image(image.image, image.aspect, image.before, to);
-    let output = if uses.in_place { COPY_READ } else { uses.output };
-    let all = [
-        barrier(&frame.scene_depth, uses.depth),
-        barrier(&frame.output, output),
-        barrier(&frame.scene_color, uses.scene),
-    ];
-    (all, if uses.in_place { 2 } else { 3 })
+    let mut all =
+        vec![barrier(&frame.scene_depth, uses.depth), barrier(&frame.output, uses.output_first())];
+    if !uses.in_place {
+        all.push(barrier(&frame.scene_color, uses.scene_first()));
+    }
+    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
+    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
+    all
 }
 
 /// The one barrier of each host image on its way out.
-fn release(frame: &Frame<'_>, uses: &Uses) -> HostBarriers {
+fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
     let barrier =
         |image: &HostImage, from| access::raw_image(image.image, image.aspect, from, image.after);
-    let all = [
-        barrier(&frame.scene_depth, uses.depth),
-        barrier(&frame.output, uses.output),
-        barrier(&frame.scene_color, uses.scene),
-    ];
-    (all, if uses.in_place { 2 } else { 3 })
+    let mut all =
+        vec![barrier(&frame.scene_depth, uses.depth), barrier(&frame.output, uses.output)];
+    if !uses.in_place {
+        all.push(barrier(&frame.scene_color, uses.scene_first()));
+    }
+    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
+    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
+    all
 }
 
 /// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.

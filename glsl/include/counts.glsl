@@ -23,4 +23,8 @@ struct Counts {
     uint droplets;        // instanceCount
     uint spray_vertex;
     uint spray_instance;
+    uint cast_vertices;   // the light's maps: vertexCount = 4
+    uint cast_particles;  // instanceCount: all
+    uint cast_vertex;
+    uint cast_instance;
 };

@@ -35,6 +35,14 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 foam_front;
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
     vec4 spray_color;   // radiance; w: 1 = added
+    mat4 shadow;        // eye -> the host's shadow map: place in it 0 to 1, depth
+    mat4 to_light;      // eye -> the light's maps: place in them 0 to 1, metres along the light
+    vec4 shadow_map;    // bias in metres; 1, or -1 where depth is reversed
+    vec4 shadow_rect;   // first texel and size of the part of the shadow map or mask
+    vec4 light_map;     // edge of the maps in texels, of a texel in metres; smoothing in metres
+    vec4 shade;         // light in shade over that in the sun; foam's extinction of sunlight
+    vec4 lit_color;     // as scene_color and its origin, of what `lit` reads
+    vec4 lit_origin;
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -3,7 +3,7 @@
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Reads: smoothed, levels, depth, thickness, boundaries, scene colour and depth, environment.
-// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, beside.glsl.
+// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, beside.glsl, sunlight.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -243,6 +243,11 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     return sheet;
 }
 
+// What of the light in the sun there is where so much of the sun's comes.
+vec3 under(vec3 sun) {
+    return mix(frame.shade.rgb, vec3(1.0), sun);
+}
+
 // The foam in a pixel.
 struct Foam {
     float depth; // of the frontmost, EMPTY where only thickness is left
@@ -252,18 +257,18 @@ struct Foam {
 
 // Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
 // 1 where it is turned away. Not in the source, whose foam is flat.
-float relief(vec4 height, vec2 f, float z) {
+float relief(vec4 height, vec2 f, float z, float sun) {
     vec2 rise = vec2(mix(height.y - height.x, height.w - height.z, f.y),
                      mix(height.z - height.x, height.w - height.y, f.x));
     vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
     vec3 normal = normalize(vec3(-slope, 1.0));
     float turned = dot(normal, frame.sun_direction.xyz) - frame.sun_direction.z;
-    return clamp(1.0 + frame.foam_noise.z * turned, 0.3, 1.3);
+    return clamp(1.0 + sun * frame.foam_noise.z * turned, 0.3, 1.3);
 }
 
 // Thesis Sec. 4.10: the more foam right behind the frontmost, the nearer the front colour (Listing
 // A.20; Eq. 3.9 has them the other way round).
-Foam foam_of(vec2 pixel) {
+Foam foam_of(vec2 pixel, vec3 sun) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 base = ivec2(floor(h));
     vec2 f = h - vec2(base);
@@ -282,7 +287,7 @@ Foam foam_of(vec2 pixel) {
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, 1.0 - exp(-frame.foam.y * t.y));
-    foam.color *= relief(front, f, foam.depth);
+    foam.color *= under(sun) * relief(front, f, foam.depth, sun.g);
     return foam;
 }
 
@@ -346,6 +351,9 @@ vec3 layers_at(vec2 pixel, float front) {
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     Sheet sheet = sheet_of(surface, pixel, t);
+    if (SHADOW > 0u) {
+        sheet.shine *= past_scene(surface.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
+    }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     if (FOAM == 0u) {
         if (front >= EMPTY) {
@@ -356,7 +364,10 @@ vec3 layers_at(vec2 pixel, float front) {
         }
         return over(sheet, c);
     }
-    Foam foam = foam_of(pixel);
+    // The sun at the foam, by where its frontmost lies; drops before it may be lit otherwise.
+    float at = min(texelFetch(foam_depth, ivec2(pixel), 0).x, frame.depth.w);
+    vec3 sun = SHADOW + CAST > 0u ? sunlight(at * vec3(ray_slope(pixel, frame.slope), -1.0), pixel) : vec3(1.0);
+    Foam foam = foam_of(pixel, sun);
     if (front >= EMPTY) {
         return mix(foam.color, scene_at(pixel), foam.depth < EMPTY ? foam.kept : 1.0);
     }
@@ -374,6 +385,8 @@ vec3 shade(vec2 pixel, float front) {
     if (SPRAY == 0u) {
         return c;
     }
-    float kept = exp(-texelFetch(spray, ivec2(pixel), 0).x);
-    return c * mix(kept, 1.0, frame.spray_color.w) + frame.spray_color.rgb * (1.0 - kept);
+    vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;
+    float kept = exp(-droplets.x);
+    float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
+    return c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
 }

@@ -30,7 +30,7 @@ void main() {
     uint groups = push.packets > 0u ? (here > 0u ? push.packets : 0u)
                                     : (here + push.group_size - 1u) / push.group_size;
     uint base = chunk * 64u;
-    uint values[28] = uint[28](
+    uint values[32] = uint[32](
         0u, 1u, 0u, 0u,
         4u, 0u, 0u, 0u,
         0u, 1u, 1u,
@@ -38,8 +38,9 @@ void main() {
         groups, 1u, 1u,
         here, 0u, 0u,
         4u, 0u, 0u, 0u,
-        4u, 0u, 0u, 0u);
-    for (uint i = 0u; i < 28u; ++i) {
+        4u, 0u, 0u, 0u,
+        4u, here, 0u, 0u);
+    for (uint i = 0u; i < 32u; ++i) {
         words[base + i] = values[i];
     }
 }

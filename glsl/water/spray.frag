@@ -1,16 +1,16 @@
 #version 460
 // Pass `spray`: how much of the light from behind droplets before scene and water take away.
-// Reads: scene depth, water depth. Writes: spray (R16F), summed.
+// Reads: scene depth, water depth. Writes: spray (RG16F), summed.
 
 #include "frame.glsl"
 #include "sprite_hit.glsl"
 
-layout(location = 4) flat in float amount;
+layout(location = 4) flat in vec2 amount;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 
-layout(location = 0) out float optical_depth;
+layout(location = 0) out vec2 optical_depth; // all, and what the sun lights
 
 void main() {
     vec2 place;
@@ -27,7 +27,7 @@ void main() {
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
     // As the thickness: the source's exp(-2 rho^2) alone ends with an edge.
     float rho2 = dot(place, place);
-    float added = before * amount * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
+    float added = before * amount.x * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
     // Whole steps: sums of half floats are exact up to 4, in any order.
-    optical_depth = floor(added * 512.0 + 0.5) / 512.0;
+    optical_depth = floor(added * vec2(1.0, amount.y) * 512.0 + 0.5) / 512.0;
 }

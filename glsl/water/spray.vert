@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "random.glsl"
+#include "sunlight.glsl"
 #include "spray.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { SpraySprite sprites[]; };
@@ -12,7 +13,7 @@ layout(location = 0) flat out vec3 centre;
 layout(location = 1) flat out vec3 along;  // over its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
-layout(location = 4) flat out float amount; // optical depth in its middle
+layout(location = 4) flat out vec2 amount; // optical depth in its middle; share that the sun lights
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
@@ -45,7 +46,10 @@ void main() {
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = frame.spray.y * size;
     vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
-    amount = sprite.centre.w * frame.spray.x * still * still / (axes.x * axes.y);
+    amount.x = sprite.centre.w * frame.spray.x * still * still / (axes.x * axes.y);
+    // Of all colours together: what it is in is foam more than water.
+    vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
+    amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
     along = e1 / axes.x;
     across = e2 / axes.y;
 

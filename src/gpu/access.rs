@@ -75,6 +75,9 @@ pub const UNIFORM: Access = Access::new(
     Mask::UNIFORM_READ,
     Layout::GENERAL,
 );
+/// Vertex shader: sampled image.
+pub const VERTEX_SAMPLED: Access =
+    Access::new(Stage::VERTEX_SHADER, Mask::SHADER_SAMPLED_READ, Layout::SHADER_READ_ONLY_OPTIMAL);
 /// Fragment shader: storage buffer, read.
 pub const FRAGMENT_READ: Access =
     Access::new(Stage::FRAGMENT_SHADER, Mask::SHADER_STORAGE_READ, Layout::GENERAL);

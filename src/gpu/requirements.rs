@@ -178,6 +178,12 @@ impl Offer {
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
         }
+        if !self.blend_floats && config.cast.is_some() {
+            return missing(
+                "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
+                "Config.cast needs it; leave it off",
+            );
+        }
         if !self.foam_floats && config.foam {
             return missing(
                 "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),

@@ -20,8 +20,8 @@ use transfer::staging;
 
 use crate::composite::way;
 use crate::contract::{
-    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Settings,
-    Slot, Step, Stream,
+    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Region,
+    Settings, Slot, Step, Stream, Sun,
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
@@ -35,7 +35,7 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::timing::Timing;
 use crate::renderer::Renderer;
 use crate::state::{State, StateConfig};
-use crate::water::settings::{FoamSettings, Shading};
+use crate::water::settings::{FoamSettings, Shading, Shadows};
 
 /// Output format: linear, scene-referred.
 pub const COLOR_FORMAT: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
@@ -96,6 +96,7 @@ pub struct Headless {
     velocities: Option<Buffer>,
     ids: Option<Buffer>,
     foam: Option<Foaming>,
+    region: Option<Region>,
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
@@ -139,6 +140,7 @@ impl Headless {
             velocities: None,
             ids: None,
             foam: None,
+            region: None,
             count: 0,
             layers: Vec::new(),
             counts: None,
@@ -412,6 +414,12 @@ impl Headless {
         result
     }
 
+    /// Where water and foam cast shadows and caustics, with [`Config::cast`]. Shadows of the scene on
+    /// them, with [`Shadows::Map`], come from the scene's own map.
+    pub fn region(&mut self, region: Region) {
+        self.region = Some(region);
+    }
+
     /// Draws one frame and waits for it.
     ///
     /// # Errors
@@ -498,6 +506,12 @@ impl Headless {
                 (Background::Scene, None) => this.draw_scene(cmd, camera)?,
                 _ => {}
             }
+            let shadowed = this.renderer.config().shadow == Some(Shadows::Map);
+            let stage = this.scene.as_ref().filter(|_| shadowed);
+            let sun = Sun {
+                shadow: stage.map(|stage| stage.renderer.shadow(settings.water.spacing)),
+                region: this.region,
+            };
             let frame = Frame {
                 slot: Slot(0),
                 output,
@@ -505,6 +519,7 @@ impl Headless {
                 scene_depth: depth,
                 particles,
                 camera: *camera,
+                sun,
                 settings,
             };
             let mut parts = Parts {

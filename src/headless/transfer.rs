@@ -189,7 +189,7 @@ impl Headless {
             let channel = usize::from(name.ends_with(".back"));
             return Ok(Some(sheets.map(|sheets| sheets[channel])));
         }
-        if image == "foam.thickness" {
+        if layer.format == vk::Format::R32G32_SFLOAT {
             let foam: Picture<[f32; 2]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
             let channel = usize::from(name.ends_with(".front"));
@@ -200,9 +200,10 @@ impl Headless {
             // Iterations are the low nine bits of the plan.
             return Ok(Some(plan.map(|p| (p & 511) as f32)));
         }
-        if layer.format == vk::Format::R16_SFLOAT {
-            let half: Picture<u16> = self.read(layer.image, layer.format, area, layer.access)?;
-            return Ok(Some(half.map(|bits| half::f16::from_bits(*bits).to_f32())));
+        if layer.format == vk::Format::R16G16_SFLOAT {
+            let half: Picture<[u16; 2]> =
+                self.read(layer.image, layer.format, area, layer.access)?;
+            return Ok(Some(half.map(|both| half::f16::from_bits(both[0]).to_f32())));
         }
         self.read(layer.image, layer.format, area, layer.access).map(Some)
     }

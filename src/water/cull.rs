@@ -36,6 +36,7 @@ const CULL_GROUPS: u64 = 56;
 const DROPPED: u64 = 72;
 pub const FOAM: u64 = 80;
 pub const SPRAY: u64 = 96;
+pub const CAST: u64 = 112;
 
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "quads_vertices") == QUADS as usize);
 const _: () =
@@ -46,6 +47,7 @@ const _: () =
     assert!(shader::WATER_CULL_COMP.offset("Counts", "cull_groups") == CULL_GROUPS as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "foam_vertices") == FOAM as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "spray_vertices") == SPRAY as usize);
+const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "cast_vertices") == CAST as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DROPPED as usize);
 
 /// Particles of a chunk at most: 64 an invocation group, 65 535 groups.

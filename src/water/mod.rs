@@ -30,13 +30,14 @@ use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
+use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::{Classify, ROW};
-pub(crate) use cull::{chunk_unit, chunks};
+pub(crate) use cull::{CAST, SphereList, Window, chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat,
-    SprayLook, WaterSettings,
+    Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Medium, Rule, Shading, Shadows, Smoothing,
+    Splat, SprayLook, WaterSettings,
 };
 
 /// What every pass records with.
@@ -51,6 +52,8 @@ pub(crate) struct Recording<'a> {
     pub uniforms: Resource,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
+    /// What tells where the sun does not come.
+    pub sunlight: Sunlight,
     /// Ends the smoothing by the host's own look at the queries (headless only).
     pub read_back: Option<ReadBack<'a>>,
 }
@@ -168,9 +171,17 @@ impl Water {
         self.split.resize(gpu, config, retired)
     }
 
-    /// The passes of a frame.
-    pub fn record(&self, r: &mut Recording<'_>, particles: &Particles) -> Result<(), Error> {
+    /// The passes of a frame; `light`: its maps are made on the way.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: &Particles,
+        light: Option<&Light>,
+    ) -> Result<(), Error> {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
+        if let Some(light) = light {
+            light.record_maps(r, particles, &self.cull.list)?;
+        }
         self.front.record(r, &self.cull)?;
         self.depth.record(r, &self.front.list)?;
         if let Some(foam) = &self.foam {

@@ -22,6 +22,15 @@ pub enum Shading {
     Compute,
 }
 
+/// What the host says of the sun's shadows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shadows {
+    /// A mask of the screen.
+    Mask,
+    /// A depth map as the light sees the scene, with percentage-closer filtering.
+    Map,
+}
+
 /// How many iterations a pixel of the smoothing gets, and how large its steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
@@ -273,6 +282,9 @@ pub struct FoamLook {
     /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
     /// default 0.45.
     pub relief: f32,
+    /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.15 / spacing: less than
+    /// its extinction, for most of the light goes on.
+    pub shadow: f32,
     /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.65 and white 0.9 (the
     /// source's are colours on the screen, 0.25 and 1).
     pub back_color: [f32; 3],
@@ -292,6 +304,7 @@ impl FoamLook {
             noise_rate: 2.0,
             veil: spacing,
             relief: 0.45,
+            shadow: 0.15 / spacing,
             back_color: [0.65; 3],
             front_color: [0.9; 3],
         }
@@ -304,6 +317,7 @@ impl FoamLook {
         range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
         range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
         range("Settings.foam.noise", self.noise, 0.0, 1.0)?;
+        range("Settings.foam.shadow", self.shadow, 0.0, f32::MAX)?;
         range("Settings.foam.veil", self.veil, 0.0, f32::MAX)?;
         range("Settings.foam.relief", self.relief, 0.0, 2.0)?;
         range("Settings.foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;

@@ -5,7 +5,7 @@
 //! sprite a particle, added to the picture, which shows as a disc near the eye. Sums of optical depth
 //! need no order.
 //! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray,
-//! R16F, optical depth of the droplets before scene and water.
+//! RG16F, optical depth of the droplets before scene and water, and how much of it the sun lights.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -91,7 +91,7 @@ impl Spray {
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                 pass: pass.handle,
                 blend: &[blend(vk::BlendOp::ADD)],
-                constants: &[],
+                constants: &crate::light::constants(config),
             },
         )?;
         Ok(Self {
@@ -115,7 +115,7 @@ impl Spray {
             | vk::ImageUsageFlags::COLOR_ATTACHMENT
             | vk::ImageUsageFlags::TRANSFER_SRC;
         // Every device blends it.
-        let format = vk::Format::R16_SFLOAT;
+        let format = vk::Format::R16G16_SFLOAT;
         Image::new(gpu, &ImageDesc::new(NAME, config.extent, format, usage))
     }
 
@@ -165,6 +165,7 @@ impl Spray {
         ];
         gpu.barriers(cmd, &to, &[]);
         let area = r.extent.into();
+        let [shadow, thickness] = r.sunlight.resources();
         gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, [0.0; 4]);
         for index in 0..if particles.densities.is_some() { list.chunks } else { 0 } {
             let resources = [
@@ -172,6 +173,8 @@ impl Spray {
                 (1, self.chunk(list, index)),
                 (2, r.scene_depth),
                 (3, Resource::Sampled(depth.view, gpu.samplers.nearest)),
+                shadow,
+                thickness,
             ];
             r.descriptors.bind(gpu, cmd, &self.draw, &resources)?;
             let arguments = list.chunk(index).arguments + cull::SPRAY;

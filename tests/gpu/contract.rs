@@ -137,6 +137,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             scene_depth: scenes[i].1.host_image(),
             particles: clouds[i].particles(),
             camera: shots[i].camera,
+            sun: Default::default(),
             settings: &shots[i].settings,
         };
         // SAFETY: cmd is recording; both renderers' slot 0 was waited for.

@@ -749,6 +749,10 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         sheets: Some(sheets),
         foam: None,
         spray: None,
+        lit_spray: None,
+        light_front: None,
+        light_thickness: None,
+        caustics: None,
         dropped: 0,
         set_aside: 0,
     };

@@ -133,7 +133,7 @@ pub fn texel_size(format: vk::Format) -> u64 {
     match format {
         vk::Format::R32G32B32A32_SFLOAT => 16,
         vk::Format::R16G16B16A16_SFLOAT | vk::Format::R32G32_SFLOAT => 8,
-        vk::Format::D16_UNORM | vk::Format::R16_SFLOAT => 2,
+        vk::Format::D16_UNORM => 2,
         _ => 4,
     }
 }

@@ -5,6 +5,7 @@ use whitewater::water::{Shading, Splat};
 use whitewater::{
     Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
     Layer, Particles, Recorded, Renderer, Settings, Slot, SmoothingLevel, SmoothingLevels, Stream,
+    Sun,
 };
 
 use super::device::Gpu;
@@ -44,6 +45,8 @@ pub struct Shot {
     /// Columns before and behind the view, rows above and below it, in all images of the host's.
     pub margin: [u32; 4],
     pub camera: Camera,
+    /// Where the sun does not come.
+    pub sun: Sun,
     pub settings: Settings,
     pub positions: Vec<[f32; 3]>,
     pub densities: Option<Vec<f32>>,
@@ -64,6 +67,7 @@ impl Shot {
             margin: [0; 4],
             positions: scenes::world(&camera, points),
             camera,
+            sun: Sun::default(),
             settings: scenes::settings(radius),
             densities: None,
             color: Vec::new(),
@@ -90,6 +94,7 @@ impl Shot {
             scene_depth: depth,
             particles,
             camera: self.camera,
+            sun: self.sun,
             settings: &self.settings,
         }
     }
@@ -203,6 +208,15 @@ pub struct Drawn {
     pub foam: Option<Foaming>,
     /// Optical depth, with spray.
     pub spray: Option<Image<f32>>,
+    /// What of it the sun lights.
+    pub lit_spray: Option<Image<f32>>,
+    /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
+    /// times where they lie; light over what comes without water.
+    pub light_front: Option<Image<f32>>,
+    /// As above.
+    pub light_thickness: Option<Image<[f32; 4]>>,
+    /// As above.
+    pub caustics: Option<Image<f32>>,
     /// Particles dropped for their positions, and set aside as spray.
     pub dropped: u32,
     pub set_aside: u32,
@@ -436,6 +450,10 @@ impl<'g> Rig<'g> {
             sheets: None,
             foam: None,
             spray: None,
+            lit_spray: None,
+            light_front: None,
+            light_thickness: None,
+            caustics: None,
             dropped: 0,
             set_aside: 0,
         };
@@ -474,8 +492,16 @@ impl<'g> Rig<'g> {
                 "water.thickness" => drawn.thickness = self.floats(layer, whole),
                 "foam.depth" => (foam.depth, foams) = (self.floats(layer, whole), true),
                 "spray" => {
-                    drawn.spray = Some(self.halves(layer, whole));
+                    let both = self.halves(layer, whole);
+                    drawn.spray = Some(both.map(|s| s[0]));
+                    drawn.lit_spray = Some(both.map(|s| s[1]));
                 }
+                "light.front" => drawn.light_front = Some(self.floats(layer, whole)),
+                "light.thickness" => {
+                    let bytes = self.bytes(layer, whole);
+                    drawn.light_thickness = Some(picture(layer.format, layer.extent, &bytes));
+                }
+                "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
                 "foam.thickness" => foam.thickness = self.pairs(layer, whole),
                 "water.thickness.sheets" => {
                     let sheets = sheets.as_mut().expect("boundaries of two sheets");
@@ -554,12 +580,13 @@ impl<'g> Rig<'g> {
         Image { width, height, data: pairs }
     }
 
-    fn halves(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {
-        assert_eq!(layer.format, vk::Format::R16_SFLOAT);
+    fn halves(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 2]> {
+        assert_eq!(layer.format, vk::Format::R16G16_SFLOAT);
         let bytes = self.bytes(layer, area);
-        let half = |b: &[u8]| half::f16::from_le_bytes([b[0], b[1]]).to_f32();
+        let half = |low, high| half::f16::from_le_bytes([low, high]).to_f32();
+        let both = |b: &[u8]| [half(b[0], b[1]), half(b[2], b[3])];
         let (width, height) = (area.extent.width as usize, area.extent.height as usize);
-        Image { width, height, data: bytes.chunks_exact(2).map(half).collect() }
+        Image { width, height, data: bytes.chunks_exact(4).map(both).collect() }
     }
 
     fn floats(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {

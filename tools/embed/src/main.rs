@@ -19,7 +19,7 @@ use whitewater::ash::vk;
 use whitewater::gpu_allocator::MemoryLocation;
 use whitewater::{
     Access, Camera, Config, Count, Enabled, EnvironmentSource, Frame, Host, Particles, Renderer,
-    Settings, Sky, Slot, Stream, Timing,
+    Settings, Sky, Slot, Stream, Sun, Timing,
 };
 
 /// Size of the picture.
@@ -167,6 +167,7 @@ pub fn draw(
             scene_depth: depth,
             particles,
             camera: Camera { view, projection },
+            sun: Sun::default(),
             settings: &settings,
         };
 

@@ -126,6 +126,10 @@ pub struct DrawArgs {
     /// can be found) or none
     #[arg(long, value_enum, default_value_t = SprayArg::Auto)]
     pub spray: SprayArg,
+    /// What the sunlight does: shadows of the scene on foam and spray, shadows of water and foam, caustics
+    /// (all), those of the scene alone (scene), or none
+    #[arg(long, value_enum, default_value_t = ShadowArg::All)]
+    pub shadows: ShadowArg,
     /// How particles become pixels [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,
@@ -213,6 +217,17 @@ impl From<SplatArg> for Splat {
             SplatArg::Compute => Self::Compute,
         }
     }
+}
+
+/// What casts shadows on what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum ShadowArg {
+    /// The scene, water and foam, on each other; with caustics.
+    All,
+    /// The scene on foam and spray.
+    Scene,
+    /// None.
+    None,
 }
 
 /// Whether there is spray.

@@ -1,6 +1,7 @@
 //! Where the bulk of the particles is, whatever a few strays do.
 
 use glam::Vec3;
+use whitewater::Region;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +39,12 @@ impl Bounds {
 
     pub fn size(&self) -> Vec3 {
         self.max - self.min
+    }
+
+    /// A ball round it, with some room.
+    pub fn region(&self) -> Region {
+        let radius = (0.52 * self.size().length()).max(1.0e-6);
+        Region { center: self.center().to_array(), radius }
     }
 
     pub fn contains(&self, p: Vec3) -> bool {

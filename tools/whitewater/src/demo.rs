@@ -1,11 +1,12 @@
 //! `whitewater demo`: the built-in scene.
 
-use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
 use whitewater::water::FoamLook;
+use whitewater::{Region, Settings};
 
 use crate::args::DemoArgs;
+use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
 use crate::foam;
@@ -55,7 +56,9 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     };
     let count = particles.positions.len();
     let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
-    let look = Look { camera, settings, environment, scene, foam, fps: None };
+    let bounds = Bounds::of_bulk(&particles.positions);
+    let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
+    let look = Look { camera, settings, environment, scene, foam, region, fps: None };
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut progress = Progress::new(1);
     session.frame(0, "waterfall", &particles)?;

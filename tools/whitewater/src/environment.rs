@@ -104,6 +104,9 @@ impl Environment {
             ambient: ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array(),
             irradiance: (self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0))
                 .to_array(),
+            // What sunlit ground throws back comes there too.
+            shade: (self.sky_irradiance + 0.12 * self.sun_irradiance * self.sun.y.max(0.0))
+                .to_array(),
         }
     }
 

@@ -326,7 +326,8 @@ fn look(
             DEFAULT_FPS
         }
     });
-    Ok(Look { camera, settings, environment, scene, foam, fps })
+    let region = bounds.region();
+    Ok(Look { camera, settings, environment, scene, foam, region, fps })
 }
 
 /// Four digits are enough to read.

@@ -7,10 +7,10 @@ use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
-use whitewater::water::{FoamSettings, WaterSettings};
-use whitewater::{Camera, Config, Settings};
+use whitewater::water::{FoamSettings, Shadows, WaterSettings};
+use whitewater::{Camera, Config, Region, Settings};
 
-use crate::args::{DrawArgs, SprayArg};
+use crate::args::{DrawArgs, ShadowArg, SprayArg};
 use crate::camera::{CameraFile, Lens};
 use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
@@ -27,6 +27,8 @@ pub struct Look {
     pub scene: Scene,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
+    /// Where water and foam cast shadows.
+    pub region: Region,
     /// Frames a second by which foam comes and goes; none: each frame for itself.
     pub fps: Option<f32>,
 }
@@ -74,6 +76,9 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
         file => Environment::read(file.as_ref(), args.sun),
     }
 }
+
+/// Edge of the light's maps.
+const LIGHT_TEXELS: u32 = 1024;
 
 /// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
 const WARM_UP: u32 = 8;
@@ -156,6 +161,8 @@ impl<'a> Session<'a> {
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = args.spray == SprayArg::Auto;
+        config.shadow = (args.shadows != ShadowArg::None).then_some(Shadows::Map);
+        config.cast = (args.shadows == ShadowArg::All).then_some(LIGHT_TEXELS);
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
@@ -170,6 +177,9 @@ impl<'a> Session<'a> {
             }
         }
         headless.scene(&self.look.scene, true)?;
+        if args.shadows == ShadowArg::All {
+            headless.region(self.look.region);
+        }
         self.headless = Some(headless);
         self.memory = Memory::default();
         Ok(())

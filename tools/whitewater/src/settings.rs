@@ -48,6 +48,7 @@ pub struct FoamTable {
     noise_rate: Option<f32>,
     veil: Option<f32>,
     relief: Option<f32>,
+    shadow: Option<f32>,
     back_color: Option<[f32; 3]>,
     front_color: Option<[f32; 3]>,
 }
@@ -74,6 +75,7 @@ pub struct LightTable {
     pub color: Option<[f32; 3]>,
     pub ambient: Option<[f32; 3]>,
     pub irradiance: Option<[f32; 3]>,
+    pub shade: Option<[f32; 3]>,
 }
 
 #[derive(Deserialize)]
@@ -159,6 +161,7 @@ impl SettingsFile {
         set(&mut foam.noise_rate, table.noise_rate);
         set(&mut foam.veil, table.veil);
         set(&mut foam.relief, table.relief);
+        set(&mut foam.shadow, table.shadow);
         foam.back_color = table.back_color.unwrap_or(foam.back_color);
         foam.front_color = table.front_color.unwrap_or(foam.front_color);
         let (spray, table) = (&mut settings.spray, &self.spray);
@@ -175,6 +178,7 @@ impl SettingsFile {
         light.color = self.light.color.unwrap_or(light.color);
         light.ambient = self.light.ambient.unwrap_or(light.ambient);
         light.irradiance = self.light.irradiance.unwrap_or(light.irradiance);
+        light.shade = self.light.shade.unwrap_or(light.shade);
         Ok(())
     }
 }
@@ -260,6 +264,7 @@ pub fn to_toml(settings: &Settings) -> String {
         ("noise_rate", foam.noise_rate),
         ("veil", foam.veil),
         ("relief", foam.relief),
+        ("shadow", foam.shadow),
     ];
     let of_spray = [
         ("opacity", spray.opacity),
@@ -274,7 +279,7 @@ pub fn to_toml(settings: &Settings) -> String {
         "[water]\n{}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
          [foam]\n{}back_color = {:?}\nfront_color = {:?}\n\n\
          [spray]\n{}droplets = {}\ndensities = {:?}\ncolor = {:?}\nadditive = {}\n\n\
-         [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\n",
+         [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\nshade = {:?}\n",
         lines(&numbers),
         lines(&of_foam),
         foam.back_color,
@@ -288,6 +293,7 @@ pub fn to_toml(settings: &Settings) -> String {
         light.color,
         light.ambient,
         light.irradiance,
+        light.shade,
     )
 }
 

@@ -147,6 +147,11 @@ impl SceneRenderer {
         })
     }
 
+    /// The sun's shadow map as a host hands it over; `bias` in metres beside a texel of the map.
+    pub fn shadow(&self, bias: f32) -> crate::contract::Shadow {
+        self.shadow.handed_over(bias)
+    }
+
     /// How many descriptor sets a record takes.
     pub fn sets(&self) -> u32 {
         // Irradiance, sky, meshes.

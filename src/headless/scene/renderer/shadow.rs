@@ -8,6 +8,7 @@ use glam::{Mat4, Vec2, Vec3};
 use super::super::Scene;
 use super::geometry::Geometry;
 use super::opaque::{DepthOnly, View};
+use crate::contract::HostImage;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED, NOTHING};
@@ -83,6 +84,23 @@ impl Shadow {
         self.pipeline.draw(gpu, cmd, geometry, view, geometry.casters);
         gpu.end_pass(cmd);
         gpu.barriers(cmd, &[access::image(&self.map, DEPTH_ATTACHMENT, FRAGMENT_SAMPLED)], &[]);
+    }
+
+    /// As a host hands it over.
+    pub fn handed_over(&self, bias: f32) -> crate::contract::Shadow {
+        let Image { handle, view, format, extent, .. } = self.map;
+        let image = HostImage {
+            image: handle,
+            view,
+            format,
+            aspect: vk::ImageAspectFlags::DEPTH,
+            extent,
+            rect: extent.into(),
+            before: FRAGMENT_SAMPLED,
+            after: FRAGMENT_SAMPLED,
+        };
+        let (view_projection, bias) = (self.sun.clip, bias + self.sun.texel);
+        crate::contract::Shadow { image, view_projection, bias }
     }
 
     pub fn resource(&self) -> Resource {

@@ -1,0 +1,37 @@
+// The scene with what water and foam do to the sunlight on it. Needs frame.glsl, sunlight.glsl.
+
+layout(set = 0, binding = 1) uniform sampler2D scene_color;
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 3) uniform sampler2D caustics;
+
+// The sun is no point, and no surface as smooth as ours: what is gathered is spread.
+const float MOST_GATHERED = 4.0;
+
+// Light of the caustics at a point, over what comes without water.
+float caustics_at(LightTexels t) {
+    float sum = 0.0;
+    float below = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = t.base + ivec2(i & 1, i >> 1);
+        float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
+        vec4 thick = texelFetch(light_thickness, texel, 0);
+        below += weight * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);
+        sum += weight * texelFetch(caustics, texel, 0).x;
+    }
+    return t.inside ? mix(1.0, min(sum, MOST_GATHERED), below) : 1.0;
+}
+
+// Colour of a pixel (its centre, at +0.5), filtered as the scene's size is.
+vec4 lit_at(vec2 pixel) {
+    vec2 place = clamp(pixel * frame.lit_color.xy, vec2(0.5), frame.lit_color.zw - 0.5);
+    vec4 color = textureLod(scene_color, (place + frame.lit_origin.xy) / vec2(textureSize(scene_color, 0)), 0.0);
+    float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    if (!(z > 0.0 && z < frame.depth.w)) {
+        return color;
+    }
+    vec3 eye = z * vec3(ray_slope(pixel, frame.slope), -1.0);
+    vec3 change = through_fluid(eye) * caustics_at(light_texels(eye)) - 1.0;
+    // Only what the sun gives can be lost, and only where it comes.
+    vec3 sun = (1.0 - frame.shade.rgb) * past_scene(eye, pixel);
+    return vec4(color.rgb * (1.0 + sun * change), color.a);
+}

@@ -1,0 +1,91 @@
+// How much of the sun's light reaches a point: past the host's scene, by its shadow map or its mask,
+// and through water and foam. Needs frame.glsl.
+
+// 0: the host says nothing, 1: a mask of the screen, 2: a shadow map.
+layout(constant_id = 11) const uint SHADOW = 0;
+// 1: water and foam take light away.
+layout(constant_id = 12) const uint CAST = 0;
+
+layout(set = 0, binding = 16) uniform sampler2D shadow_map;
+layout(set = 0, binding = 17) uniform sampler2D light_thickness;
+
+// Nine comparisons a texel apart, each filtered (percentage-closer filtering, Reeves et al. 1987): all
+// of 4x4 texels. Outside the map all is lit.
+float shadow_map_at(vec3 eye) {
+    vec4 clip = frame.shadow * vec4(eye + frame.sun_direction.xyz * frame.shadow_map.x, 1.0);
+    vec3 at = clip.xyz / clip.w;
+    bool inside = clip.w > 0.0 && all(greaterThanEqual(at, vec3(0.0))) && all(lessThanEqual(at, vec3(1.0)));
+    ivec2 last = ivec2(frame.shadow_rect.zw) - 1;
+    vec2 texel = clamp(at.xy, 0.0, 1.0) * frame.shadow_rect.zw - 0.5;
+    vec2 base = floor(texel);
+    vec2 f = texel - base;
+    float lit = 0.0;
+    for (int y = -1; y <= 2; ++y) {
+        for (int x = -1; x <= 2; ++x) {
+            ivec2 t = clamp(ivec2(base) + ivec2(x, y), ivec2(0), last) + ivec2(frame.shadow_rect.xy);
+            float wx = x == -1 ? 1.0 - f.x : (x == 2 ? f.x : 1.0);
+            float wy = y == -1 ? 1.0 - f.y : (y == 2 ? f.y : 1.0);
+            // What is nearer to the light has less depth, or more where it is reversed.
+            float behind = (at.z - texelFetch(shadow_map, t, 0).x) * frame.shadow_map.y;
+            lit += behind > 0.0 ? 0.0 : wx * wy;
+        }
+    }
+    return inside ? lit / 9.0 : 1.0;
+}
+
+// Of the sun's light at a point of a pixel, what the host's scene leaves.
+float past_scene(vec3 eye, vec2 pixel) {
+    if (SHADOW == 1u) {
+        vec2 texel = clamp(pixel / frame.extent.xy, 0.0, 1.0) * frame.shadow_rect.zw;
+        ivec2 t = min(ivec2(texel), ivec2(frame.shadow_rect.zw) - 1) + ivec2(frame.shadow_rect.xy);
+        return clamp(texelFetch(shadow_map, t, 0).x, 0.0, 1.0);
+    }
+    return SHADOW == 2u ? shadow_map_at(eye) : 1.0;
+}
+
+// Texels of the light's maps round a point, and their weights.
+struct LightTexels {
+    ivec2 base;
+    vec2 f;
+    float depth; // metres along the light
+    bool inside;
+};
+
+LightTexels light_texels(vec3 eye) {
+    vec3 at = (frame.to_light * vec4(eye, 1.0)).xyz;
+    float size = frame.light_map.x;
+    vec2 texel = at.xy * size - 0.5;
+    LightTexels t;
+    t.base = ivec2(floor(clamp(texel, 0.0, size - 2.0)));
+    t.f = clamp(texel - vec2(t.base), 0.0, 1.0);
+    t.depth = at.z;
+    t.inside = all(greaterThan(texel, vec2(0.0))) && all(lessThan(texel, vec2(size - 1.0)));
+    return t;
+}
+
+// Metres of water and foam of a texel that lie before a depth: as if each hung together about its mean.
+vec2 before_depth(vec4 thick, float depth) {
+    vec2 t = thick.xy;
+    vec2 mean = thick.zw / max(t, vec2(1.0e-9));
+    return clamp(depth - mean + 0.5 * t, vec2(0.0), t);
+}
+
+// Of the sun's light what water and foam before a point leave.
+vec3 through_fluid(vec3 eye) {
+    LightTexels t = light_texels(eye);
+    vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
+    vec3 kept = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = t.base + ivec2(i & 1, i >> 1);
+        vec2 thick = before_depth(texelFetch(light_thickness, texel, 0), t.depth - 0.5 * frame.particle.y);
+        float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
+        kept += weight * exp(-extinction * thick.x - frame.shade.w * thick.y);
+    }
+    return t.inside ? kept : vec3(1.0);
+}
+
+// Share of the sun's light at a point of the fluid.
+vec3 sunlight(vec3 eye, vec2 pixel) {
+    vec3 light = vec3(past_scene(eye, pixel));
+    return CAST == 1u ? light * through_fluid(eye) : light;
+}

@@ -1,0 +1,19 @@
+#version 460
+// Pass `light`: where the sun's light meets water or foam first, metres along it. MIN blending keeps
+// the nearest. Writes: front (R32F).
+
+#include "frame.glsl"
+
+layout(location = 0) in vec2 place;
+layout(location = 1) flat in float depth;
+layout(location = 2) flat in float axis;
+
+layout(location = 0) out float front;
+
+void main() {
+    float rho2 = dot(place, place);
+    if (rho2 > 1.0) {
+        discard;
+    }
+    front = depth - min(axis, frame.particle.x) * sqrt(1.0 - rho2);
+}

@@ -1,0 +1,13 @@
+#version 460
+// Pass `lit`: the scene under the shadows and caustics of water and foam.
+// Reads: scene colour and depth, the light's maps. Writes: lit scene, all of it.
+
+#include "frame.glsl"
+#include "sunlight.glsl"
+#include "lit.glsl"
+
+layout(location = 0) out vec4 color;
+
+void main() {
+    color = lit_at(gl_FragCoord.xy);
+}

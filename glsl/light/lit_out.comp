@@ -1,0 +1,18 @@
+#version 460
+// Pass `lit`, last part, compute: the lit scene to the output, before the fluid is laid over it.
+// Reads: lit scene. Writes: output.
+
+#include "frame.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(set = 0, binding = 1) uniform sampler2D lit;
+// Its format is the host's choice: written without being told.
+layout(set = 0, binding = 8) uniform writeonly image2D target;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(pixel, ivec2(frame.extent.xy)))) {
+        imageStore(target, pixel + ivec2(frame.target.xy), texelFetch(lit, pixel, 0));
+    }
+}

@@ -1,0 +1,65 @@
+#version 460
+// Pass `light`: a quad round each particle as the sun sees it, straight from the host's streams.
+// Reads: positions, densities, foam.
+
+#include "frame.glsl"
+#include "density.glsl"
+
+layout(constant_id = 9) const uint FOAM = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Amounts { float amounts[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;   // of the chunk's first particle
+    uint position_stride; // in words
+    uint density_word;
+    uint density_stride;  // 0: no densities
+    uint foam_word;
+    uint foam_stride;     // 0: no foam
+    uint front;           // 1: as spheres, 0: as thickness sprites
+} push;
+
+layout(location = 0) out vec2 place;       // in half-axes
+layout(location = 1) flat out float depth; // metres along the light
+layout(location = 2) flat out float axis;  // half-axis, metres
+layout(location = 3) flat out vec2 amount; // height of its water and of its foam
+
+void main() {
+    uint index = gl_InstanceIndex;
+    uint at = push.position_word + index * push.position_stride;
+    vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+    float bulk_share = 1.0;
+    float spray_share = 0.0;
+    if (push.density_stride > 0u) {
+        float density = densities[push.density_word + index * push.density_stride];
+        // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+        if (density > 0.0) {
+            bulk_share = density < frame.density.x ? 0.0 : 0.5 + 0.5 * bulk(density);
+            spray_share = share_of_spray(density);
+        }
+    }
+    float foam = 0.0;
+    if (FOAM == 1u && push.foam_stride > 0u) {
+        float share = amounts[push.foam_word + index * push.foam_stride];
+        foam = share > 0.0 ? min(share, 1.0) : 0.0;
+    }
+    // Spray is thin: half of what foam would be.
+    vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + 0.5 * spray_share * (1.0 - bulk_share * foam));
+    vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
+    float texel = frame.light_map.y;
+    float radius = frame.particle.x * max(bulk_share, 0.5);
+    // No narrower than a texel: it must not fall between them.
+    axis = max(push.front == 1u ? radius : frame.particle.z, texel);
+    depth = seen.z;
+    // As on the screen: the integral over the map is the volume.
+    float volume = frame.particle.w * frame.particle.z * frame.particle.z;
+    amount = shares * volume / (axis * axis);
+    vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
+    // A texel more, so that snapping does not cut it.
+    place = side * (1.0 + texel / axis);
+    vec2 ndc = (seen.xy + place * axis / (texel * frame.light_map.x)) * 2.0 - 1.0;
+    bool there = shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));
+    gl_Position = vec4(there ? ndc : vec2(-4.0), 0.5, 1.0);
+}

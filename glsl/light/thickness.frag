@@ -1,0 +1,24 @@
+#version 460
+// Pass `light`: metres of water and of foam along the sun's light, and both times how far along it they
+// lie. Writes: thickness (RGBA32F), summed.
+
+#include "frame.glsl"
+#include "kernel.glsl"
+
+layout(location = 0) in vec2 place;
+layout(location = 1) flat in float depth;
+layout(location = 3) flat in vec2 amount;
+
+layout(location = 0) out vec4 thickness;
+
+void main() {
+    float rho2 = dot(place, place);
+    if (rho2 > 1.0) {
+        discard;
+    }
+    // Whole steps: their sums are exact, in any order.
+    float step = frame.foam_back.w;
+    vec2 height = floor(amount * (thickness_kernel(rho2) / step) + 0.5) * step;
+    // Of places in quarters of a spacing, a power of two again: products and sums are exact too.
+    thickness = vec4(height, height * (floor(depth / (512.0 * step) + 0.5) * (512.0 * step)));
+}

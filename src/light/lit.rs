@@ -1,0 +1,176 @@
+//! Pass `lit`: the host's scene under the shadows and caustics of water and foam, in an image of ours,
+//! from which the fluid refracts it, and in the output.
+//!
+//! It takes the place of the copy of a scene that is the output itself. What share of a pixel's light
+//! is the sun's, nobody says: that of level ground ([`Light`](crate::Light)).
+//! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; output, all of it.
+
+use ash::vk;
+
+use super::Sunlight;
+use crate::composite::way;
+use crate::contract::{Config, HostImage};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, FRAGMENT_SAMPLED};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::water::Recording;
+use crate::water::settings::Shading;
+
+/// How the scene's colour is read.
+pub const SCENE_USE: Access = FRAGMENT_SAMPLED;
+
+/// Where the lit scene goes.
+pub struct Output {
+    /// View of the output.
+    pub view: vk::ImageView,
+    /// Its image.
+    pub image: vk::Image,
+    /// All aspects of the image.
+    pub aspect: vk::ImageAspectFlags,
+    /// Its framebuffer; null where there is none.
+    pub target: vk::Framebuffer,
+    /// The part of it that is the view.
+    pub area: vk::Rect2D,
+    /// How it is used before, and how `composite` wants it.
+    pub before: Access,
+    pub after: Access,
+}
+
+enum Out {
+    Raster { pass: Owned<vk::RenderPass>, pipeline: Pipeline },
+    Compute { pipeline: Pipeline },
+}
+
+/// The pass.
+pub struct Lit {
+    pass: Owned<vk::RenderPass>,
+    framebuffer: Owned<vk::Framebuffer>,
+    pipeline: Pipeline,
+    out: Out,
+    /// The lit scene; begins with the view.
+    pub image: Image,
+}
+
+impl Lit {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let image = Self::image(gpu, config)?;
+        let pass = gpu.color_pass(NAME, &[image.format], vk::AttachmentLoadOp::DONT_CARE)?;
+        let triangle = |fragment, pass, constants: &[(u32, u32)]| {
+            Pipeline::graphics(
+                gpu,
+                &Graphics {
+                    vertex: shader::LIGHT_COVER_VERT,
+                    fragment,
+                    topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                    pass,
+                    blend: &[no_blend()],
+                    constants,
+                },
+            )
+        };
+        let out = match way(config) {
+            Shading::Raster => {
+                let format = config.output_format;
+                let pass = gpu.color_pass("lit/out", &[format], vk::AttachmentLoadOp::LOAD)?;
+                Out::Raster {
+                    pipeline: triangle(shader::LIGHT_LIT_OUT_FRAG, pass.handle, &[])?,
+                    pass,
+                }
+            }
+            Shading::Compute => {
+                Out::Compute { pipeline: Pipeline::compute(gpu, shader::LIGHT_LIT_OUT_COMP, &[])? }
+            }
+        };
+        Ok(Self {
+            framebuffer: gpu.framebuffer(NAME, pass.handle, image.view, image.extent)?,
+            pipeline: triangle(shader::LIGHT_LIT_FRAG, pass.handle, &super::constants(config))?,
+            pass,
+            out,
+            image,
+        })
+    }
+
+    fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+        // Every device draws to it and filters it.
+        let format = vk::Format::R16G16B16A16_SFLOAT;
+        Image::new(gpu, &ImageDesc::new(NAME, config.extent, format, usage))
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let image = Self::image(gpu, config)?;
+        let framebuffer = gpu.framebuffer(NAME, self.pass.handle, image.view, image.extent)?;
+        retired.retire(std::mem::replace(&mut self.framebuffer, framebuffer));
+        retired.retire(std::mem::replace(&mut self.image, image));
+        Ok(())
+    }
+
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        scene: &HostImage,
+        output: &Output,
+        sunlight: &Sunlight,
+        caustics: &Image,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"lit");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let read = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
+        gpu.barriers(cmd, &[access::image(&self.image, read.discarded(), COLOR_ATTACHMENT)], &[]);
+        let [shadow, thickness] = sunlight.resources();
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::Sampled(scene.view, gpu.samplers.linear)),
+            (2, r.scene_depth),
+            (3, Resource::Sampled(caustics.view, gpu.samplers.nearest)),
+            shadow,
+            thickness,
+        ];
+        let (pass, framebuffer) = (self.pass.handle, self.framebuffer.handle);
+        gpu.begin_pass(cmd, pass, framebuffer, r.extent.into(), [0.0; 4]);
+        r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
+        // SAFETY: inside the render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_draw(cmd, 3, 1, 0, 0) };
+        gpu.end_pass(cmd);
+        let to = [
+            access::image(&self.image, COLOR_ATTACHMENT, read),
+            access::raw_image(output.image, output.aspect, output.before, output.after),
+        ];
+        gpu.barriers(cmd, &to, &[]);
+
+        let lit = (1, Resource::Sampled(self.image.view, gpu.samplers.nearest));
+        match &self.out {
+            Out::Raster { pass, pipeline } => {
+                gpu.begin_pass(cmd, pass.handle, output.target, output.area, [0.0; 4]);
+                r.descriptors.bind(gpu, cmd, pipeline, &[(0, r.uniforms), lit])?;
+                // SAFETY: as above.
+                unsafe { gpu.device.cmd_draw(cmd, 3, 1, 0, 0) };
+                gpu.end_pass(cmd);
+            }
+            Out::Compute { pipeline } => {
+                let resources = [(0, r.uniforms), lit, (8, Resource::Storage(output.view))];
+                r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+                r.dispatch_over(r.extent, pipeline.local_size);
+            }
+        }
+        // The fluid is drawn over it.
+        let over = output.after;
+        let out = access::raw_image(output.image, output.aspect, over, over);
+        gpu.barriers(cmd, &[out], &[]);
+        r.end(scope);
+        Ok(())
+    }
+}
+
+const NAME: &str = "lit";

@@ -1,0 +1,169 @@
+//! Pass `light`: water and foam as the sun sees them.
+//!
+//! Every particle is drawn, whatever the camera sees, straight from the host's streams: nothing is
+//! listed for one look. Packets are not asked for.
+//! Reads: the counts of `cull`, the host's particles. Writes: front, R32F, metres along the light to
+//! what it meets first; thickness, RGBA32F, metres of water and of foam along it, and both times where
+//! they lie.
+
+use ash::vk;
+use bytemuck::NoUninit;
+
+use super::map_image;
+use crate::contract::{Config, Particles};
+use crate::error::Error;
+use crate::frame::EMPTY;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COPY_READ, FRAGMENT_SAMPLED, VERTEX_SAMPLED,
+};
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::Image;
+use crate::gpu::pipeline::{Graphics, Pipeline, blend};
+use crate::gpu::shader;
+use crate::water::{self, Recording, SphereList, Window};
+
+/// Read by compute, by what shades, and by the vertices of spray.
+pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
+/// Last uses in a frame: those, or the host's copy of the layer.
+const BEFORE: Access = AFTER.and(COPY_READ);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    position_word: u32,
+    position_stride: u32,
+    density_word: u32,
+    density_stride: u32,
+    foam_word: u32,
+    foam_stride: u32,
+    front: u32,
+}
+shader::assert_layout!(
+    shader::LIGHT_SPRITES_VERT,
+    "Push",
+    Push {
+        position_word,
+        position_stride,
+        density_word,
+        density_stride,
+        foam_word,
+        foam_stride,
+        front,
+    }
+);
+
+/// An image that sprites are blended into.
+pub struct Target {
+    pub image: Image,
+    pass: Owned<vk::RenderPass>,
+    framebuffer: Owned<vk::Framebuffer>,
+    pipeline: Pipeline,
+    front: bool,
+}
+
+impl Target {
+    fn new(gpu: &Gpu, config: &Config, edge: u32, front: bool) -> Result<Self, Error> {
+        let (name, format) = match front {
+            true => ("light/front", vk::Format::R32_SFLOAT),
+            false => ("light/thickness", vk::Format::R32G32B32A32_SFLOAT),
+        };
+        let image = map_image(gpu, name, edge, format, vk::ImageUsageFlags::COLOR_ATTACHMENT)?;
+        let pass = gpu.color_pass(name, &[format], vk::AttachmentLoadOp::CLEAR)?;
+        let (fragment, op) = match front {
+            true => (shader::LIGHT_FRONT_FRAG, vk::BlendOp::MIN),
+            false => (shader::LIGHT_THICKNESS_FRAG, vk::BlendOp::ADD),
+        };
+        let pipeline = Pipeline::graphics(
+            gpu,
+            &Graphics {
+                vertex: shader::LIGHT_SPRITES_VERT,
+                fragment,
+                topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                pass: pass.handle,
+                blend: &[blend(op)],
+                constants: &[(9, u32::from(config.foam))],
+            },
+        )?;
+        let framebuffer = gpu.framebuffer(name, pass.handle, image.view, image.extent)?;
+        Ok(Self { image, pass, framebuffer, pipeline, front })
+    }
+
+    fn record(
+        &self,
+        r: &Recording<'_>,
+        particles: &Particles,
+        list: &SphereList,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let to = COLOR_ATTACHMENT;
+        gpu.barriers(cmd, &[access::image(&self.image, BEFORE.discarded(), to)], &[]);
+        let clear = [if self.front { EMPTY } else { 0.0 }, 0.0, 0.0, 0.0];
+        let area = self.image.extent.into();
+        gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, clear);
+        for index in 0..list.chunks {
+            let first = index * list.chunk_size;
+            // A stream that ends before the chunk has no particles in it: the count was clamped.
+            let Some(positions) = Window::new(gpu, &particles.positions, first) else { break };
+            let [Some(densities), Some(foam)] = [&particles.densities, &particles.foam]
+                .map(|stream| positions.or(gpu, stream, first))
+            else {
+                break;
+            };
+            let resources = [
+                (0, r.uniforms),
+                (1, positions.resource),
+                (2, densities.resource),
+                (3, foam.resource),
+            ];
+            r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
+            self.pipeline.push(
+                gpu,
+                cmd,
+                &Push {
+                    position_word: positions.word,
+                    position_stride: positions.stride,
+                    density_word: densities.word,
+                    density_stride: densities.stride,
+                    foam_word: foam.word,
+                    foam_stride: foam.stride,
+                    front: u32::from(self.front),
+                },
+            );
+            let draw = list.chunk(index).arguments + water::CAST;
+            // SAFETY: inside a render pass; the arguments are visible since `cull`.
+            unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
+        }
+        gpu.end_pass(cmd);
+        gpu.barriers(cmd, &[access::image(&self.image, COLOR_ATTACHMENT, AFTER)], &[]);
+        Ok(())
+    }
+}
+
+/// The pass.
+pub struct Maps {
+    pub front: Target,
+    pub thickness: Target,
+}
+
+impl Maps {
+    pub fn new(gpu: &Gpu, config: &Config, edge: u32) -> Result<Self, Error> {
+        Ok(Self {
+            front: Target::new(gpu, config, edge, true)?,
+            thickness: Target::new(gpu, config, edge, false)?,
+        })
+    }
+
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: &Particles,
+        list: &SphereList,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"light");
+        self.front.record(r, particles, list)?;
+        self.thickness.record(r, particles, list)?;
+        r.end(scope);
+        Ok(())
+    }
+}
