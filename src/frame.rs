@@ -274,7 +274,7 @@ impl FrameUniforms {
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
-            target: [target_at[0], target_at[1], 0.0, 0.0],
+            target: [target_at[0], target_at[1], f32::from(frame.settings.ladder as u8), 0.0],
             particle: [radius, water.spacing, axis, amplitude],
             density: densities(frame.settings, config),
             smoothing: [
@@ -301,7 +301,7 @@ impl FrameUniforms {
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
             foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
             foam_back: with(foam_color(look.back_color, light), foam_step(water.spacing)),
-            foam_front: foam_color(look.front_color, light),
+            foam_front: with(foam_color(look.front_color, light), look.front_power),
             spray: spray_shape(&frame.settings.spray, water),
             spray_color: spray_color(&frame.settings.spray, light),
             shadow: shadow
