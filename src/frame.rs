@@ -343,8 +343,9 @@ fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
 
 fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
     let optical_depth = -(1.0 - spray.opacity).ln();
-    // Droplets together cover what one would.
-    let half_axis = spray.size * water.radius() / (spray.droplets as f32).sqrt();
+    // Droplets together cover what one would: of their squares 0.513 is the mean (spray.vert).
+    let many = if spray.droplets > 1 { 0.513 * spray.droplets as f32 } else { 1.0 };
+    let half_axis = spray.size * water.radius() / many.sqrt();
     [optical_depth, half_axis, spray.spread * water.spacing, spray.shutter]
 }
 

@@ -277,8 +277,8 @@ impl FoamSettings {
 /// How foam looks. Of no effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamLook {
-    /// Light that foam takes away, per metre of it, [0, ∞), default 0.6 / spacing: two layers hide
-    /// seven tenths.
+    /// Light that foam takes away, per metre of it, [0, ∞), default 0.4 / spacing: two layers hide
+    /// half.
     pub extinction: f32,
     /// How fast its colour turns to that of the front with the foam right behind the frontmost, per
     /// metre, [0, ∞), default 0.15 / spacing.
@@ -299,9 +299,9 @@ pub struct FoamLook {
     /// reads as steam. Not in the source; 0: none of that.
     pub veil: f32,
     /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
-    /// default 0.45.
+    /// default 0.35.
     pub relief: f32,
-    /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.15 / spacing: less than
+    /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.25 / spacing: less than
     /// its extinction, for most of the light goes on.
     pub shadow: f32,
     /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.65 and white 0.9 (the
@@ -315,7 +315,7 @@ impl FoamLook {
     /// The defaults for particles of a spacing.
     pub fn of_spacing(spacing: f32) -> Self {
         Self {
-            extinction: 0.6 / spacing,
+            extinction: 0.4 / spacing,
             front_extinction: 0.15 / spacing,
             front_power: 0.0,
             front_depth: 60.0 * spacing,
@@ -323,8 +323,8 @@ impl FoamLook {
             noise: 1.0,
             noise_rate: 2.0,
             veil: spacing,
-            relief: 0.45,
-            shadow: 0.15 / spacing,
+            relief: 0.35,
+            shadow: 0.25 / spacing,
             back_color: [0.65; 3],
             front_color: [0.9; 3],
         }

@@ -40,7 +40,7 @@ const EDGE_ON: f64 = 1e-6;
 /// The least |n_z| that the amplitude is divided by.
 const LEAST_FACING: f64 = 0.2;
 /// Cells of the noise to a half-axis.
-const CELLS: f64 = 3.0;
+const CELLS: f64 = 1.6;
 /// The noise of the particles begins within this many cells.
 const SPREAD: f64 = 64.0;
 
