@@ -221,7 +221,7 @@ fn what_is_foam_is_no_water() {
 
 /// The same picture by other instructions: the composite of foam splits the water in two, of which one
 /// part is nothing; an exponential and a few products more.
-fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
+pub(crate) fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
     for (i, (found, wanted)) in drawn.output.data.iter().zip(&expected.output.data).enumerate() {
         let near = found
             .iter()

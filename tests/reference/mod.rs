@@ -22,6 +22,7 @@ pub mod foam;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;
+pub mod spray;
 pub mod surface;
 pub mod thickness;
 
