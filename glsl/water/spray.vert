@@ -45,7 +45,9 @@ void main() {
     motion -= dot(motion, normal) * normal;
     float speed = length(motion);
     vec3 side = abs(normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-    vec3 e1 = speed > 1.0e-6 * frame.particle.y ? motion / speed : normalize(cross(side, normal));
+    // What rounding leaves of a motion straight at the eye is no direction.
+    float still_below = max(1.0e-6 * frame.particle.y, 1.0e-3 * length(sprite.velocity.xyz));
+    vec3 e1 = speed > still_below ? motion / speed : normalize(cross(side, normal));
     vec3 e2 = cross(e1, normal);
     // Over the time of a streak it covers more, and each place for less long. No smaller than a pixel's
     // half, or it would flicker; then it is thinner.

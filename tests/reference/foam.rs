@@ -1178,7 +1178,7 @@ mod tests {
         fn value(&self, sprite: &Sprite, at: Vec2, settings: &Settings) -> f32 {
             let own = origin(sprite.id).as_vec3();
             let z = sprite.age as f32 * settings.noise_rate as f32 + own.z;
-            let place = Vec3::new(3.0 * at.x + own.x, 3.0 * at.y + own.y, z);
+            let place = Vec3::new(1.6 * at.x + own.x, 1.6 * at.y + own.y, z);
             let (cell, fr) = (place.floor(), place - place.floor());
             let fade = fr * fr * fr * (fr * (6.0 * fr - 15.0) + 10.0);
             let mut sums = [0.0_f32; 8];

@@ -25,16 +25,26 @@ const RADIUS: f64 = 0.656;
 const SEED: u32 = 0x5370;
 /// Numbers from here on are no positions and no velocities.
 const NOWHERE: f64 = 1e18;
-/// The ramp of the share is at least this wide, in the unit of the densities.
+/// The ramp of the share is at least this wide, in its lower end and in the unit of the densities.
 const STEEPEST: f64 = 1e-6;
 /// Slower than this, in spacings a second, there is no direction of motion.
 const STILL: f64 = 1e-6;
+/// Nor where no more than this share of it is across the view.
+const HEAD_ON: f64 = 1e-3;
 /// The least half-axis, in pixels.
 const LEAST: f64 = 0.7;
 /// Behind water over this many spacings spray fades.
 const FADE: f64 = 1.5;
 /// What sine and cosine may be off. Vulkan says so from -pi to pi alone.
 const TRIGONOMETRY: f64 = 1.0 / 2048.0;
+/// Sums of half precision of multiples of the [`STEP`] are exact up to this.
+const EXACT: f64 = 4.0;
+/// What a droplet adds is a multiple of this.
+pub const STEP: f64 = 1.0 / 512.0;
+/// Mist: its half-axis in spreads, and its optical depth over that of a droplet.
+const MIST: [f64; 2] = [0.7, 0.08];
+/// Mean of the squares of the sizes of many droplets.
+const SQUARES: f64 = 0.513;
 /// Half an ulp of half precision, of a number and of the least ones.
 const HALF: (f64, f64) = (1.0 / 2048.0, 1.0 / (1 << 25) as f64);
 
@@ -70,6 +80,8 @@ pub struct Settings {
     pub densities: [f64; 2],
     /// Seconds of motion that a droplet streaks over.
     pub shutter: f64,
+    /// What a droplet adds is a multiple of this, and sums are exact up to [`EXACT`]; 0: they are not.
+    pub step: f64,
 }
 
 /// A number that is more than another: by both as they are, surely, perhaps.
@@ -110,7 +122,7 @@ impl Particle {
         }
         let density = self.density.min(1e30);
         let [all, none] = settings.densities.map(|d| off(d * settings.rest_density, 1.0));
-        let end = at_least(none, all + off(STEEPEST, 1.0));
+        let end = at_least(none, all * off(1.0 + STEEPEST, 1.0) + off(STEEPEST, 1.0));
         let (above, width) = (exact(density) - all, end - all);
         let part = |above: f64, width: f64, sign: f64| match (above > 0.0, width > 0.0) {
             (false, _) => 0.0,
@@ -128,6 +140,20 @@ impl Particle {
 }
 
 impl Settings {
+    /// Half-axis of droplet k by its random number, and what its optical depth is times.
+    fn half_axis(&self, k: u32, u: f64) -> (Rounded, Rounded) {
+        let many = self.droplets > 1;
+        if many && k == 0 {
+            let [axis, thin] = MIST;
+            return (off(axis * self.spread * self.spacing, 3.0), off(thin, 1.0));
+        }
+        let squares = if many { SQUARES * f64::from(self.droplets) } else { 1.0 };
+        // Radius 2u, products 3u, root 9u, quotient 5u; the size three products and a sum.
+        let whole = off(self.size * RADIUS * self.spacing / squares.sqrt(), 19.0);
+        let size = if many { off(0.35 + 1.15 * u * u * u, 5.0) } else { exact(1.0) };
+        (size * whole, exact(1.0))
+    }
+
     /// The optical depth of the opacity. A logarithm is 2^-21 off from a half on, else 3 ulp.
     fn thickest(&self) -> Rounded {
         let left = off(1.0 - self.opacity, 1.0);
@@ -154,12 +180,16 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
     let (near, from) = (off(view.near(), 8.0), off(2.0 * settings.spread * settings.spacing, 2.0));
     let drawn = more(depth_of(c), at_least(near, from));
     let all = (0..settings.droplets).map(|k| {
-        let u = |j| f64::from(classify::random(SEED, 5 * k + j, particle.id));
-        let p = placed(c, [u(0), u(1), u(2)], view, settings);
-        let size = if settings.droplets > 1 { off(0.5 + u(3), 1.0) } else { exact(1.0) };
+        let random = |n| f64::from(classify::random(SEED, n, particle.id));
+        let u = |j| random(5 * k + j);
+        let many = settings.droplets > 1;
+        let wide = if many { off(0.6 + 0.8 * random(4096), 2.0) } else { exact(1.0) };
+        let p = placed(c, wide, [u(0), u(1), u(2)], view, settings);
         let v = Off::direction(view.view.transform_vector3(particle.velocity));
         let depth = depth_of(p);
-        let (mut one, pixel) = droplet(p, v, size, view, settings);
+        let (h, thin) = settings.half_axis(k, u(3));
+        let (mut one, pixel) = droplet(p, v, h, view, settings);
+        one.amount = one.amount * thin;
         let twice = exact(2.0) * (one.ellipse.a + pixel);
         one.drawn = drawn.and(more(depth, twice)).and(more(depth, near));
         one.amount = share * one.amount;
@@ -170,13 +200,13 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
 
 /// Where a droplet of three random numbers is. The direction's parts are off by the root, by sine,
 /// cosine and their argument, and by a product; the world's offset by two products.
-fn placed(c: Off, u: [f64; 3], view: &View, settings: &Settings) -> Off {
+fn placed(c: Off, wide: Rounded, u: [f64; 3], view: &View, settings: &Settings) -> Off {
     let level = exact(2.0 * u[0] - 1.0);
     let ring = (exact(1.0) - level * level).clamp(0.0, 1.0).sqrt();
     let (turn, third) = (TAU * u[1], off(1.0 / 3.0, 1.0));
     let way = DVec3::new(ring.v * turn.cos(), ring.v * turn.sin(), level.v);
     let way_e = ring.e + ring.v * (SQRT_2 * (TRIGONOMETRY + U) + 2.0 * U * turn);
-    let away = off(settings.spread * settings.spacing, 1.0) * exact(u[2]).pow(third);
+    let away = wide * off(settings.spread * settings.spacing, 1.0) * exact(u[2]).pow(third);
     let eye = Off::direction(view.view.transform_vector3(away.v * way));
     let v = c.v + eye.v;
     let from = away.e + away.v * (way_e + 2.0 * U);
@@ -187,14 +217,15 @@ fn placed(c: Off, u: [f64; 3], view: &View, settings: &Settings) -> Off {
 ///
 /// By the error of the motion m the axes turn in their plane, straight at the eye by any angle. Out
 /// of it they do not go, whatever is left of m there: a circle stays one.
-fn droplet(p: Off, v: Off, size: Rounded, view: &View, settings: &Settings) -> (Droplet, Rounded) {
+fn droplet(p: Off, v: Off, h: Rounded, view: &View, settings: &Settings) -> (Droplet, Rounded) {
     let n = p.normalize();
     let along = v.dot(n);
     let m = v.v - along.v * n.v;
     let m_e = v.e + along.e + along.v.abs() * (n.e + U) + U * m.length();
     let m = Off { v: m, e: m_e };
     let speed = m.length();
-    let moving = more(speed, off(STILL * settings.spacing, 1.0));
+    let towards = off(HEAD_ON * v.v.length(), 4.0);
+    let moving = more(speed, at_least(off(STILL * settings.spacing, 1.0), towards));
     let angle = m.e / (m.v.length() - m.e).max(f64::MIN_POSITIVE);
     let turn = if moving.surely { angle } else { 1.0 };
     let side = if n.v.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
@@ -203,9 +234,6 @@ fn droplet(p: Off, v: Off, size: Rounded, view: &View, settings: &Settings) -> (
     let e1 = Off { v: e1, e: 24.0 * U };
     let e2 = e1.cross(n);
 
-    let whole = settings.size * RADIUS * settings.spacing / f64::from(settings.droplets).sqrt();
-    // Radius 2u, products 2u, root 9u, quotient 5u.
-    let h = size * off(whole, 18.0);
     let pixel = depth_of(p) * off(view.c_x().max(view.c_y()), 2.0);
     let least = off(LEAST, 1.0) * pixel;
     let a = at_least(h + off(0.5 * settings.shutter, 1.0) * speed, least);
@@ -255,23 +283,34 @@ pub fn spray(
             let rounding = U * (0.5 + 9.0 + 14.0 + 2.0);
             if one.drawn.surely && hit.sure {
                 let least = (top.v - top.e).max(0.0) * kernel((q.v + q.e).min(1.0));
-                *low.at_mut(x, y) += least * (1.0 - rounding);
+                *low.at_mut(x, y) += in_steps(least * (1.0 - rounding), -1.0, settings.step);
             }
             let most = (top.v + top.e) * kernel((q.v - q.e).max(0.0));
-            *high.at_mut(x, y) += most * (1.0 + rounding);
+            *high.at_mut(x, y) += in_steps(most * (1.0 + rounding), 1.0, settings.step);
             *count.at_mut(x, y) += 1;
         }
     }
     for (i, n) in count.data.iter().enumerate() {
-        low.data[i] = summed(low.data[i], *n)[0];
-        high.data[i] = summed(high.data[i], *n)[1];
+        low.data[i] = summed(low.data[i], *n, settings.step)[0];
+        high.data[i] = summed(high.data[i], *n, settings.step)[1];
     }
     Spray { depth, bounds: Between { low, high }, count }
 }
 
+/// What an addend may be rounded to, at least or at most by the sign.
+fn in_steps(addend: f64, sign: f64, step: f64) -> f64 {
+    if step == 0.0 {
+        return addend;
+    }
+    ((addend / step + 0.5 + sign * 2.0 * U).floor() * step).max(0.0)
+}
+
 /// Least and most that half precision makes of a sum of so many additions, in any order: each is of
 /// no more than the whole, rounded to the nearest or, which Vulkan leaves open, towards zero.
-fn summed(sum: f64, count: u32) -> [f64; 2] {
+fn summed(sum: f64, count: u32, step: f64) -> [f64; 2] {
+    if step > 0.0 && sum <= EXACT {
+        return [sum; 2];
+    }
     let (n, (by, least)) = (f64::from(count), HALF);
     let low = sum * (1.0 - 2.0 * by).powf(n) - 2.0 * n * least;
     [low.max(0.0), sum * (1.0 + by).powf(n) + n * least]
@@ -279,6 +318,9 @@ fn summed(sum: f64, count: u32) -> [f64; 2] {
 
 /// The same of a sum that was made so itself, in another order.
 pub fn summed_again(sum: f64, count: u32) -> [f64; 2] {
+    if sum < EXACT {
+        return [sum; 2];
+    }
     let (n, (by, least)) = (f64::from(count), HALF);
     let ratio = ((1.0 + by) / (1.0 - 2.0 * by)).powf(n);
     // Three of the least, or two times a ratio and one.
@@ -313,6 +355,7 @@ mod tests {
             spread: 0.0,
             densities: [0.6, 0.85],
             shutter: 1.0 / 60.0,
+            step: 0.0,
         }
     }
 
@@ -351,10 +394,11 @@ mod tests {
                 total(&[particle(at)], &view, &settings)
             );
         }
-        // Droplets are as much together, in the mean of the squares of 0.5 to 1.5.
+        // Droplets are as much together, but for the first, which is mist.
+        let mist = MIST[1] * (MIST[0] * 0.7 * 0.5 / h).powi(2);
         let many = Settings { droplets: 16, spread: 0.7, ..settings };
         let all: Vec<_> = (0..60).map(|id| Particle { id, ..particle(at) }).collect();
-        let ratio = total(&all, &view, &many) * area / (60.0 * expected * (1.0 + 1.0 / 12.0));
+        let ratio = total(&all, &view, &many) * area / (60.0 * expected * (15.0 / 16.0 + mist));
         assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     }
 
@@ -408,7 +452,7 @@ mod tests {
         let [all, none] = settings.densities.map(|d| d as f32 * rest);
         let scale = view.slope_step().as_vec2();
         let first = ((view.shift() - 1.0) / view.focal()).as_vec2();
-        let share = 1.0 - step(all, none.max(all + 1e-6), particle.density as f32);
+        let share = 1.0 - step(all, none.max(all * 1.000001 + 1e-6), particle.density as f32);
         let c = to_eye.transform_point3(particle.position.as_vec3());
         let v = to_eye.transform_vector3(particle.velocity.as_vec3());
         if share <= 0.0 || -c.z <= near.max(2.0 * spread) {
@@ -419,23 +463,28 @@ mod tests {
             let (level, turn) = (2.0 * u[0] - 1.0, std::f32::consts::TAU * u[1]);
             let ring = (1.0 - level * level).max(0.0).sqrt();
             let way = Vec3::new(ring * turn.cos(), ring * turn.sin(), level);
-            let p = c + to_eye.transform_vector3(spread * u[2].powf(1.0 / 3.0) * way);
-            let g = if n > 1 { 0.5 + u[3] } else { 1.0 };
+            let wide = 0.6 + 0.8 * classify::random(SEED, 4096, particle.id);
+            let far = spread * u[2].powf(1.0 / 3.0) * if n > 1 { wide } else { 1.0 };
+            let p = c + to_eye.transform_vector3(far * way);
             let normal = p / p.length();
             let m = v - v.dot(normal) * normal;
             let speed = m.length();
             let side = if normal.y.abs() < 0.9 { Vec3::Y } else { Vec3::X };
-            let e1 = if speed > 1e-6 * s { m } else { side.cross(normal) };
+            let e1 = if speed > (1e-6 * s).max(1e-3 * v.length()) { m } else { side.cross(normal) };
             // Straight at the eye e1 is noise in all directions.
             let e2 = (e1 / e1.length()).cross(normal);
             let e2 = if e2.length() > 1e-3 { e2 } else { side.cross(normal).cross(normal) };
             let e2 = e2 / e2.length();
             let e1 = normal.cross(e2);
-            let h = g * settings.size as f32 * 0.656 * s / (n as f32).sqrt();
+            let squares = if n > 1 { 0.513 * n as f32 } else { 1.0 };
+            let g = if n > 1 { 0.35 + 1.15 * u[3] * u[3] * u[3] } else { 1.0 };
+            let mist = n > 1 && k == 0;
+            let h = g * settings.size as f32 * 0.656 * s / squares.sqrt();
+            let (h, thin) = if mist { (0.7 * spread, 0.08) } else { (h, 1.0) };
             let pixel = -p.z * scale.abs().max_element();
             let a = (h + 0.5 * speed * settings.shutter as f32).max(0.7 * pixel);
             let b = h.max(0.7 * pixel);
-            let amount = share * -(1.0 - settings.opacity as f32).ln() * h * h / (a * b);
+            let amount = thin * share * -(1.0 - settings.opacity as f32).ln() * h * h / (a * b);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;
             }
