@@ -321,6 +321,24 @@ vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
     return mix(c, sheet.mirrored, sheet.mirror * first) + sheet.shine * first;
 }
 
+// The sun's share at the foam, by the mean depth of its frontmost about a pixel (thesis Sec. 4.10 has the
+// nine next to each other): a sprite by itself is no surface, its outline would be a shadow's.
+vec3 sun_on_foam(vec2 pixel) {
+    float here = min(texelFetch(foam_depth, ivec2(pixel), 0).x, frame.depth.w);
+    float step = clamp(frame.particle.x / (frame.texel.x * here), 1.0, 32.0);
+    float sum = 0.0;
+    float count = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = ivec2(pixel + step * vec2(i % 3 - 1, i / 3 - 1));
+        float z = texelFetch(foam_depth, clamp(at, ivec2(0), ivec2(frame.extent.xy) - 1), 0).x;
+        bool same = abs(z - here) <= frame.smoothing.y;
+        sum += same ? z - here : 0.0;
+        count += same ? 1.0 : 0.0;
+    }
+    float mean = here + sum / max(count, 1.0);
+    return sunlight(mean * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
+}
+
 // Colour of scene, water and foam at a pixel (its centre, at +0.5).
 vec3 layers_at(vec2 pixel, float front) {
     float threshold = frame.surface.w;
@@ -354,8 +372,13 @@ vec3 layers_at(vec2 pixel, float front) {
     if (SHEETS == 2u) {
         Surface other = surface_at(levels.level[2], pixel, covers ? -1.0 : front, threshold);
         if (covers) {
+            // As the air between closes they become one: the cells that tell them apart don't show.
+            float open = smoothstep(1.0, 4.0, (other.z - surface.z - t) / frame.particle.y);
+            open = other.covered > 0.0 ? open : 1.0;
+            t += (1.0 - open) * share.y;
+            share *= open;
             back = behind(other, pixel, share.y, share.x);
-            beyond = other.covered > 0.0 ? other.z : 0.0;
+            beyond = other.covered > 0.0 ? mix(surface.z, other.z, share.x) : 0.0;
         }
         // The reduction widens what is in front by a texel, over what is behind: of that it leaves
         // rims.
@@ -386,22 +409,23 @@ vec3 layers_at(vec2 pixel, float front) {
         }
         return over(sheet, c);
     }
-    // The sun at the foam, by where its frontmost lies; drops before it may be lit otherwise.
-    float at = min(texelFetch(foam_depth, ivec2(pixel), 0).x, frame.depth.w);
-    vec3 sun = SHADOW + CAST > 0u ? sunlight(at * vec3(ray_slope(pixel, frame.slope), -1.0), pixel) : vec3(1.0);
+    vec3 sun = SHADOW + CAST > 0u ? sun_on_foam(pixel) : vec3(1.0);
     Foam foam = foam_of(pixel, sun);
     foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
     if (front >= EMPTY) {
         return mix(foam.color, scene_at(pixel), foam.depth < EMPTY ? foam.kept : 1.0);
     }
-    bool behind_air = covers && foam.depth >= boundary;
-    if (behind_air) {
-        sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
-        return over(sheet, over_with(back, max(all.y - t, 0.0), share.y, foam, c));
+    // Behind as much air as there is: where there is none both sheets are one.
+    float behind_air = covers && foam.depth >= boundary ? share.x : 0.0;
+    vec3 apart = c;
+    if (behind_air > 0.0) {
+        Sheet whole = sheet;
+        whole.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
+        apart = over(whole, over_with(back, max(all.y - t, 0.0), share.y, foam, c));
     }
     back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
     c = back.path > 0.0 ? over(back, c) : c;
-    return over_with(sheet, min(all.y, t), t, foam, c);
+    return mix(over_with(sheet, min(all.y, t), t, foam, c), apart, behind_air);
 }
 
 // All layers at a pixel where water, foam or spray is: spray lies over the others.

@@ -342,6 +342,11 @@ pub fn air(window: f64, spacing: f64) -> f64 {
     1.0 - smoothstep(0.1 * spacing, 0.6 * spacing, window)
 }
 
+/// How much of the air between two sheets so far apart is left to tell them apart.
+pub fn open(gap: f64, spacing: f64) -> f64 {
+    smoothstep(1.0, 4.0, gap / spacing)
+}
+
 /// The two images of surfaces of a frame with two sheets, ready to be asked pixel by pixel.
 pub struct Two<'a> {
     inputs: Inputs<'a>,
@@ -400,6 +405,10 @@ impl<'a> Two<'a> {
             let there = is_surface(nearest);
             let own = if there { nearest } else { f };
             let found = backs.smooth(x, y, own, &mut margin);
+            // As the air between closes they become one.
+            let open = if there { open(found.z - smooth.z - t, self.spacing) } else { 1.0 };
+            t += (1.0 - open) * t2;
+            (t2, apart) = (open * t2, open * apart);
             let mut surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
             // Without a depth of its own it has all the room.
             surface.thickness = if there { surface.thickness } else { t2 };
@@ -432,7 +441,7 @@ pub fn look_up_both(settings: &Settings, shown: &Shown, view: &View, pixel: DVec
     // What hides it at the pixel hides all of it.
     if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
         by += back.covered * displacement(settings, &back.surface, view);
-        z = z.max(-back.surface.position.z);
+        z = z.max(z + (-back.surface.position.z - z) * back.apart);
     }
     (pixel + bent(by, view), z)
 }

@@ -5,11 +5,11 @@ use glam::{DVec2, DVec3};
 
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
-use crate::reference::View;
 use crate::reference::composite::{
     Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
 };
 use crate::reference::surface::{Case, Surface};
+use crate::reference::{View, is_surface};
 
 /// What filtering may do to what is looked up.
 #[derive(Clone, Copy)]
@@ -258,7 +258,13 @@ fn sheets(
         sums[1] = sums[1] + weight(w) * (air * back);
         sums[2] = sums[2] + weight(w) * air;
     }
-    sums
+    let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) else { return sums };
+    // Depths are means of 13u, mixed once more.
+    let z = |surface: &Surface| off(-surface.position.z, 39.0);
+    let [t, t2, apart] = sums;
+    let gap = (z(&back.surface) - z(&shown.front) - t) / spacing;
+    let open = smoothstep(exact(1.0), exact(4.0), gap);
+    [t + (exact(1.0) - open) * t2, t2 * open, apart * open]
 }
 
 /// The same of a pixel that may show two sheets; `envs`: of the front one and the back one.
