@@ -65,8 +65,7 @@ impl Hinge {
         let arm = glam::Quat::from_rotation_z(self.turn) * self.lever;
         let weight = self.torque(self.axle + arm, self.mass * GRAVITY);
         let torque = impulse / dt + weight - self.friction * self.speed;
-        self.acceleration =
-            (torque + carried * self.acceleration) / (self.inertia + carried);
+        self.acceleration = (torque + carried * self.acceleration) / (self.inertia + carried);
         self.speed += self.acceleration * dt;
         let [low, high] = self.range;
         let outward = if self.turn <= low {
@@ -105,9 +104,8 @@ mod tests {
     #[test]
     fn it_keeps_its_energy() {
         let mut hinge = pendulum();
-        let energy = |h: &Hinge| {
-            0.5 * h.inertia * h.speed * h.speed + h.mass * 9.81 * 0.5 * h.turn.sin()
-        };
+        let energy =
+            |h: &Hinge| 0.5 * h.inertia * h.speed * h.speed + h.mass * 9.81 * 0.5 * h.turn.sin();
         for _ in 0..2000 {
             hinge.accelerate(0.0, 0.0, 5e-4);
             hinge.advance(5e-4);

@@ -191,8 +191,7 @@ impl Simulation {
     fn pose(&mut self) {
         let solids = self.scene.posed(self.scene.hinge.as_ref().map_or(0.0, |hinge| hinge.turn));
         let solids = solids.into_iter().filter(|solid| solid.collides);
-        self.obstacles =
-            solids.map(|solid| Obstacle { reach: solid.reach(), solid }).collect();
+        self.obstacles = solids.map(|solid| Obstacle { reach: solid.reach(), solid }).collect();
     }
 
     fn spawn(&mut self, at: Vec3, velocity: Vec3) {

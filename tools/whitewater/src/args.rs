@@ -77,7 +77,8 @@ pub struct RenderArgs {
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,
-    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, spheres);
+    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, tubes, spheres;
+    /// parts may move, with a pose for each frame, as 'whitewater simulate' writes them);
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
@@ -167,7 +168,9 @@ pub struct DrawArgs {
 #[derive(Args, Debug)]
 pub struct CameraArgs {
     /// Camera as JSON: {"eye":[x,y,z],"target":[..],"up":[..],"fov_y_degrees":40,"near":0.1,
-    /// "far":1000}, or {"view":[16],"projection":[16]} column-major, for Vulkan's clip space
+    /// "far":1000}, or {"view":[16],"projection":[16]} column-major, for Vulkan's clip space. It moves
+    /// by {"keys":[{"frame":1,"eye":[..],"target":[..]},...]}, each with up and fov_y_degrees if it
+    /// likes: a Catmull-Rom spline over the frames' numbers, at rest in the first key and the last
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub file: Option<PathBuf>,
     /// Position of the camera [default: found from the particles]

@@ -32,7 +32,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
     if let Some(camera) = &camera {
-        camera.camera(args.draw.size)?;
+        camera.check(frames.iter().map(|f| f.number), args.draw.size)?;
     }
     for target in &checked.0 {
         output::probe(&target.path(frames.first().map_or(0, |f| f.number)))?;
@@ -130,6 +130,8 @@ fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
 /// A few frames of the whole sequence, from which its look is found: the same however it is cut into jobs.
 struct Probes {
     frames: Vec<Particles>,
+    /// The number of the first of the sequence.
+    first: u64,
 }
 
 impl Probes {
@@ -153,7 +155,7 @@ impl Probes {
                 (None, None) => {}
             }
         }
-        Ok(Self { frames })
+        Ok(Self { frames, first: all.first().map_or(0, |f| f.number) })
     }
 
     fn spacing(&self) -> Option<f32> {
@@ -238,7 +240,7 @@ fn look(
         Some(path) => stage::read(path)?,
         None => {
             let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
-            let view = camera.camera(args.draw.size)?.view;
+            let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
             let eye = view.inverse().transform_point3(Vec3::ZERO);
             match stage::basin_round(&frames, &bounds, spacing, eye) {
                 Some(basin) => {

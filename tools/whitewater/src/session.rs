@@ -8,7 +8,7 @@ use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Head
 use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, WaterSettings};
-use whitewater::{Camera, Config, Settings};
+use whitewater::{Config, Settings};
 
 use crate::args::{DrawArgs, SprayArg};
 use crate::camera::{CameraFile, Lens};
@@ -35,8 +35,8 @@ pub struct Session<'a> {
     targets: Vec<Target>,
     wanted: Vec<&'static str>,
     look: Look,
-    camera: Camera,
-    lens: Lens,
+    /// The frame whose scene is on the device.
+    staged: u64,
     /// A device without a renderer yet, or a renderer, or neither after an error.
     device: Option<Device>,
     headless: Option<Headless>,
@@ -85,8 +85,6 @@ impl<'a> Session<'a> {
         (targets, wanted): (Vec<Target>, Vec<&'static str>),
         look: Look,
     ) -> Outcome<Self> {
-        let camera = look.camera.camera(args.size)?;
-        let lens = Lens::new(&camera)?;
         for path in [&args.timings, &args.trace].into_iter().flatten() {
             output::probe(path)?;
         }
@@ -101,8 +99,7 @@ impl<'a> Session<'a> {
             targets,
             wanted,
             look,
-            camera,
-            lens,
+            staged: 0,
             device,
             headless: None,
             times: Times::new(),
@@ -154,6 +151,7 @@ impl<'a> Session<'a> {
             }
         }
         headless.scene(&self.look.scene, true)?;
+        self.staged = self.look.scene.frame;
         self.headless = Some(headless);
         Ok(())
     }
@@ -173,10 +171,18 @@ impl<'a> Session<'a> {
         particles: &Particles,
         times: &mut Times,
     ) -> Outcome<()> {
+        self.look.scene.frame = number;
         times.step("prepare", number, || self.make_room(particles.positions.len()))?;
+        let camera_file = self.look.camera.at_frame(number);
+        let camera = camera_file.camera(self.args.size)?;
+        let lens = Lens::new(&camera)?;
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
+        if !self.look.scene.rests_between(self.staged, number) {
+            times.step("scene", number, || headless.scene_frame(&self.look.scene, true))?;
+            self.staged = number;
+        }
         // Spray goes by density.
         let water = &self.look.settings.water;
         let guessed =
@@ -194,11 +200,11 @@ impl<'a> Session<'a> {
             times.step("foam", number, || headless.step(None, settings))?;
         }
         times.step("draw", number, || {
-            headless.render(&self.camera, &self.look.settings, &Background::Scene)
+            headless.render(&camera, &self.look.settings, &Background::Scene)
         })?;
         times.passes(number, headless.timings());
         let layers = times.step("read back", number, || {
-            layers::collect(headless, self.args.size, &self.wanted, &self.lens)
+            layers::collect(headless, self.args.size, &self.wanted, &lens)
         })?;
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {
@@ -208,7 +214,7 @@ impl<'a> Session<'a> {
                 format!("expected no validation messages, found {}: {first}", messages.len()),
             ));
         }
-        let layers = self.with_attributes(layers, source);
+        let layers = self.with_attributes(layers, source, &camera_file);
         for target in &self.targets {
             let path = target.path(number);
             times.step("write", number, || self.write(target.format, &path, &layers))?;
@@ -224,13 +230,13 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn with_attributes(&self, mut layers: Layers, source: &str) -> Layers {
+    fn with_attributes(&self, mut layers: Layers, source: &str, camera: &CameraFile) -> Layers {
         let mut note = |name: &str, value: String| {
             layers.attributes.push((name.into(), value));
         };
         note("version", env!("CARGO_PKG_VERSION").into());
         note("input", source.into());
-        note("camera", self.look.camera.json());
+        note("camera", camera.json());
         note("settings", settings::to_toml(&self.look.settings));
         note("environment", self.args.environment.clone());
         if let Some(headless) = &self.headless {

@@ -33,10 +33,10 @@ const DEPTH: f32 = 0.17;
 /// The top of the ground.
 const GROUND: f32 = -0.07;
 /// Where the spout ends, how it slopes (degrees), its outer and inner radius, its length.
-const SPOUT: Vec3 = Vec3::new(0.28, 1.42, 0.0);
-const SPOUT_SLOPE: f32 = 12.0;
-const SPOUT_RADII: [f32; 2] = [0.085, 0.06];
-const SPOUT_LENGTH: f32 = 1.1;
+const SPOUT: Vec3 = Vec3::new(0.16, 1.42, 0.0);
+const SPOUT_SLOPE: f32 = 5.0;
+const SPOUT_RADII: [f32; 2] = [0.075, 0.05];
+const SPOUT_LENGTH: f32 = 0.95;
 
 /// The scene 'bamboo'.
 pub fn bamboo() -> Scene {
@@ -74,15 +74,16 @@ pub fn bamboo() -> Scene {
         let (low, high) = ([-0.035, GROUND, z - 0.03], [0.035, AXLE.y + 0.09, z + 0.03]);
         Solid::spanning(name, "timber", low, high)
     };
-    let bowl = Vec3::new(BOWL_RADIUS + BOWL_WALL, 0.5 * BOWL_HEIGHT, BOWL_RADIUS + BOWL_WALL);
+    let bowl =
+        Vec3::new(BOWL_RADIUS + BOWL_WALL, 0.5 * (BOWL_HEIGHT - GROUND), BOWL_RADIUS + BOWL_WALL);
+    let foot = BOWL + Vec3::Y * GROUND;
     let bowl_shape = Shape::Tube { bore: BOWL_RADIUS, slope: 0.0 };
     // The floor ends inside of the wall, where their faces do not fight.
     let floor = BOWL_RADIUS + 0.5 * BOWL_WALL;
-    let foot = BOWL + Vec3::Y * GROUND;
     solids.extend([
         post("post, back", -0.2),
         post("post, front", 0.2),
-        Solid::new("bowl", "stone", bowl_shape, BOWL + Vec3::Y * bowl.y, bowl, 0.0),
+        Solid::new("bowl", "stone", bowl_shape, foot + Vec3::Y * bowl.y, bowl, 0.0),
         Solid::standing("bowl, floor", "stone", foot.to_array(), floor, -GROUND),
         Solid::standing("striking stone", "stone", [-0.35, GROUND, 0.0], 0.13, 0.43),
     ]);
@@ -117,13 +118,7 @@ pub fn bamboo() -> Scene {
         ground: GROUND,
         ground_material: "sand",
         fills: vec![
-            Fill::Bore {
-                foot: BOWL,
-                angle: 0.0,
-                radius: BOWL_RADIUS,
-                length: DEPTH,
-                level: DEPTH,
-            },
+            Fill::Bore { foot: BOWL, angle: 0.0, radius: BOWL_RADIUS, length: DEPTH, level: DEPTH },
             Fill::Bore {
                 foot: AXLE + along * NODES[0][1],
                 angle,
@@ -136,9 +131,9 @@ pub fn bamboo() -> Scene {
             origin: SPOUT,
             along: downstream,
             up: Vec3::Z.cross(downstream),
-            start: -0.35,
+            start: -0.3,
             section: Section::Pipe { radius: within },
-            speed: 1.3,
+            speed: 1.1,
             opens: -0.5,
             closes: f32::INFINITY,
         }],

@@ -81,18 +81,14 @@ pub fn waterfall() -> Scene {
         post("post, back", -0.27),
         post("post, front", 0.27),
     ];
-    let view =
-        Key { at: 0.0, eye: Vec3::new(0.6, 2.4, 4.3), target: Vec3::new(-0.45, 0.37, 0.0) };
+    let view = Key { at: 0.0, eye: Vec3::new(0.6, 2.4, 4.3), target: Vec3::new(-0.45, 0.37, 0.0) };
     let key = |at, eye, target| Key { at, eye: Vec3::from(eye), target: Vec3::from(target) };
     Scene {
         name: "waterfall",
         solids,
         ground: GROUND,
         ground_material: "ground",
-        fills: vec![Fill::Basin {
-            min: Vec3::new(-x, 0.0, -z),
-            max: Vec3::new(x, POOL_DEPTH, z),
-        }],
+        fills: vec![Fill::Basin { min: Vec3::new(-x, 0.0, -z), max: Vec3::new(x, POOL_DEPTH, z) }],
         inlets: vec![Inlet {
             origin: LIP,
             along,
