@@ -60,8 +60,8 @@ pub fn corridor() -> Scene {
         pillar(-2.3, 0.32),
         pillar(-1.35, -0.38),
         pillar(-0.35, 0.28),
-        pillar(1.45, -0.05),
-        pillar(2.45, -0.45),
+        pillar(1.3, -0.3),
+        pillar(2.3, -0.54),
     ]);
     solids.extend([
         crate_at(-2.75, -0.5, 0.18),
@@ -70,7 +70,7 @@ pub fn corridor() -> Scene {
         crate_at(1.1, 0.56, 0.2),
         crate_at(1.9, 0.42, 0.15),
     ]);
-    solids.extend([-2.9, -1.7, -0.5, 0.7, 1.9, 3.1].map(beam));
+    solids.extend([-2.9, -1.7, -0.5, 0.7, 1.9].map(beam));
     let key = |at, eye, target| Key { at, eye: Vec3::from(eye), target: Vec3::from(target) };
     Scene {
         name: "corridor",
@@ -96,11 +96,11 @@ pub fn corridor() -> Scene {
         lead: 0.0,
         spacing: 0.04,
         spacings: [0.02, 0.1],
-        view: key(0.0, [3.3, 1.25, 0.55], [0.0, 0.15, -0.1]),
+        view: key(0.0, [3.4, 1.15, 0.25], [0.0, 0.1, -0.12]),
         keys: vec![
-            key(0.0, [3.3, 1.25, 0.55], [0.0, 0.15, -0.1]),
-            key(0.5, [2.6, 0.95, 0.2], [-1.0, 0.3, -0.05]),
-            key(1.0, [1.0, 1.05, 0.45], [-2.2, 0.25, -0.1]),
+            key(0.0, [3.4, 1.15, 0.25], [0.0, 0.1, -0.12]),
+            key(0.5, [2.8, 0.95, 0.3], [-0.8, 0.2, -0.15]),
+            key(1.0, [1.7, 1.0, 0.35], [-1.8, 0.2, -0.15]),
         ],
         fov: 55.0,
     }
