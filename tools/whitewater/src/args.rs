@@ -19,10 +19,10 @@ Exit codes:
 
 const SIMULATE_HELP: &str = "\
 Scenes:
-  waterfall  a chute pours into a basin, past a pillar        20k to 60k particles, minutes
-  corridor   a gate floods a corridor of obstacles            to 62k particles, minutes
-  bamboo     a bamboo pipe fills, tips into a bowl, and falls back   30k to 35k particles,
-             a quarter of an hour
+  waterfall  a chute pours into a basin, past a pillar (to 29k particles)
+  corridor   a gate floods a corridor of obstacles (to 61k)
+  bamboo     a bamboo pipe fills, tips into a bowl, and falls back (to 31k)
+Each takes two to ten minutes.
 
 In DIR, SCENE_0001.bgeo and so on hold positions, velocities, densities and ids; scene.json what
 stands around the water, and how its parts move; camera.json a moving camera. The same on any
