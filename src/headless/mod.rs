@@ -14,6 +14,7 @@ use gpu_allocator::MemoryLocation;
 
 pub use device::{Device, DeviceOptions};
 pub use readback::Picture;
+use scene::bake::Baked;
 use scene::{Scene, SceneFrame, SceneRenderer};
 use submit::{Commands, Parts, begin, submit};
 use transfer::staging;
@@ -286,13 +287,38 @@ impl Headless {
     /// # Errors
     /// No memory, and what Vulkan reports.
     pub fn scene(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
+        self.set_up_scene(scene, antialias, None)
+    }
+
+    /// The scene that was handed in last, in another [`frame`](Scene::frame): its parts have moved,
+    /// and nothing else has changed. What moves takes the baked light along; the sun's shadow is
+    /// drawn anew.
+    ///
+    /// # Errors
+    /// As [`scene`](Self::scene).
+    pub fn scene_frame(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
+        let light = self.scene.as_ref().map(|stage| Arc::clone(&stage.renderer.baked));
+        self.set_up_scene(scene, antialias, light)
+    }
+
+    fn set_up_scene(
+        &mut self,
+        scene: &Scene,
+        antialias: bool,
+        light: Option<Arc<Baked>>,
+    ) -> Result<(), Error> {
         if let Some(old) = self.scene.take() {
             old.renderer.destroy(&self.gpu);
         }
         let gpu = &self.gpu;
-        let made = SceneRenderer::new(gpu, scene, COLOR_FORMAT, DEPTH_FORMAT, antialias).and_then(
-            |renderer| Ok(Stage { descriptors: Descriptors::new(gpu, renderer.sets())?, renderer }),
-        );
+        let (color, depth) = (COLOR_FORMAT, DEPTH_FORMAT);
+        let made = match light {
+            Some(light) => SceneRenderer::with_light(gpu, scene, &light, color, depth, antialias),
+            None => SceneRenderer::new(gpu, scene, color, depth, antialias),
+        };
+        let made = made.and_then(|renderer| {
+            Ok(Stage { descriptors: Descriptors::new(gpu, renderer.sets())?, renderer })
+        });
         if made.is_err() {
             // Nothing was submitted with what was made before the failure.
             gpu.bury();

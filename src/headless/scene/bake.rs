@@ -50,6 +50,8 @@ const EDGES: f32 = 45.0;
 /// Vertices that splitting may make in one mesh.
 const MOST: usize = 400_000;
 
+/// Lights the scene as it is at rest: what moves takes its light with it, and the sun's shadow is
+/// drawn anew.
 pub fn bake(scene: &Scene) -> Baked {
     let (low, high) = scene.bounds();
     let diagonal = (high - low).length().max(1e-6);
@@ -69,6 +71,26 @@ pub fn bake(scene: &Scene) -> Baked {
 }
 
 impl Baked {
+    /// The vertices in the frame that is drawn.
+    pub fn placed(&self, scene: &Scene) -> Vec<Vertex> {
+        let mut vertices = self.vertices.clone();
+        for batch in &self.batches {
+            let Some(pose) = batch.mesh.and_then(|mesh| scene.pose(mesh)) else { continue };
+            let turn = pose.inverse().transpose();
+            let indices = batch.first as usize..(batch.first + batch.count) as usize;
+            // A mesh's vertices follow each other; those of others are of other batches.
+            let (low, high) = self.indices[indices]
+                .iter()
+                .fold((u32::MAX, 0), |(low, high), i| (low.min(*i), high.max(*i)));
+            for vertex in vertices.iter_mut().take(high as usize + 1).skip(low as usize) {
+                let normal = turn.transform_vector3(vertex.normal.into());
+                vertex.position = pose.transform_point3(vertex.at()).to_array();
+                vertex.normal = normal.normalize_or(vertex.normal.into()).to_array();
+            }
+        }
+        vertices
+    }
+
     fn add(
         &mut self,
         mesh: Option<usize>,

@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 use serde::Deserialize;
 
-use super::shapes::FACES;
-use super::{Ground, Material, Mesh, Pattern, Scene, SunLight, Viewpoint};
+use super::shapes::{FACES, quaternion};
+use super::{Ground, Material, Mesh, Motion, Pattern, Scene, SunLight, Viewpoint};
 use crate::environment::Sky;
 
 /// A scene file that could not be read.
@@ -64,7 +64,8 @@ impl Scene {
         super::obj::parse(&bytes).map_err(|why| at(path, why))
     }
 
-    /// Reads the project's own format: boxes, upright cylinders, spheres, a ground, a camera.
+    /// Reads the project's own format: boxes, cylinders and tubes (upright, or turned), spheres, a
+    /// ground, a camera, and for parts that move, by their names, a pose in each frame.
     /// Boxes whose names begin with `basin` form a basin: their faces that look into it are tiled,
     /// with a dark row at the pool's level.
     ///
@@ -93,6 +94,8 @@ struct File {
     camera: Option<FileCamera>,
     fluid: Option<FileFluid>,
     sun: Option<FileSun>,
+    #[serde(default)]
+    motion: Vec<FileMotion>,
 }
 
 #[derive(Deserialize)]
@@ -114,6 +117,11 @@ struct FileCylinder {
     centre: [f32; 3],
     radius: f32,
     height: f32,
+    #[serde(default = "no_rotation")]
+    rotation: [f32; 4],
+    bore: Option<f32>,
+    #[serde(default)]
+    slope: f32,
 }
 
 #[derive(Deserialize)]
@@ -123,6 +131,17 @@ struct FileSphere {
     material: String,
     centre: [f32; 3],
     radius: f32,
+}
+
+/// Bodies that move: where their origin is in each frame, x y z, and how they are turned about it,
+/// x y z w, from how their parts are listed.
+#[derive(Deserialize)]
+struct FileMotion {
+    parts: Vec<String>,
+    origin: [f32; 3],
+    #[serde(default)]
+    first_frame: u64,
+    poses: Vec<[f32; 7]>,
 }
 
 #[derive(Deserialize)]
@@ -227,10 +246,21 @@ impl Scene {
             positive(part.radius, "radius", &part.name)?;
             positive(part.height, "height", &part.name)?;
             let material = material(&part.material, &part.name)?;
-            scene.meshes.push(Mesh {
-                name: part.name,
-                ..Mesh::cylinder(part.centre, part.radius, part.height, material)
-            });
+            let mesh = match part.bore {
+                Some(bore) if !(bore > 0.0 && bore < part.radius) => {
+                    return Err(format!(
+                        "bore of '{}': expected more than 0 and less than the radius, found {bore}",
+                        part.name
+                    ));
+                }
+                Some(bore) => {
+                    let radii = [part.radius, bore];
+                    Mesh::tube(part.centre, radii, part.height, part.slope, material)
+                }
+                None => Mesh::cylinder(part.centre, part.radius, part.height, material),
+            };
+            let transform = mesh.transform * Mat4::from_quat(quaternion(part.rotation));
+            scene.meshes.push(Mesh { name: part.name, transform, ..mesh });
         }
         for part in file.spheres {
             positive(part.radius, "radius", &part.name)?;
@@ -238,6 +268,26 @@ impl Scene {
             scene
                 .meshes
                 .push(Mesh { name: part.name, ..Mesh::sphere(part.centre, part.radius, material) });
+        }
+        for motion in file.motion {
+            let mut meshes = Vec::new();
+            for part in &motion.parts {
+                let named = (0..scene.meshes.len()).filter(|i| scene.meshes[*i].name == *part);
+                let before = meshes.len();
+                meshes.extend(named);
+                if meshes.len() == before {
+                    return Err(format!("motion: expected the name of a part, found '{part}'"));
+                }
+            }
+            let origin = Mat4::from_translation(-Vec3::from(motion.origin));
+            let pose = |[x, y, z, turn @ ..]: &[f32; 7]| {
+                let at = Vec3::new(*x, *y, *z);
+                let pose = Mat4::from_rotation_translation(quaternion(*turn), at) * origin;
+                let fine = pose.is_finite();
+                fine.then_some(pose).ok_or("motion: expected poses of numbers, found infinite ones")
+            };
+            let poses = motion.poses.iter().map(pose).collect::<Result<_, _>>()?;
+            scene.motions.push(Motion { meshes, first_frame: motion.first_frame, poses });
         }
         if let Some(ground) = file.ground {
             let material = material(&ground.material, "ground")?;
@@ -328,12 +378,47 @@ mod tests {
     }
 
     #[test]
+    fn parts_move_from_frame_to_frame() {
+        let json = r#"{"cylinders":[
+            {"name":"pipe","material":"bamboo","centre":[2,0,0],"radius":0.2,"bore":0.1,"height":1,
+             "slope":0.5,"rotation":[0,0,0.70710678,0.70710678]},
+            {"name":"post","material":"timber","centre":[0,0,0],"radius":0.2,"height":1}],
+            "motion":[{"parts":["pipe"],"origin":[1,0,0],"first_frame":5,"poses":[
+                [1,0,0,0,0,0,1],[1,3,0,0,0,0.70710678,0.70710678]]}]}"#;
+        let mut scene = Scene::parse_json(json.as_bytes()).expect("good");
+        let mut middle = |frame| {
+            scene.frame = frame;
+            [0, 1].map(|mesh| {
+                let pose = scene.pose(mesh).unwrap_or_default();
+                pose.transform_point3(scene.meshes[mesh].transform.transform_point3(Vec3::ZERO))
+            })
+        };
+        let near = |a: [Vec3; 2], b: [[f32; 3]; 2]| {
+            assert!(a.iter().zip(b).all(|(a, b)| a.distance(b.into()) < 1e-5), "{a:?} {b:?}");
+        };
+        // Before the first pose and after the last these hold on.
+        near(middle(0), [[2.0, 0.0, 0.0], [0.0; 3]]);
+        near(middle(5), [[2.0, 0.0, 0.0], [0.0; 3]]);
+        near(middle(6), [[1.0, 4.0, 0.0], [0.0; 3]]);
+        near(middle(99), [[1.0, 4.0, 0.0], [0.0; 3]]);
+        assert!(scene.rests_between(0, 5) && !scene.rests_between(5, 6));
+        let (low, high) = scene.bounds();
+        assert!(low.x < -0.19 && high.x > 2.2 && high.y > 4.4, "of all frames: {low} {high}");
+    }
+
+    #[test]
     fn bad_json_says_what_is_wrong() {
         for (from, to, says) in [
             ("\"stone\"", "\"cheese\"", "'cheese'"),
             ("\"radius\":0.2", "\"radius\":-1", "more than 0"),
             ("\"half\":[1,0.05,1]", "\"half\":[1,0.05]", "length 2"),
             ("\"y\":-0.1", "\"y\":\"low\"", "string"),
+            ("\"radius\":0.2", "\"radius\":0.2,\"bore\":0.3", "less than the radius"),
+            (
+                "{\"boxes\"",
+                "{\"motion\":[{\"parts\":[\"x\"],\"origin\":[0,0,0],\"poses\":[]}],\"boxes\"",
+                "'x'",
+            ),
         ] {
             let why = Scene::parse_json(JSON.replacen(from, to, 1).as_bytes()).expect_err(from);
             assert!(why.contains(says), "{why}");

@@ -2,7 +2,7 @@
 //! so that water has something to run over, to refract and to be hidden by. An engine that embeds
 //! the library draws its own.
 
-mod bake;
+pub(in crate::headless) mod bake;
 mod gltf;
 mod load;
 mod obj;
@@ -30,6 +30,32 @@ pub struct Scene {
     pub ground: Option<Ground>,
     /// The camera that the scene's file suggests.
     pub camera: Option<Viewpoint>,
+    /// How meshes move from frame to frame; those in none stand still.
+    pub motions: Vec<Motion>,
+    /// The frame that is drawn; [`Headless::scene_frame`](super::Headless::scene_frame) draws another.
+    pub frame: u64,
+}
+
+/// Meshes that move as one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Their places in [`Scene::meshes`].
+    pub meshes: Vec<usize>,
+    /// The frame of the first pose.
+    pub first_frame: u64,
+    /// World space to world space, from where the meshes' own transforms leave them: one a frame.
+    /// What comes before the first is as in the first, what comes after the last as in the last.
+    pub poses: Vec<Mat4>,
+}
+
+impl Motion {
+    /// The pose in a frame.
+    pub fn pose(&self, frame: u64) -> Mat4 {
+        let index = frame.saturating_sub(self.first_frame);
+        let last = self.poses.len().saturating_sub(1);
+        let pose = self.poses.get(usize::try_from(index).unwrap_or(last).min(last));
+        pose.copied().unwrap_or(Mat4::IDENTITY)
+    }
 }
 
 /// A camera as scene files give it.
@@ -186,6 +212,7 @@ impl Material {
             "timber" => Self::new([0.36, 0.235, 0.135], 0.75, Pattern::Planks { width: 0.12 }),
             "stone" => Self::new([0.47, 0.40, 0.32], 0.8, Pattern::Stone { course: 0.3 }),
             "steel" => Self::new([0.13, 0.14, 0.15], 0.45, Pattern::Plain),
+            "bamboo" => Self::new([0.34, 0.36, 0.10], 0.5, Pattern::Plain),
             "sand" => Self::new([0.55, 0.46, 0.34], 0.95, Pattern::Sand),
             "ground" | "paving" => {
                 Self::new([0.46, 0.42, 0.36], 0.85, Pattern::Paving { size: 0.5 })
@@ -195,8 +222,10 @@ impl Material {
     }
 
     /// The names that [`Material::named`] knows.
-    pub const NAMES: &'static [&'static str] =
-        &["plain", "concrete", "tiles", "timber", "stone", "steel", "sand", "ground", "paving"];
+    pub const NAMES: &'static [&'static str] = &[
+        "plain", "concrete", "tiles", "timber", "stone", "steel", "bamboo", "sand", "ground",
+        "paving",
+    ];
 
     /// Mean colour of all of it, for light that bounces off.
     fn albedo(&self) -> Vec3 {
@@ -213,20 +242,47 @@ impl Material {
 }
 
 impl Scene {
-    /// Corners of the meshes (not the ground) in world space; a unit box where there is none.
+    /// Corners of the meshes (not the ground), wherever they move, in world space; a unit box where
+    /// there is none.
     pub fn bounds(&self) -> (Vec3, Vec3) {
+        self.bounds_in(Mat4::IDENTITY).unwrap_or((Vec3::splat(-0.5), Vec3::splat(0.5)))
+    }
+
+    /// The same in another space; none where there is nothing.
+    fn bounds_in(&self, space: Mat4) -> Option<(Vec3, Vec3)> {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for mesh in &self.meshes {
-            for &position in &mesh.positions {
-                let at = mesh.transform.transform_point3(position.into());
-                low = low.min(at);
-                high = high.max(at);
+        for (index, mesh) in self.meshes.iter().enumerate() {
+            // In all frames, so that the ground and the shadow map, which are laid round it, hold still.
+            let poses = match self.motion_of(index) {
+                Some(motion) => &motion.poses[..],
+                None => &[Mat4::IDENTITY],
+            };
+            for pose in poses {
+                let transform = space * *pose * mesh.transform;
+                for &position in &mesh.positions {
+                    let at = transform.transform_point3(position.into());
+                    if at.is_finite() {
+                        low = low.min(at);
+                        high = high.max(at);
+                    }
+                }
             }
         }
-        if low.is_finite() && high.is_finite() && low.cmple(high).all() {
-            (low, high)
-        } else {
-            (Vec3::splat(-0.5), Vec3::splat(0.5))
-        }
+        low.cmple(high).all().then_some((low, high))
+    }
+
+    fn motion_of(&self, mesh: usize) -> Option<&Motion> {
+        let mut motions = self.motions.iter().filter(|motion| !motion.poses.is_empty());
+        motions.find(|motion| motion.meshes.contains(&mesh))
+    }
+
+    /// What moves a mesh to where it is in the frame that is drawn; none where it stands still.
+    fn pose(&self, mesh: usize) -> Option<Mat4> {
+        self.motion_of(mesh).map(|motion| motion.pose(self.frame))
+    }
+
+    /// Whether two frames look the same.
+    pub fn rests_between(&self, a: u64, b: u64) -> bool {
+        self.motions.iter().all(|motion| motion.pose(a) == motion.pose(b))
     }
 }

@@ -9,6 +9,12 @@ use super::{Material, Mesh};
 /// Outward normals of a box's faces, in the order +x −x +y −y +z −z.
 pub const FACES: [Vec3; 6] = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
 
+/// A rotation from a file, x y z w.
+pub fn quaternion(rotation: [f32; 4]) -> Quat {
+    let rotation = Quat::from_array(rotation);
+    if rotation.length_squared() > 1e-12 { rotation.normalize() } else { Quat::IDENTITY }
+}
+
 impl Mesh {
     /// A box about a centre, turned by a rotation.
     pub fn cuboid(
@@ -28,10 +34,7 @@ impl Mesh {
         material: Material,
         wanted: impl Fn(usize) -> bool,
     ) -> Self {
-        let rotation = Quat::from_array(rotation);
-        let rotation =
-            if rotation.length_squared() > 1e-12 { rotation.normalize() } else { Quat::IDENTITY };
-        let transform = Mat4::from_rotation_translation(rotation, centre.into());
+        let transform = Mat4::from_rotation_translation(quaternion(rotation), centre.into());
         let mut mesh = Self { name: "box".into(), material, transform, ..Self::default() };
         let half = Vec3::from(half);
         for (index, &normal) in FACES.iter().enumerate() {
@@ -93,6 +96,53 @@ impl Mesh {
         mesh
     }
 
+    /// An upright cylinder with a hole along its axis; `centre` is at half its height. Its top is
+    /// cut along y = height / 2 + `slope` x.
+    pub fn tube(
+        centre: [f32; 3],
+        [radius, bore]: [f32; 2],
+        height: f32,
+        slope: f32,
+        material: Material,
+    ) -> Self {
+        const SIDES: u32 = 64;
+        let transform = Mat4::from_translation(centre.into());
+        let mut mesh = Self { name: "tube".into(), material, transform, ..Self::default() };
+        let half = 0.5 * height;
+        let cut = Vec3::new(-slope, 1.0, 0.0).normalize();
+        // A rim at a radius: at the top or the bottom.
+        let rim = |out: Vec3, radius: f32, top: bool| {
+            let at = out * radius;
+            at + Vec3::Y * if top { half + slope * at.x } else { -half }
+        };
+        // Strips from rim to rim: outside, bore, top, bottom. Each goes round counter-clockwise
+        // seen from above, from its first edge to its second, which has its face outside.
+        let strips = [
+            (radius, false, radius, true),
+            (bore, true, bore, false),
+            (radius, true, bore, true),
+            (bore, false, radius, false),
+        ];
+        for (strip, (from, from_top, to, to_top)) in strips.into_iter().enumerate() {
+            let first = mesh.positions.len() as u32;
+            for i in 0..=SIDES {
+                let (sin, cos) = (TAU * i as f32 / SIDES as f32).sin_cos();
+                let out = Vec3::new(cos, 0.0, -sin);
+                let normal = [out, -out, cut, Vec3::NEG_Y][strip];
+                for at in [rim(out, from, from_top), rim(out, to, to_top)] {
+                    mesh.positions.push(at.to_array());
+                    mesh.normals.push(normal.to_array());
+                    let around = TAU * radius * i as f32 / SIDES as f32;
+                    mesh.uvs.push(if strip < 2 { [around, at.y] } else { [at.x, at.z] });
+                }
+                if i < SIDES {
+                    mesh.indices.extend([0, 2, 3, 0, 3, 1].map(|k| first + 2 * i + k));
+                }
+            }
+        }
+        mesh
+    }
+
     /// A sphere.
     pub fn sphere(centre: [f32; 3], radius: f32, material: Material) -> Self {
         const RINGS: u32 = 32;
@@ -144,6 +194,7 @@ mod tests {
         for mesh in [
             Mesh::cuboid([1.0, 2.0, 3.0], [1.0, 0.5, 2.0], [0.0, 0.0, 0.3, 0.954], m()),
             Mesh::cylinder([0.0; 3], 0.4, 2.0, m()),
+            Mesh::tube([0.0; 3], [0.4, 0.3], 2.0, 0.7, m()),
             Mesh::sphere([0.0; 3], 0.4, m()),
             Mesh::plane([0.0, 1.0, 0.0], [2.0, 3.0], m()),
         ] {

@@ -1,11 +1,13 @@
 //! Houdini's classic binary geometry, version 5, as Partio writes it: big-endian, points only.
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
 
 use flate2::{Compression, bufread::MultiGzDecoder, write::GzEncoder};
 use glam::Vec3;
+
+use crate::solver::REST_DENSITY;
 
 /// A frame of particles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,8 +46,24 @@ fn quantised(value: f32, step: f32) -> [u8; 4] {
 }
 
 impl Frame {
+    /// Count, fastest particle, mean and worst compression, in a line.
+    pub fn summary(&self) -> String {
+        let count = self.ids.len().max(1) as f32;
+        let fastest = self.velocities.iter().map(|v| v.length()).fold(0.0, f32::max);
+        let compression = |d: f32| 100.0 * (d / REST_DENSITY - 1.0).max(0.0);
+        let mean: f32 = self.densities.iter().map(|&d| compression(d)).sum::<f32>() / count;
+        let worst = self.densities.iter().map(|&d| compression(d)).fold(0.0, f32::max);
+        format!(
+            "{} particles, {fastest:.2} m/s, compression {mean:.2} % (at most {worst:.1} %)",
+            self.ids.len(),
+        )
+    }
+
     /// Writes the frame, compressed.
-    pub fn write(&self, path: &Path) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// What writing reports.
+    pub fn write(&self, to: impl Write) -> io::Result<()> {
         let count = u32::try_from(self.ids.len()).map_err(|_| invalid("too many particles"))?;
         let mut out: Vec<u8> = Vec::with_capacity(self.ids.len() * 36 + 96);
         out.extend(MAGIC);
@@ -75,12 +93,15 @@ impl Frame {
             out.extend(quantised(self.densities[i], DENSITY_STEP));
         }
         out.extend(EXTRA);
-        let mut file = GzEncoder::new(BufWriter::new(File::create(path)?), Compression::best());
+        let mut file = GzEncoder::new(to, Compression::best());
         file.write_all(&out)?;
         file.finish()?.flush()
     }
 
     /// Reads a frame with the attributes `id`, `velocity` and `density`, in any order among others.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is none of this form.
     pub fn read(path: &Path) -> io::Result<Self> {
         let mut bytes = Vec::new();
         MultiGzDecoder::new(BufReader::new(File::open(path)?)).read_to_end(&mut bytes)?;
@@ -146,7 +167,7 @@ mod tests {
             ids: vec![7, 9],
         };
         let path = std::env::temp_dir().join(format!("whitewater-{}.bgeo", std::process::id()));
-        frame.write(&path)?;
+        frame.write(File::create(&path)?)?;
         let read = Frame::read(&path);
         std::fs::remove_file(&path)?;
         assert_eq!(read?, frame);

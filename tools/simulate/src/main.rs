@@ -1,44 +1,24 @@
-//! Simulates the demo scene 'waterfall' and writes its particles and its geometry.
+//! Looks at what `whitewater simulate` has written, without a GPU.
 //!
 //! ```text
-//! whitewater-simulate waterfall --frames 1-240 --fps 60 --out DIR [--spacing 0.04] [--keep 240]
 //! whitewater-simulate preview FILE.bgeo... [--eye X,Y,Z --target X,Y,Z --fov DEGREES | --ortho METRES]
 //! whitewater-simulate statistics FILE.bgeo...
 //! ```
 
-mod bgeo;
-mod kernel;
-mod neighbours;
-mod preview;
-mod scene;
-mod solver;
-
 use std::error::Error;
-use std::io::{IsTerminal, Write};
-use std::ops::RangeInclusive;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Instant;
 
 use glam::Vec3;
-
-use bgeo::Frame;
-use scene::Scene;
-use solver::{REST_DENSITY, Simulation};
+use whitewater_simulate::{Frame, Scene, preview};
 
 const USAGE: &str = "\
-usage: whitewater-simulate waterfall --out DIR [options]
-         --frames A-B      frames to write; all from 0 to B are simulated (1-240)
-         --fps N           frames per second (60)
-         --spacing METRES  distance of particles at rest (0.04)
-         --keep A[-B]      write these frames only
-         --seed N          of the random numbers (1)
-         --threads N       0: one per core (0)
-       whitewater-simulate preview FILE.bgeo... [options]
-         draws FILE.png
+usage: whitewater-simulate preview FILE.bgeo... [options]
+         draws FILE.png; beside what has moving parts stands its scene.json
          --eye X,Y,Z --target X,Y,Z --fov DEGREES
          --ortho METRES    parallel projection of this width
-         --spacing METRES  (0.04)
+         --spacing METRES  of the particles, unless the scene's own
          --suffix TEXT     draws FILETEXT.png
        whitewater-simulate statistics FILE.bgeo...";
 
@@ -81,17 +61,6 @@ impl Arguments {
         }
     }
 
-    fn range(&self, name: &str) -> Result<Option<RangeInclusive<u32>>> {
-        let Some(text) = self.text(name) else {
-            return Ok(None);
-        };
-        let (from, to) = text.split_once('-').unwrap_or((text, text));
-        match (from.parse(), to.parse()) {
-            (Ok(from), Ok(to)) if from <= to => Ok(Some(from..=to)),
-            _ => Err(format!("--{name}: '{text}' is no range of frames").into()),
-        }
-    }
-
     fn vector(&self, name: &str, default: Vec3) -> Result<Vec3> {
         let Some(text) = self.text(name) else {
             return Ok(default);
@@ -102,89 +71,34 @@ impl Arguments {
             _ => Err(format!("--{name}: '{text}' is not X,Y,Z").into()),
         }
     }
-
-    fn spacing(&self) -> Result<f32> {
-        let spacing: f32 = self.number("spacing", 0.04)?;
-        if (0.01..=0.1).contains(&spacing) {
-            Ok(spacing)
-        } else {
-            Err("--spacing: from 0.01 to 0.1".into())
-        }
-    }
 }
 
-fn waterfall(arguments: &Arguments) -> Result<()> {
-    let out = PathBuf::from(arguments.text("out").ok_or(USAGE)?);
-    let frames = arguments.range("frames")?.unwrap_or(1..=240);
-    let keep = arguments.range("keep")?.unwrap_or_else(|| frames.clone());
-    let fps: f32 = arguments.number("fps", 60.0)?;
-    let spacing = arguments.spacing()?;
-    let seed = arguments.number("seed", 1)?;
-    rayon::ThreadPoolBuilder::new().num_threads(arguments.number("threads", 0)?).build_global()?;
-    if !(fps > 0.0 && fps.is_finite()) {
-        return Err("--fps: must be above zero".into());
+/// The scene that a file belongs to, by its name, and how far its moving solids have turned, by the
+/// `scene.json` beside it.
+fn scene_of(path: &Path) -> Result<(Scene, f32)> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let (name, number) = stem.rsplit_once('_').unwrap_or((&stem, ""));
+    let Some(scene) = Scene::named(name) else {
+        let known = Scene::NAMES.join(", ");
+        return Err(format!("expected a file of {known}, found {}", path.display()).into());
+    };
+    if scene.hinge.is_none() {
+        return Ok((scene, 0.0));
     }
-    std::fs::create_dir_all(&out)?;
-
-    let scene = Scene::waterfall();
-    let mut json = serde_json::to_string_pretty(&scene.to_json(spacing, REST_DENSITY))?;
-    json.push('\n');
-    std::fs::write(out.join("scene.json"), json)?;
-
-    let mut simulation = Simulation::new(scene, spacing, seed);
-    let start = Instant::now();
-    let terminal = std::io::stderr().is_terminal();
-    let last = *frames.end();
-    for number in 0..=last {
-        let steps = simulation.advance_to(number as f32 / fps);
-        if frames.contains(&number) && keep.contains(&number) {
-            let frame = simulation.frame();
-            frame.write(&out.join(format!("waterfall_{number:04}.bgeo")))?;
-        }
-        if terminal || number % 10 == 0 || number == last {
-            let elapsed = start.elapsed().as_secs_f32();
-            let left = elapsed * (last - number) as f32 / (number + 1) as f32;
-            let report = simulation.report();
-            let line = format!(
-                "frame {number}/{last}: {}; {steps} steps, {} + {} iterations, {} lost; {elapsed:.0} s, {left:.0} s left",
-                summary(&simulation.frame()),
-                report.divergence_iterations,
-                report.density_iterations,
-                simulation.lost(),
-            );
-            if terminal {
-                eprint!("\r\x1b[K{line}");
-                std::io::stderr().flush()?;
-            } else {
-                eprintln!("{line}");
-            }
-        }
+    let json: serde_json::Value =
+        serde_json::from_reader(std::fs::File::open(path.with_file_name("scene.json"))?)?;
+    let pose = &json["motion"][0]["poses"][number.parse::<usize>()?];
+    match (pose[5].as_f64(), pose[6].as_f64()) {
+        (Some(sin), Some(cos)) => Ok((scene, 2.0 * sin.atan2(cos) as f32)),
+        _ => Err(format!("{}: its frame has no pose in scene.json", path.display()).into()),
     }
-    if terminal {
-        eprintln!();
-    }
-    Ok(())
-}
-
-/// Count, fastest particle, mean and worst compression, in a line.
-fn summary(frame: &Frame) -> String {
-    let count = frame.ids.len().max(1) as f32;
-    let fastest = frame.velocities.iter().map(|v| v.length()).fold(0.0, f32::max);
-    let compression = |d: f32| (d / REST_DENSITY - 1.0).max(0.0);
-    let mean: f32 = frame.densities.iter().map(|&d| compression(d)).sum::<f32>() / count;
-    let worst = frame.densities.iter().map(|&d| compression(d)).fold(0.0, f32::max);
-    format!(
-        "{} particles, {fastest:.2} m/s, compression {:.2} % (at most {:.1} %)",
-        frame.ids.len(),
-        100.0 * mean,
-        100.0 * worst
-    )
 }
 
 fn statistics(path: &Path, out: &mut impl Write) -> Result<()> {
     let frame = Frame::read(path)?;
-    let scene = Scene::waterfall();
-    writeln!(out, "{}: {}", path.display(), summary(&frame))?;
+    let (scene, turn) = scene_of(path)?;
+    let solids: Vec<_> = scene.posed(turn).into_iter().filter(|s| s.collides).collect();
+    writeln!(out, "{}: {}", path.display(), frame.summary())?;
     let bounds = frame
         .positions
         .iter()
@@ -192,55 +106,38 @@ fn statistics(path: &Path, out: &mut impl Write) -> Result<()> {
     writeln!(out, "  from {:.3} to {:.3}", bounds.0, bounds.1)?;
     let mut nearest: Vec<f32> = Vec::new();
     for &at in &frame.positions {
-        let distances = scene.solids.iter().map(|solid| solid.distance(at).0);
+        let distances = solids.iter().map(|solid| solid.distance(at).0);
         nearest.push(distances.fold(f32::MAX, f32::min));
     }
     let inside = nearest.iter().filter(|&&d| d < 0.0).count();
     let lost = frame.positions.iter().filter(|&&at| scene.lost(at)).count();
     let closest = nearest.iter().copied().fold(f32::MAX, f32::min);
     writeln!(out, "  {inside} in solids (closest {closest:.4} m), {lost} outside")?;
-    let mut pool: Vec<f32> = Vec::new();
-    for (at, &density) in frame.positions.iter().zip(&frame.densities) {
-        if at.y < 0.75 * scene::POOL_DEPTH && at.x.abs() < scene::BASIN_HALF[0] {
-            pool.push(density);
-        }
-    }
-    pool.sort_by(f32::total_cmp);
-    if let Some(last) = pool.len().checked_sub(1) {
-        let at = |part: f32| pool[(part * last as f32) as usize];
+    let mut dense = frame.densities.clone();
+    dense.sort_by(f32::total_cmp);
+    if let Some(last) = dense.len().checked_sub(1) {
+        let at = |part: f32| dense[(part * last as f32) as usize];
         let percentiles = [0.01, 0.05, 0.5, 0.95, 0.99, 1.0].map(at);
-        writeln!(out, "  pool density at 1, 5, 50, 95, 99, 100 %: {percentiles:.1?}")?;
+        writeln!(out, "  density at 1, 5, 50, 95, 99, 100 %: {percentiles:.1?}")?;
     }
-    // Layers would show as peaks of the number of particles over the height.
-    let mut heights = [0usize; 24];
-    for at in &frame.positions {
-        if at.x > 0.4 && at.y < 0.48 {
-            heights[((at.y / 0.02).max(0.0) as usize).min(23)] += 1;
-        }
-    }
-    writeln!(out, "  far half, particles per 2 cm of height: {heights:?}")?;
     Ok(())
 }
 
-fn preview(arguments: &Arguments) -> Result<()> {
+fn draw(arguments: &Arguments) -> Result<()> {
     let parallel: f32 = arguments.number("ortho", 0.0)?;
-    let camera = preview::Camera {
-        eye: arguments.vector("eye", scene::CAMERA_EYE)?,
-        target: arguments.vector("target", scene::CAMERA_TARGET)?,
-        fov: if parallel > 0.0 { 0.0 } else { arguments.number("fov", scene::CAMERA_FOV)? },
-        width: parallel,
-    };
     for path in &arguments.files {
+        let (scene, turn) = scene_of(path)?;
+        let camera = preview::Camera {
+            eye: arguments.vector("eye", scene.view.eye)?,
+            target: arguments.vector("target", scene.view.target)?,
+            fov: if parallel > 0.0 { 0.0 } else { arguments.number("fov", scene.fov)? },
+            width: parallel,
+        };
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let suffix = arguments.text("suffix").unwrap_or_default();
         let picture = path.with_file_name(format!("{stem}{suffix}.png"));
-        preview::draw(
-            &Scene::waterfall(),
-            &Frame::read(path)?,
-            arguments.spacing()?,
-            camera,
-            &picture,
-        )?;
+        let spacing = arguments.number("spacing", scene.spacing)?;
+        preview::draw(&scene, turn, &Frame::read(path)?, spacing, camera, &picture)?;
         println!("{}", picture.display());
     }
     Ok(())
@@ -249,17 +146,9 @@ fn preview(arguments: &Arguments) -> Result<()> {
 fn run() -> Result<()> {
     let mut words = std::env::args().skip(1);
     match words.next().as_deref() {
-        Some("waterfall") => {
-            let known = ["frames", "fps", "out", "spacing", "keep", "seed", "threads"];
-            let arguments = Arguments::parse(words, &known)?;
-            if let Some(file) = arguments.files.first() {
-                return Err(format!("unexpected '{}'\n{USAGE}", file.display()).into());
-            }
-            waterfall(&arguments)
-        }
         Some("preview") => {
             let known = ["eye", "target", "fov", "ortho", "spacing", "suffix"];
-            preview(&Arguments::parse(words, &known)?)
+            draw(&Arguments::parse(words, &known)?)
         }
         Some("statistics") => {
             let arguments = Arguments::parse(words, &[])?;

@@ -9,7 +9,7 @@ use glam::{Mat3, Vec3};
 use rayon::prelude::*;
 
 use crate::bgeo::Frame;
-use crate::scene::{GROUND, Scene};
+use crate::scene::{Scene, Solid};
 
 /// Where to look from. A field of view of zero stands for a parallel projection `width` metres wide.
 #[derive(Clone, Copy, Debug)]
@@ -75,26 +75,28 @@ fn material(name: &str) -> Vec3 {
     match name {
         "timber" => Vec3::new(0.62, 0.48, 0.34),
         "steel" => Vec3::new(0.40, 0.42, 0.45),
+        "bamboo" => Vec3::new(0.55, 0.60, 0.28),
         "stone" => Vec3::new(0.50, 0.46, 0.42),
         _ => Vec3::new(0.78, 0.77, 0.74),
     }
 }
 
 /// The solids (and the ground) along a ray: depth and colour.
-fn trace(scene: &Scene, origin: Vec3, direction: Vec3) -> (f32, [u8; 3]) {
+fn trace(scene: &Scene, solids: &[Solid], origin: Vec3, direction: Vec3) -> (f32, [u8; 3]) {
     let length = direction.length();
     let mut depth = 0.1;
     for _ in 0..160 {
         let at = origin + direction * depth;
-        let ground = (at.y - GROUND, Vec3::Y, Vec3::new(0.55, 0.60, 0.50));
-        let (d, normal, base) = scene.solids.iter().fold(ground, |nearest, solid| {
+        let ground = (at.y - scene.ground, Vec3::Y, Vec3::new(0.55, 0.60, 0.50));
+        let (d, normal, base) = solids.iter().fold(ground, |nearest, solid| {
             let (d, normal) = solid.distance(at);
             if d < nearest.0 { (d, normal, material(solid.material)) } else { nearest }
         });
         if d < 1e-3 {
             return (depth, colour(base, normal));
         }
-        depth += d / length;
+        // The bound of a slanted cut is none of the distance behind it.
+        depth += 0.9 * d / length;
         if depth > 40.0 {
             break;
         }
@@ -102,20 +104,25 @@ fn trace(scene: &Scene, origin: Vec3, direction: Vec3) -> (f32, [u8; 3]) {
     (f32::MAX, [214, 226, 238])
 }
 
-/// Draws a frame. Slow particles are blue, fast ones white.
+/// Draws a frame, its moving solids turned by `turn`. Slow particles are blue, fast ones white.
+///
+/// # Errors
+/// The picture cannot be written.
 pub fn draw(
     scene: &Scene,
+    turn: f32,
     frame: &Frame,
     spacing: f32,
     camera: Camera,
     path: &Path,
 ) -> io::Result<()> {
     let view = View::new(camera);
+    let solids = scene.posed(turn);
     let mut pixels: Vec<(f32, [u8; 3])> = (0..WIDTH * HEIGHT)
         .into_par_iter()
         .map(|i| {
             let (origin, direction) = view.ray(i % WIDTH, i / WIDTH);
-            trace(scene, origin, direction)
+            trace(scene, &solids, origin, direction)
         })
         .collect();
     let turn = view.axes.transpose();

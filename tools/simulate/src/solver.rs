@@ -8,21 +8,21 @@
 //!
 //! Solids enter the density as in Koschier & Bender, "Density Maps for Improved SPH Boundary
 //! Handling" (2017), by the part of the kernel that they cover, here of a half-space at the signed
-//! distance of the solid.
+//! distance of the solid. What pushes the water off a solid that moves pushes the solid too.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::PI;
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use rayon::prelude::*;
 
 use crate::bgeo::Frame;
+use crate::hinge::GRAVITY;
 use crate::kernel::Kernel;
 use crate::neighbours::{BLOCK, Grid, NeighbourBlock};
-use crate::scene::{self, Scene};
+use crate::scene::{Fill, Inlet, Scene, Section, Solid};
 
 /// The rest density of water.
 pub const REST_DENSITY: f32 = 1000.0;
-const GRAVITY: Vec3 = Vec3::new(0.0, -9.81, 0.0);
 /// Kinematic viscosity, m²/s: that of the resolved scale, not of water.
 const VISCOSITY: f32 = 0.004;
 /// The coefficient of the cohesion of Akinci et al., "Versatile Surface Tension and Adhesion for
@@ -45,7 +45,7 @@ const SPRAY_NEIGHBOURS: usize = 20;
 /// The part of a spacing that a particle may move in a step, and the longest step.
 const COURANT: f32 = 0.4;
 const LONGEST_STEP: f32 = 1.0 / 300.0;
-/// The time before frame 0 in which the pool settles, and how fast its motion is damped then.
+/// The time at the beginning in which the water settles, and how fast its motion is damped then.
 const SETTLING: f32 = 0.8;
 const SETTLING_DAMPING: f32 = 8.0;
 
@@ -58,15 +58,41 @@ pub struct StepReport {
     pub density_iterations: u32,
 }
 
+/// A solid that water collides with, where it is now.
+struct Obstacle {
+    solid: Solid,
+    reach: f32,
+}
+
+impl Obstacle {
+    /// The distance, where it is less than `limit`, and the direction in which it grows.
+    fn within(&self, at: Vec3, limit: f32) -> Option<(f32, Vec3)> {
+        let far = self.reach + limit;
+        if (at - self.solid.centre).length_squared() > far * far {
+            return None;
+        }
+        Some(self.solid.distance(at)).filter(|(d, _)| *d < limit)
+    }
+}
+
+/// What an inlet has let in.
+#[derive(Clone, Copy, Debug, Default)]
+struct Inflow {
+    /// How far the last layer has left the inlet.
+    gap: f32,
+    layers: u32,
+}
+
 /// The simulation.
 pub struct Simulation {
     scene: Scene,
+    obstacles: Vec<Obstacle>,
     kernel: Kernel,
     grid: Grid,
     spacing: f32,
     mass: f32,
     seed: u32,
-    /// Seconds since frame 0; negative while the pool settles.
+    /// Seconds since frame 0; negative while the water settles and the scene gets going.
     time: f32,
     waves_started: bool,
 
@@ -82,14 +108,14 @@ pub struct Simulation {
     density: Vec<f32>,
     /// `ρ₀ ∇λ`, the solids' part of the gradient of the density.
     wall: Vec<Vec3>,
+    /// The part of it that is the moving solids'.
+    moving_wall: Vec<Vec3>,
     /// `1 / (|Σ m ∇W|² + Σ |m ∇W|²)`, solids included.
     factor: Vec<f32>,
 
     next_id: u32,
     lost: u32,
-    /// How far the last layer has left the inlet.
-    inflow_gap: f32,
-    inflow_layers: u32,
+    inflows: Vec<Inflow>,
     report: StepReport,
 }
 
@@ -123,20 +149,22 @@ fn for_each<T: Send>(
 }
 
 impl Simulation {
-    /// The pool at rest, before it settles.
+    /// The scene with its first water, before that settles.
     pub fn new(scene: Scene, spacing: f32, seed: u32) -> Self {
         let kernel = Kernel::new(2.0 * spacing);
         let mass = REST_DENSITY / kernel.lattice_sum(spacing);
-        let grid =
-            Grid::new(Vec3::new(-2.9, -0.2, -1.5), Vec3::new(2.1, 2.6, 1.5), kernel.support());
+        let [low, high] = scene.bounds;
+        let grid = Grid::new(low, high, kernel.support());
         let mut simulation = Self {
+            obstacles: Vec::new(),
+            inflows: vec![Inflow::default(); scene.inlets.len()],
+            time: -SETTLING - scene.lead,
             scene,
             kernel,
             grid,
             spacing,
             mass,
             seed,
-            time: -SETTLING,
             waves_started: false,
             position: Vec::new(),
             velocity: Vec::new(),
@@ -146,15 +174,24 @@ impl Simulation {
             neighbours: Vec::new(),
             density: Vec::new(),
             wall: Vec::new(),
+            moving_wall: Vec::new(),
             factor: Vec::new(),
             next_id: 0,
             lost: 0,
-            inflow_gap: 0.0,
-            inflow_layers: 0,
             report: StepReport::default(),
         };
-        simulation.fill_pool();
+        simulation.pose();
+        for fill in simulation.scene.fills.clone() {
+            simulation.fill(fill);
+        }
         simulation
+    }
+
+    /// Brings the moving solids to where the hinge has turned.
+    fn pose(&mut self) {
+        let solids = self.scene.posed(self.scene.hinge.as_ref().map_or(0.0, |hinge| hinge.turn));
+        let solids = solids.into_iter().filter(|solid| solid.collides);
+        self.obstacles = solids.map(|solid| Obstacle { reach: solid.reach(), solid }).collect();
     }
 
     fn spawn(&mut self, at: Vec3, velocity: Vec3) {
@@ -166,25 +203,48 @@ impl Simulation {
         self.fresh = false;
     }
 
-    /// Fills the pool by a lattice so jittered that it settles to a packing without visible layers.
-    fn fill_pool(&mut self) {
+    /// Fills by a lattice so jittered that it settles to a packing without visible layers.
+    fn fill(&mut self, fill: Fill) {
         let h = self.spacing;
         // Solids begin where the density sees them begin.
         let inset = WALL_OFFSET * h;
-        let [half_x, half_z] = scene::BASIN_HALF.map(|half| half - inset);
-        let size = Vec3::new(2.0 * half_x, scene::POOL_DEPTH, 2.0 * half_z);
+        let margin = (CLEARANCE - WALL_OFFSET) * h;
+        // What the lattice fills, in a frame of its own that is turned and moved to its place.
+        let (min, max, origin, turn) = match fill {
+            Fill::Basin { min, max } => (min, max, Vec3::ZERO, 0.0),
+            Fill::Bore { foot, angle, radius, length, .. } => {
+                (Vec3::new(-radius, 0.0, -radius), Vec3::new(radius, length, radius), foot, angle)
+            }
+        };
+        let turn = Quat::from_rotation_z(turn);
+        let (low, high) = (min + inset, max - inset);
+        let size = Vec3::new(high.x - low.x, max.y - min.y, high.z - low.z);
         let count = (size / h).round().as_ivec3();
         let cell = size / count.as_vec3();
-        let low = Vec3::new(-half_x, inset, -half_z);
-        let margin = (CLEARANCE - WALL_OFFSET) * h;
         for y in 0..count.y {
             for z in 0..count.z {
                 for x in 0..count.x {
                     let lattice = Vec3::new(x as f32, y as f32, z as f32) + 0.5;
                     let number = ((y * count.z + z) * count.x + x) as u32;
-                    let at = low + cell * (lattice + 0.9 * jitter(self.seed, number));
-                    let at = at.max(low + margin);
-                    let at = at.min(Vec3::new(half_x - margin, f32::MAX, half_z - margin));
+                    let mut at = low + cell * (lattice + 0.9 * jitter(self.seed, number));
+                    at = at.max(low + margin);
+                    match fill {
+                        Fill::Basin { .. } => {
+                            let wall = high - margin;
+                            at = at.min(Vec3::new(wall.x, f32::MAX, wall.z));
+                        }
+                        Fill::Bore { radius, level, .. } => {
+                            let middle = low + cell * lattice;
+                            let away = Vec3::new(middle.x, 0.0, middle.z).length();
+                            if away > radius - inset || (origin + turn * middle).y > level {
+                                continue;
+                            }
+                            let away = Vec3::new(at.x, 0.0, at.z).length();
+                            let scale = ((radius - CLEARANCE * h) / away.max(1e-6)).min(1.0);
+                            at *= Vec3::new(scale, 1.0, scale);
+                            at = origin + turn * at;
+                        }
+                    }
                     if self.nearest_solid(at) > 0.4 * h {
                         self.spawn(at, Vec3::ZERO);
                     }
@@ -196,8 +256,9 @@ impl Simulation {
     /// Sets standing waves going: the velocity of the linear potential flow in a basin, as it
     /// passes through the flat surface.
     fn start_waves(&mut self) {
-        let [half_x, half_z] = scene::BASIN_HALF;
-        let depth = scene::POOL_DEPTH;
+        let Some(Vec3 { x: half_x, y: depth, z: half_z }) = self.scene.waves else {
+            return;
+        };
         // (half waves along x, half waves along z, amplitude in metres)
         for (m, n, amplitude) in
             [(2.0, 0.0, 0.020), (3.0, 1.0, 0.014), (1.0, 2.0, 0.012), (5.0, 3.0, 0.006)]
@@ -217,27 +278,41 @@ impl Simulation {
         }
     }
 
+    /// The distance of the nearest solid; far ones count as one support away.
     fn nearest_solid(&self, at: Vec3) -> f32 {
-        let distances = self.scene.solids.iter().map(|solid| solid.distance(at).0);
-        distances.fold(f32::MAX, f32::min)
+        self.nearest(at).map_or(self.kernel.support(), |(d, _)| d)
     }
 
-    /// The part of the kernel at `at` that solids cover, and its gradient. Solids that meet at an
-    /// edge overlap; what they leave free is taken to be the product of what each leaves free,
-    /// which is exact for a particle in the corner of perpendicular walls.
-    fn covered(&self, at: Vec3) -> (f32, Vec3) {
+    /// The distance of the nearest solid, and whether it moves; none is farther than a support.
+    fn nearest(&self, at: Vec3) -> Option<(f32, bool)> {
+        let limit = self.kernel.support();
+        let near = self.obstacles.iter().filter_map(|obstacle| {
+            obstacle.within(at, limit).map(|(d, _)| (d, obstacle.solid.moves))
+        });
+        near.reduce(|a, b| if b.0 < a.0 { b } else { a })
+    }
+
+    /// The part of the kernel at `at` that solids cover, its gradient, and the moving solids' part
+    /// of that. Solids that meet at an edge overlap; what they leave free is taken to be the
+    /// product of what each leaves free, which is exact for a particle in the corner of
+    /// perpendicular walls.
+    fn covered(&self, at: Vec3) -> (f32, Vec3, Vec3) {
         let mut free = 1.0;
-        let mut gradient = Vec3::ZERO;
-        for solid in &self.scene.solids {
-            let (d, normal) = solid.distance(at);
-            let d = d - WALL_OFFSET * self.spacing;
-            if d < self.kernel.support() {
-                let (part, slope) = self.kernel.half_space(d);
-                gradient = gradient * (1.0 - part) - normal * (slope * free);
+        let (mut gradient, mut moving) = (Vec3::ZERO, Vec3::ZERO);
+        let offset = WALL_OFFSET * self.spacing;
+        for obstacle in &self.obstacles {
+            if let Some((d, normal)) = obstacle.within(at, self.kernel.support() + offset) {
+                let (part, slope) = self.kernel.half_space(d - offset);
+                let own = normal * (slope * free);
+                gradient = gradient * (1.0 - part) - own;
+                moving *= 1.0 - part;
+                if obstacle.solid.moves {
+                    moving -= own;
+                }
                 free *= 1.0 - part;
             }
         }
-        (1.0 - free, gradient)
+        (1.0 - free, gradient, moving)
     }
 
     /// Sorts the particles and finds neighbours, densities and factors of their positions.
@@ -255,10 +330,10 @@ impl Simulation {
         self.pressure = arranged(&self.pressure, &order);
         self.neighbours = self.grid.neighbours(&self.position, &self.kernel, self.mass);
 
-        let mut all = vec![(0.0, Vec3::ZERO, 0.0); self.position.len()];
+        let mut all = vec![(0.0, Vec3::ZERO, 0.0, Vec3::ZERO); self.position.len()];
         for_each(&mut all, &self.neighbours, |i, local, near, out| {
             let at = self.position[i];
-            let (part, gradient) = self.covered(at);
+            let (part, gradient, moving) = self.covered(at);
             let wall = REST_DENSITY * gradient;
             let mut density = self.mass * self.kernel.value(0.0) + REST_DENSITY * part;
             let (mut sum, mut squares) = (wall, 0.0);
@@ -268,15 +343,54 @@ impl Simulation {
                 squares += g.length_squared();
             }
             let diagonal = sum.length_squared() + squares;
-            *out = (density, wall, if diagonal > 1e-3 { 1.0 / diagonal } else { 0.0 });
+            let factor = if diagonal > 1e-3 { 1.0 / diagonal } else { 0.0 };
+            *out = (density, wall, factor, REST_DENSITY * moving);
         });
         self.density = all.iter().map(|a| a.0).collect();
         self.wall = all.iter().map(|a| a.1).collect();
         self.factor = all.iter().map(|a| a.2).collect();
+        self.moving_wall = all.iter().map(|a| a.3).collect();
         self.fresh = true;
     }
 
-    /// The rate of change of the density, `Dρ/Dt`, for these velocities.
+    /// The part of `Dρ/Dt` that is the moving solids' motion.
+    fn solids_rate(&self) -> Vec<f32> {
+        match &self.scene.hinge {
+            Some(hinge) => {
+                let walls = self.moving_wall.iter().zip(&self.position);
+                walls.map(|(wall, at)| -wall.dot(hinge.velocity(*at))).collect()
+            }
+            None => vec![0.0; self.position.len()],
+        }
+    }
+
+    /// The angular impulse on the hinge by impulses `strength` of the water.
+    fn reaction(&self, strength: &[f32]) -> f64 {
+        let Some(hinge) = &self.scene.hinge else {
+            return 0.0;
+        };
+        // In the order of the particles, whatever the threads do.
+        let walls = self.moving_wall.iter().zip(&self.position).zip(strength);
+        let impulses = walls.map(|((wall, at), strength)| {
+            f64::from(hinge.torque(*at, *wall * (self.mass * strength)))
+        });
+        impulses.sum()
+    }
+
+    /// The moment of inertia of the water that the moving solids carry: what lies against them or
+    /// in a bore.
+    fn carried(&self, axle: Vec3) -> f32 {
+        let moving: Vec<&Solid> =
+            self.obstacles.iter().map(|o| &o.solid).filter(|solid| solid.moves).collect();
+        let inertia = |at: &Vec3| {
+            let arm = (*at - axle).truncate().length_squared();
+            let held = moving.iter().any(|solid| solid.holds(*at));
+            if held { f64::from(self.mass * arm) } else { 0.0 }
+        };
+        self.position.iter().map(inertia).sum::<f64>() as f32
+    }
+
+    /// The rate of change of the density, `Dρ/Dt`, for these velocities between resting solids.
     fn density_rate(&self, velocity: &[Vec3]) -> Vec<f32> {
         let mut rate = vec![0.0; velocity.len()];
         for_each(&mut rate, &self.neighbours, |i, local, near, out| {
@@ -342,38 +456,54 @@ impl Simulation {
         (strength, iterations)
     }
 
-    fn speed_of_inflow(&self) -> f32 {
-        let t = self.time - scene::INLET_OPENS;
-        scene::INLET_SPEED
-            * (1.0 + 0.06 * (TAU * 1.7 * t).sin() + 0.04 * (TAU * 3.9 * t + 1.0).sin())
-    }
-
     /// Lets in what enters during a step, layer after layer, each shifted against the last.
     fn let_in(&mut self, dt: f32) {
-        if self.time < scene::INLET_OPENS {
-            return;
-        }
         let h = self.spacing;
-        let speed = self.speed_of_inflow();
-        let frame = scene::chute_frame();
-        self.inflow_gap += speed * dt;
-        while self.inflow_gap >= h {
-            self.inflow_gap -= h;
-            let across = (2.0 * (scene::CHUTE_HALF_WIDTH / h - WALL_OFFSET)).floor() as i32;
-            let deep = (scene::INLET_DEPTH / h).floor() as i32;
-            for v in 0..deep {
-                for w in 0..across {
-                    let number =
-                        (self.inflow_layers * deep as u32 + v as u32) * across as u32 + w as u32;
-                    let shake = 0.2 * jitter(self.seed ^ 0x5eed, number);
-                    let up = (v as f32 + 0.5 + WALL_OFFSET + shake.y) * h;
-                    let aside = (w as f32 + 0.5 + shake.z - 0.5 * across as f32) * h;
-                    let down = self.inflow_gap - scene::INLET + shake.x * h;
-                    let at = scene::LIP + frame.along * down + frame.up * up + Vec3::Z * aside;
-                    self.spawn(at, frame.along * speed);
-                }
+        for index in 0..self.inflows.len() {
+            let inlet = self.scene.inlets[index].clone();
+            if !inlet.is_open(self.time) {
+                continue;
             }
-            self.inflow_layers += 1;
+            let speed = inlet.speed_at(self.time);
+            let mut inflow = self.inflows[index];
+            inflow.gap += speed * dt;
+            while inflow.gap >= h {
+                inflow.gap -= h;
+                let (across, deep, floor) = match inlet.section {
+                    Section::Channel { half_width, depth } => (
+                        (2.0 * (half_width / h - WALL_OFFSET)).floor() as i32,
+                        (depth / h).floor() as i32,
+                        WALL_OFFSET,
+                    ),
+                    Section::Pipe { radius } => {
+                        let across = (2.0 * (radius / h - WALL_OFFSET)).floor() as i32;
+                        (across, across, -0.5 * across as f32)
+                    }
+                };
+                for v in 0..deep {
+                    for w in 0..across {
+                        let number =
+                            (inflow.layers * deep as u32 + v as u32) * across as u32 + w as u32;
+                        let up = v as f32 + 0.5 + floor;
+                        let aside = w as f32 + 0.5 - 0.5 * across as f32;
+                        if matches!(inlet.section, Section::Pipe { .. })
+                            && up.hypot(aside) > 0.5 * across as f32
+                        {
+                            continue;
+                        }
+                        let stream = (index as u32) << 16;
+                        let shake = 0.2 * jitter(self.seed ^ 0x5eed ^ stream, number);
+                        let up = (up + shake.y) * h;
+                        let aside = (w as f32 + 0.5 + shake.z - 0.5 * across as f32) * h;
+                        let down = inflow.gap + inlet.start + shake.x * h;
+                        let at =
+                            inlet.origin + inlet.along * down + inlet.up * up + Vec3::Z * aside;
+                        self.spawn(at, inlet.along * speed);
+                    }
+                }
+                inflow.layers += 1;
+            }
+            self.inflows[index] = inflow;
         }
     }
 
@@ -402,8 +532,13 @@ impl Simulation {
                 }
             }
             // A wall at half a spacing slows in full, one a spacing away not at all.
-            let touch = (2.0 - 2.0 * self.nearest_solid(at) / self.spacing).clamp(0.0, 1.0);
-            *out = a - velocity * (WALL_FRICTION * touch);
+            let (d, moves) = self.nearest(at).unwrap_or((support, false));
+            let touch = (2.0 - 2.0 * d / self.spacing).clamp(0.0, 1.0);
+            let wall = match &self.scene.hinge {
+                Some(hinge) if moves => hinge.velocity(at),
+                _ => Vec3::ZERO,
+            };
+            *out = a - (velocity - wall) * (WALL_FRICTION * touch);
         });
         out
     }
@@ -415,22 +550,34 @@ impl Simulation {
         let count = self.position.len();
 
         let rate = self.density_rate(&self.velocity);
+        let solids = self.solids_rate();
         let source: Vec<f32> = (0..count)
             .map(|i| {
                 let near = self.neighbours[i / BLOCK].count(i % BLOCK);
-                if near < SPRAY_NEIGHBOURS && self.wall[i] == Vec3::ZERO { -1e9 } else { rate[i] }
+                let spray = near < SPRAY_NEIGHBOURS && self.wall[i] == Vec3::ZERO;
+                if spray { -1e9 } else { rate[i] + solids[i] }
             })
             .collect();
         let tolerance = DIVERGENCE_TOLERANCE * REST_DENSITY / LONGEST_STEP;
-        let (_, divergence_iterations) = self.project(&source, vec![0.0; count], tolerance, 1);
+        let (push, divergence_iterations) = self.project(&source, vec![0.0; count], tolerance, 1);
+
+        let mut torque = self.reaction(&push);
 
         let a = self.accelerations();
+        let hinge = self.scene.hinge.as_ref();
+        // A wall that moves towards the water shortens the step as the water itself does.
+        let walls = hinge.map_or(0.0, |hinge| {
+            let moving = self.obstacles.iter().filter(|o| o.solid.moves);
+            let arms = moving.map(|o| o.solid.centre.distance(hinge.axle) + o.reach);
+            hinge.speed.abs() * arms.fold(0.0, f32::max)
+        });
         let fastest = self
             .velocity
             .iter()
             .zip(&a)
             .map(|(v, a)| (*v + *a * LONGEST_STEP).length())
-            .fold(0.1, f32::max);
+            .fold(0.1, f32::max)
+            + walls;
         let dt = (COURANT * h / fastest).clamp(5e-4, LONGEST_STEP);
         let steps = (limit / dt).ceil().max(1.0);
         let dt = limit / steps;
@@ -439,46 +586,72 @@ impl Simulation {
         }
 
         let rate = self.density_rate(&self.velocity);
-        let source: Vec<f32> =
-            (0..count).map(|i| (self.density[i] - REST_DENSITY) / dt + rate[i]).collect();
+        let source: Vec<f32> = (0..count)
+            .map(|i| (self.density[i] - REST_DENSITY) / dt + (rate[i] + solids[i]))
+            .collect();
         let guess = self.pressure.iter().map(|p| 0.5 * p * dt).collect();
         let tolerance = DENSITY_TOLERANCE * REST_DENSITY / dt;
         let (strength, density_iterations) = self.project(&source, guess, tolerance, 2);
         self.pressure = strength.iter().map(|p| p / dt).collect();
         self.report = StepReport { divergence_iterations, density_iterations };
 
-        self.move_by(dt);
+        torque += self.reaction(&strength);
+        torque += self.move_by(dt);
+        let carried = self.scene.hinge.as_ref().map_or(0.0, |hinge| self.carried(hinge.axle));
+        match &mut self.scene.hinge {
+            // Held while the water settles.
+            Some(hinge) if self.time >= -self.scene.lead => {
+                hinge.accelerate(torque as f32, carried, dt);
+            }
+            _ => {}
+        }
         self.fresh = false;
         self.time += dt;
         self.let_in(dt);
         dt
     }
 
-    /// Moves the particles, keeps them out of solids, and drops those that left the scene.
-    fn move_by(&mut self, dt: f32) {
+    /// Moves the solids and the particles, keeps them out of each other, and drops what left the
+    /// scene. Returns the angular impulse on the hinge.
+    fn move_by(&mut self, dt: f32) -> f64 {
         let h = self.spacing;
-        let damping = if self.time < 0.0 { (-SETTLING_DAMPING * dt).exp() } else { 1.0 };
-        let frame = scene::chute_frame();
-        let inflow = frame.along * self.speed_of_inflow();
-        let (scene, clearance) = (&self.scene, CLEARANCE * h);
-        self.position.par_iter_mut().zip(&mut self.velocity).for_each(|(at, velocity)| {
+        let settling = self.time < -self.scene.lead;
+        let damping = if settling { (-SETTLING_DAMPING * dt).exp() } else { 1.0 };
+        if let Some(hinge) = self.scene.hinge.as_mut().filter(|hinge| hinge.speed != 0.0) {
+            hinge.advance(dt);
+            self.pose();
+        }
+        let inlets = self.scene.inlets.iter().filter(|inlet| inlet.is_open(self.time));
+        let inflows: Vec<(&Inlet, Vec3)> =
+            inlets.map(|inlet| (inlet, inlet.along * inlet.speed_at(self.time))).collect();
+        let (obstacles, hinge) = (&self.obstacles, self.scene.hinge.as_ref());
+        let (mass, clearance) = (self.mass, CLEARANCE * h);
+        let mut torques = vec![0.0; self.position.len()];
+        let particles = self.position.par_iter_mut().zip(&mut self.velocity).zip(&mut torques);
+        particles.for_each(|((at, velocity), torque)| {
             *velocity *= damping;
             // What has just entered moves as one until the next layers stand behind it.
-            let entered = *at - scene::LIP;
-            if entered.dot(frame.along) < 2.0 * h - scene::INLET
-                && entered.dot(frame.up).abs() < 2.0 * scene::INLET_DEPTH
-            {
-                *velocity = inflow;
+            for (inlet, speed) in &inflows {
+                if inlet.has_just_entered(*at, h) {
+                    *velocity = *speed;
+                }
             }
             *at += *velocity * dt;
-            for solid in &scene.solids {
-                let (d, normal) = solid.distance(*at);
-                if d < clearance {
-                    *at += normal * (clearance - d);
-                    *velocity -= normal * velocity.dot(normal).min(0.0);
+            for obstacle in obstacles {
+                let Some((d, normal)) = obstacle.within(*at, clearance) else {
+                    continue;
+                };
+                let hinge = hinge.filter(|_| obstacle.solid.moves);
+                let wall = hinge.map_or(Vec3::ZERO, |hinge| hinge.velocity(*at));
+                *at += normal * (clearance - d);
+                let push = normal * (*velocity - wall).dot(normal).min(0.0);
+                *velocity -= push;
+                if let Some(hinge) = hinge {
+                    *torque += hinge.torque(*at, push * mass);
                 }
             }
         });
+        let torque = torques.iter().map(|t| f64::from(*t)).sum();
         let kept: Vec<usize> =
             (0..self.position.len()).filter(|&i| !self.scene.lost(self.position[i])).collect();
         if kept.len() < self.position.len() {
@@ -488,6 +661,7 @@ impl Simulation {
             self.id = kept.iter().map(|&i| self.id[i]).collect();
             self.pressure = kept.iter().map(|&i| self.pressure[i]).collect();
         }
+        torque
     }
 
     /// Advances to `time`, seconds since frame 0, and returns the number of steps.
@@ -508,6 +682,21 @@ impl Simulation {
     /// What the last step did.
     pub fn report(&self) -> StepReport {
         self.report
+    }
+
+    /// How far the moving solids have turned from rest, radians about +z.
+    pub fn turn(&self) -> f32 {
+        self.scene.hinge.as_ref().map_or(0.0, |hinge| hinge.turn)
+    }
+
+    /// The scene; its hinge where it is now.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The distance of particles at rest.
+    pub fn spacing(&self) -> f32 {
+        self.spacing
     }
 
     /// How many particles have left the scene.
@@ -532,11 +721,13 @@ impl Simulation {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hinge::Hinge;
+    use crate::scene::Shape;
 
     fn run(threads: usize) -> Frame {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("a thread pool").install(|| {
-            let mut simulation = Simulation::new(Scene::waterfall(), 0.09, 1);
+            let mut simulation = Simulation::new(crate::scenes::waterfall(), 0.09, 1);
             simulation.advance_to(0.05);
             simulation.frame()
         })
@@ -547,9 +738,86 @@ mod tests {
         assert_eq!(run(1), run(3));
     }
 
+    /// A tilted pipe with water in it on an axle below, in the scene 'bamboo' less all else. A
+    /// counterweight has `part` of the water's moment.
+    fn pipe(part: f32) -> Simulation {
+        let bamboo = crate::scenes::bamboo();
+        let (angle, axle) = (-60_f32.to_radians(), Vec3::ZERO);
+        let along = Quat::from_rotation_z(angle) * Vec3::Y;
+        let solid = |shape, from: f32, to: f32, radius: f32| {
+            let half = Vec3::new(radius, 0.5 * (to - from), radius);
+            let centre = along * (0.5 * (from + to));
+            let solid = Solid::new("pipe", "bamboo", shape, centre, half, angle);
+            Solid { moves: true, ..solid }
+        };
+        let hinge = Hinge {
+            axle,
+            mass: 1.0,
+            lever: Vec3::ZERO,
+            inertia: 0.05,
+            range: [-0.5, 0.0],
+            ..bamboo.hinge.clone().expect("has one")
+        };
+        let foot = along * 0.1;
+        let scene = Scene {
+            solids: vec![
+                solid(Shape::Tube { bore: 0.07, slope: 0.0 }, 0.06, 0.5, 0.095),
+                solid(Shape::Cylinder, 0.06, 0.1, 0.07),
+            ],
+            fills: vec![Fill::Bore { foot, angle, radius: 0.07, length: 0.4, level: 0.15 }],
+            inlets: Vec::new(),
+            hinge: Some(hinge),
+            lead: 0.0,
+            ..bamboo
+        };
+        let mut simulation = Simulation::new(scene, 0.02, 1);
+        simulation.advance_to(0.0);
+        let moment: f32 = simulation.position.iter().map(|at| simulation.mass * at.x).sum();
+        if let Some(hinge) = &mut simulation.scene.hinge {
+            hinge.lever = -along * (part * moment / along.x);
+        }
+        simulation
+    }
+
+    #[test]
+    fn a_pipe_holds_its_water_and_feels_its_weight() {
+        let mut held = pipe(1.1);
+        let count = held.position.len();
+        held.advance_to(0.5);
+        assert_eq!((held.turn(), held.lost()), (0.0, 0));
+        let spilt = held.position.iter().filter(|at| !held.obstacles[0].solid.holds(**at));
+        assert_eq!(spilt.count(), 0, "of {count}");
+        let mut tipped = pipe(0.9);
+        tipped.advance_to(0.5);
+        assert!(tipped.turn() < -0.02, "{}", tipped.turn());
+    }
+
+    #[test]
+    fn a_pipe_that_turns_takes_its_water_along() {
+        let run = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("a thread pool").install(|| {
+                let mut simulation = pipe(0.2);
+                simulation.advance_to(0.4);
+                (simulation.turn(), simulation.frame(), simulation)
+            })
+        };
+        let (turn, frame, simulation) = run(1);
+        assert!(turn < -0.3, "{turn}");
+        // Through the wall there is no way; out of the mouth there is.
+        for at in &simulation.position {
+            let solid = &simulation.obstacles[0].solid;
+            let local = Quat::from_rotation_z(-solid.angle) * (*at - solid.centre);
+            assert!(local.y > -0.22, "{local}");
+            assert!(local.x.hypot(local.z) < 0.07 || local.y > 0.22, "{local}");
+        }
+        let (other_turn, other_frame, _) = run(3);
+        assert_eq!((turn, frame), (other_turn, other_frame));
+    }
+
     #[test]
     fn the_gradient_of_the_cover_is_its_derivative() {
-        let simulation = Simulation::new(Scene::waterfall(), 0.09, 1);
+        let simulation = Simulation::new(crate::scenes::waterfall(), 0.09, 1);
         let at = Vec3::new(-1.43, 0.06, 0.85);
         let gradient = simulation.covered(at).1;
         for axis in Vec3::AXES {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::water::settings::{Rule, Splat};
+use whitewater_simulate::{FPS, FRAMES, Scene};
 
 const EXIT_CODES: &str = "\
 Exit codes:
@@ -15,6 +16,22 @@ Exit codes:
   4  the device: no Vulkan, no such device, lost, out of memory, validation messages
   5  the output cannot be written: no such folder, no permission, disk full
   130  broken off by Ctrl-C; no half-written file is left";
+
+const SIMULATE_HELP: &str = "\
+Scenes:
+  waterfall  a chute pours into a basin, past a pillar (to 29k particles)
+  corridor   a gate floods a corridor of obstacles (to 61k)
+  bamboo     a bamboo pipe fills, tips into a bowl, and falls back (to 31k)
+Each takes two to ten minutes.
+
+In DIR, SCENE_0001.bgeo and so on hold positions, velocities, densities and ids; scene.json what
+stands around the water, and how its parts move; camera.json a moving camera. The same on any
+number of threads. To draw them:
+
+  whitewater render 'DIR/SCENE_*.bgeo' --scene DIR/scene.json --camera DIR/camera.json -o %04d.png
+
+Exit codes: 0 all is well; 2 the command line cannot be understood; 5 the output cannot be written;
+130 broken off by Ctrl-C, finished frames are kept";
 
 /// Draws particle water without a window: particle caches in, OpenEXR and PNG out.
 #[derive(Parser, Debug)]
@@ -32,6 +49,9 @@ pub enum Command {
     /// Draw the built-in scene: water from a chute into a basin
     #[command(after_help = EXIT_CODES)]
     Demo(Box<DemoArgs>),
+    /// Make the particles of a scene: waterfall, corridor or bamboo
+    #[command(after_help = SIMULATE_HELP)]
+    Simulate(SimulateArgs),
     /// Say what particle files hold
     #[command(after_help = EXIT_CODES)]
     Info(InfoArgs),
@@ -61,7 +81,8 @@ pub struct RenderArgs {
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,
-    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, spheres);
+    /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, tubes, spheres;
+    /// parts may move, with a pose for each frame, as 'whitewater simulate' writes them);
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
@@ -156,7 +177,9 @@ pub struct DrawArgs {
 #[derive(Args, Debug)]
 pub struct CameraArgs {
     /// Camera as JSON: {"eye":[x,y,z],"target":[..],"up":[..],"fov_y_degrees":40,"near":0.1,
-    /// "far":1000}, or {"view":[16],"projection":[16]} column-major, for Vulkan's clip space
+    /// "far":1000}, or {"view":[16],"projection":[16]} column-major, for Vulkan's clip space. It moves
+    /// by {"keys":[{"frame":1,"eye":[..],"target":[..]},...]}, each with up and fov_y_degrees if it
+    /// likes: a Catmull-Rom spline over the frames' numbers, at rest in the first key and the last
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["eye", "target", "up", "fov"])]
     pub file: Option<PathBuf>,
     /// Position of the camera [default: found from the particles]
@@ -171,6 +194,34 @@ pub struct CameraArgs {
     /// Vertical field of view in degrees [default: 40]
     #[arg(long, value_name = "DEG", value_parser = degrees)]
     pub fov: Option<f32>,
+}
+
+#[derive(Args, Debug)]
+pub struct SimulateArgs {
+    /// What to simulate
+    #[arg(value_name = "SCENE", value_parser = clap::builder::PossibleValuesParser::new(Scene::NAMES))]
+    pub scene: String,
+    /// Folder for the frames, scene.json and camera.json; made if it is not there
+    #[arg(short, long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Frames of the sequence, as A-B or A; what comes before A is simulated and not written
+    #[arg(long, value_name = "A-B", default_value_t = format!("1-{FRAMES}"))]
+    pub frames: String,
+    /// Frames per second
+    #[arg(long, value_name = "N", default_value_t = FPS, value_parser = positive)]
+    pub fps: f32,
+    /// Distance of particles at rest, metres: half of it, eight times as many [default: the scene's]
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    pub spacing: Option<f32>,
+    /// Write these of the frames only, as A-B or A
+    #[arg(long, value_name = "A-B")]
+    pub keep: Option<String>,
+    /// Of the random numbers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u32,
+    /// Threads to use; 0: one per core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
 }
 
 #[derive(Args, Debug)]

@@ -12,7 +12,8 @@ use crate::failure::{Failure, Outcome};
 
 const DEFAULT_FOV: f32 = 40.0;
 
-/// A camera as its file has it: the first six, or the last two.
+/// A camera as its file has it: the first six, or `view` and `projection`; or `keys`, by which it
+/// moves, and for which the others hold but eye and target.
 #[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraFile {
@@ -32,9 +33,102 @@ pub struct CameraFile {
     pub view: Option<[f32; 16]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub projection: Option<[f32; 16]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub keys: Vec<Key>,
 }
 
+/// Where a moving camera is in one frame.
+#[derive(Clone, Debug, Default, Deserialize, Serialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Key {
+    pub frame: u64,
+    pub eye: [f32; 3],
+    pub target: [f32; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub up: Option<[f32; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fov_y_degrees: Option<f32>,
+}
+
+/// Of a key and of what is between them: eye, target, up, and the field of view.
+type Pose = ([Vec3; 3], f32);
+
 impl CameraFile {
+    /// The camera of a frame; the same whichever other frames are drawn.
+    pub fn at_frame(&self, frame: u64) -> Self {
+        let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
+            return self.clone();
+        };
+        let frame = frame.clamp(first.frame, last.frame);
+        // The segment from the key before (or at) the frame.
+        let next = self.keys.partition_point(|key| key.frame <= frame).min(self.keys.len() - 1);
+        let before = next.saturating_sub(1);
+        let (a, b) = (&self.keys[before], &self.keys[next]);
+        let length = (b.frame - a.frame) as f32;
+        let t = if length > 0.0 { (frame - a.frame) as f32 / length } else { 0.0 };
+        // Cubic Hermite: Catmull-Rom's slopes inside, at rest in the first key and the last.
+        let (t2, t3) = (t * t, t * t * t);
+        let weights = [
+            (2.0 * t3 - 3.0 * t2 + 1.0, self.pose(a)),
+            (3.0 * t2 - 2.0 * t3, self.pose(b)),
+            ((t3 - 2.0 * t2 + t) * length, self.slope(before)),
+            ((t3 - t2) * length, self.slope(next)),
+        ];
+        let mut sum: Pose = ([Vec3::ZERO; 3], 0.0);
+        for (weight, (vectors, fov)) in weights {
+            for (sum, vector) in sum.0.iter_mut().zip(vectors) {
+                *sum += weight * vector;
+            }
+            sum.1 += weight * fov;
+        }
+        let ([eye, target, up], fov) = sum;
+        Self {
+            eye: Some(eye.to_array()),
+            target: Some(target.to_array()),
+            up: Some(up.to_array()),
+            fov_y_degrees: Some(fov),
+            keys: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    fn pose(&self, key: &Key) -> Pose {
+        let up = key.up.or(self.up).map_or(Vec3::Y, Vec3::from);
+        let fov = key.fov_y_degrees.or(self.fov_y_degrees).unwrap_or(DEFAULT_FOV);
+        ([key.eye.into(), key.target.into(), up], fov)
+    }
+
+    /// The change a frame in a key: from the key before to the one after.
+    fn slope(&self, key: usize) -> Pose {
+        let around = (key.checked_sub(1).and_then(|k| self.keys.get(k)), self.keys.get(key + 1));
+        let (Some(a), Some(b)) = around else { return ([Vec3::ZERO; 3], 0.0) };
+        let per_frame = ((b.frame - a.frame) as f32).recip();
+        let ((from, from_fov), (to, to_fov)) = (self.pose(a), self.pose(b));
+        let slopes = [0, 1, 2].map(|i| (to[i] - from[i]) * per_frame);
+        (slopes, (to_fov - from_fov) * per_frame)
+    }
+
+    /// Fails where the camera of any of these frames cannot be drawn.
+    pub fn check(&self, frames: impl IntoIterator<Item = u64>, size: (u32, u32)) -> Outcome<()> {
+        let bad = |what: String| Err(Failure::input(format!("camera: {what}")));
+        if self.keys.windows(2).any(|pair| pair[0].frame >= pair[1].frame) {
+            return bad("expected keys in the order of their frames; sort them".into());
+        }
+        if !self.keys.is_empty() {
+            if self.eye.is_some() || self.target.is_some() || self.view.is_some() {
+                return bad("expected either keys or one view, found both; leave one out".into());
+            }
+            for frame in frames {
+                let camera = self.at_frame(frame).camera(size);
+                if let Err(failure) = camera.and_then(|camera| Lens::new(&camera)) {
+                    return bad(format!("frame {frame}: {}", failure.message));
+                }
+            }
+            return Ok(());
+        }
+        Lens::new(&self.camera(size)?).map(drop)
+    }
+
     /// What flags or a file say; `None` where they say nothing.
     pub fn from_args(args: &CameraArgs) -> Outcome<Option<Self>> {
         if let Some(path) = &args.file {
@@ -54,7 +148,7 @@ impl CameraFile {
         serde_json::from_str(text).map_err(|e| {
             Failure::input(format!(
                 "{}: expected a camera such as {{\"eye\":[1,1,3],\"target\":[0,0,0],\"fov_y_degrees\":40}}, \
-                 found {e}; mend the file",
+                 or its keys {{\"keys\":[{{\"frame\":1,\"eye\":..,\"target\":..}},..]}}, found {e}; mend the file",
                 path.display()
             ))
         })
@@ -268,6 +362,47 @@ mod tests {
             assert!((lens.eye_depth(clip.z / clip.w) - eye).abs() < 1e-4 * eye);
             assert_eq!(lens.eye_depth(0.0), whitewater::io::picture::EMPTY);
         }
+    }
+
+    fn moving() -> CameraFile {
+        let text = r#"{"fov_y_degrees":50,"keys":[
+            {"frame":10,"eye":[0,0,5],"target":[0,0,0]},
+            {"frame":20,"eye":[1,0,5],"target":[0,1,0]},
+            {"frame":50,"eye":[4,0,5],"target":[0,1,0],"fov_y_degrees":30}]}"#;
+        CameraFile::parse(text, Path::new("c.json")).unwrap()
+    }
+
+    #[test]
+    fn keys_are_met_and_what_is_between_is_smooth() {
+        let camera = moving();
+        let eye = |frame| Vec3::from(camera.at_frame(frame).eye.unwrap());
+        for (frame, x) in [(0, 0.0), (10, 0.0), (20, 1.0), (50, 4.0), (70, 4.0)] {
+            assert!((eye(frame).x - x).abs() < 1e-5, "{frame}: {}", eye(frame));
+        }
+        assert_eq!(camera.at_frame(20).fov_y_degrees, Some(50.0));
+        assert_eq!(camera.at_frame(60).fov_y_degrees, Some(30.0));
+        // No step, no kink, and at rest at both ends.
+        let steps: Vec<f32> = (5..55).map(|f| eye(f + 1).x - eye(f).x).collect();
+        assert!(steps.iter().all(|s| (-1e-6..0.2).contains(s)), "{steps:?}");
+        assert!(steps.windows(2).all(|pair| (pair[1] - pair[0]).abs() < 0.04), "{steps:?}");
+        assert!(camera.check(0..100, (4, 4)).is_ok());
+        // One key, or none, stands still.
+        let one = CameraFile { keys: camera.keys[..1].to_vec(), ..CameraFile::default() };
+        assert_eq!(one.at_frame(3), one.at_frame(30));
+        assert_eq!(one.at_frame(3).eye, Some([0.0, 0.0, 5.0]));
+    }
+
+    #[test]
+    fn bad_keys_are_refused() {
+        let bad = |change: fn(&mut CameraFile)| {
+            let mut camera = moving();
+            change(&mut camera);
+            assert!(camera.check([10, 15, 20], (4, 4)).is_err(), "{camera:?}");
+        };
+        bad(|c| c.keys[1].frame = 10);
+        bad(|c| c.eye = Some([0.0; 3]));
+        bad(|c| c.keys[1].eye = [0.0, 1.0, 0.0]);
+        bad(|c| c.keys[1].fov_y_degrees = Some(-80.0));
     }
 
     #[test]

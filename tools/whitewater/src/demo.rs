@@ -54,6 +54,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         Some(camera) => camera,
         None => viewpoint(args.camera.fov),
     };
+    camera.check([0], args.draw.size)?;
     let count = particles.positions.len();
     let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
     let bounds = Bounds::of_bulk(&particles.positions);

@@ -32,7 +32,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
     if let Some(camera) = &camera {
-        camera.camera(args.draw.size)?;
+        camera.check(frames.iter().map(|f| f.number), args.draw.size)?;
     }
     for target in &checked.0 {
         output::probe(&target.path(frames.first().map_or(0, |f| f.number)))?;
@@ -162,6 +162,8 @@ struct Probes {
     frames: Vec<Particles>,
     /// Frames a second by two that follow each other.
     fps: Option<f32>,
+    /// The number of the first of the sequence.
+    first: u64,
 }
 
 impl Probes {
@@ -194,7 +196,8 @@ impl Probes {
             },
             _ => None,
         };
-        Ok(Self { frames, fps })
+        let first = all.first().map_or(0, |f| f.number);
+        Ok(Self { frames, fps, first })
     }
 
     fn spacing(&self) -> Option<f32> {
@@ -283,7 +286,7 @@ fn look(
         Some(path) => stage::read(path)?,
         None => {
             let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
-            let view = camera.camera(args.draw.size)?.view;
+            let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
             let eye = view.inverse().transform_point3(Vec3::ZERO);
             match stage::basin_round(&frames, &bounds, spacing, eye) {
                 Some(basin) => {

@@ -8,7 +8,7 @@ use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Head
 use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, Shadows, WaterSettings};
-use whitewater::{Camera, Config, Region, Settings};
+use whitewater::{Config, Region, Settings};
 
 use crate::args::{DrawArgs, ShadowArg, SprayArg};
 use crate::camera::{CameraFile, Lens};
@@ -46,8 +46,8 @@ pub struct Session<'a> {
     targets: Vec<Target>,
     wanted: Vec<&'static str>,
     look: Look,
-    camera: Camera,
-    lens: Lens,
+    /// The frame whose scene is on the device.
+    staged: u64,
     /// A device without a renderer yet, or a renderer, or neither after an error.
     device: Option<Device>,
     headless: Option<Headless>,
@@ -104,8 +104,6 @@ impl<'a> Session<'a> {
         (targets, wanted): (Vec<Target>, Vec<&'static str>),
         look: Look,
     ) -> Outcome<Self> {
-        let camera = look.camera.camera(args.size)?;
-        let lens = Lens::new(&camera)?;
         for path in [&args.timings, &args.trace].into_iter().flatten() {
             output::probe(path)?;
         }
@@ -120,8 +118,7 @@ impl<'a> Session<'a> {
             targets,
             wanted,
             look,
-            camera,
-            lens,
+            staged: 0,
             device,
             headless: None,
             memory: Memory::default(),
@@ -180,6 +177,7 @@ impl<'a> Session<'a> {
         if args.shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
+        self.staged = self.look.scene.frame;
         self.headless = Some(headless);
         self.memory = Memory::default();
         Ok(())
@@ -187,6 +185,7 @@ impl<'a> Session<'a> {
 
     /// Draws one frame and writes its pictures.
     pub fn frame(&mut self, number: u64, source: &str, particles: &Particles) -> Outcome<()> {
+        self.look.scene.frame = number;
         self.make_room(particles.positions.len())?;
         self.timed(|this, times| this.frame_timed(number, source, particles, true, times))
     }
@@ -264,12 +263,19 @@ impl<'a> Session<'a> {
         if !drawn {
             return Ok(());
         }
+        let camera_file = self.look.camera.at_frame(number);
+        let camera = camera_file.camera(self.args.size)?;
+        let lens = Lens::new(&camera)?;
+        if !self.look.scene.rests_between(self.staged, number) {
+            times.step("scene", number, || headless.scene_frame(&self.look.scene, true))?;
+            self.staged = number;
+        }
         times.step("draw", number, || {
-            headless.render(&self.camera, &self.look.settings, &Background::Scene)
+            headless.render(&camera, &self.look.settings, &Background::Scene)
         })?;
         times.passes(number, headless.timings());
         let layers = times.step("read back", number, || {
-            layers::collect(headless, self.args.size, &self.wanted, &self.lens)
+            layers::collect(headless, self.args.size, &self.wanted, &lens)
         })?;
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {
@@ -279,7 +285,7 @@ impl<'a> Session<'a> {
                 format!("expected no validation messages, found {}: {first}", messages.len()),
             ));
         }
-        let layers = self.with_attributes(layers, source);
+        let layers = self.with_attributes(layers, source, &camera_file);
         for target in &self.targets {
             let path = target.path(number);
             times.step("write", number, || self.write(target.format, &path, &layers))?;
@@ -295,13 +301,13 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn with_attributes(&self, mut layers: Layers, source: &str) -> Layers {
+    fn with_attributes(&self, mut layers: Layers, source: &str, camera: &CameraFile) -> Layers {
         let mut note = |name: &str, value: String| {
             layers.attributes.push((name.into(), value));
         };
         note("version", env!("CARGO_PKG_VERSION").into());
         note("input", source.into());
-        note("camera", self.look.camera.json());
+        note("camera", camera.json());
         note("settings", settings::to_toml(&self.look.settings));
         note("environment", self.args.environment.clone());
         if let Some(headless) = &self.headless {

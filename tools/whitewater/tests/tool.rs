@@ -10,5 +10,7 @@ mod failures;
 mod info_compare;
 #[path = "tool/pictures.rs"]
 mod pictures;
+#[path = "tool/scenes.rs"]
+mod scenes;
 #[path = "tool/sequences.rs"]
 mod sequences;

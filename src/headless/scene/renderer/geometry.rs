@@ -3,6 +3,7 @@
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
+use super::super::Scene;
 use super::super::bake::{Baked, Vertex};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -43,10 +44,11 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    pub fn new(gpu: &Gpu, baked: &Baked) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, scene: &Scene, baked: &Baked) -> Result<Self, Error> {
         use vk::BufferUsageFlags as Usage;
+        let placed = baked.placed(scene);
         let (vertices, indices) =
-            (bytemuck::cast_slice(&baked.vertices), bytemuck::cast_slice(&baked.indices));
+            (bytemuck::cast_slice(&placed), bytemuck::cast_slice(&baked.indices));
         Ok(Self {
             vertices: Data::new(gpu, "scene/vertices", vertices, Usage::VERTEX_BUFFER)?,
             indices: Data::new(gpu, "scene/indices", indices, Usage::INDEX_BUFFER)?,

@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use glam::{Quat, Vec3};
+use glam::{Mat4, Quat, Vec3};
 
 use super::super::bake::Batch;
-use super::super::{Material, Mesh, Pattern, Scene, Texture};
+use super::super::{Material, Pattern, Scene, Texture};
 use super::opaque::{Opaque, set_depth_test};
 use super::textures::Textures;
 use super::{Recording, geometry};
@@ -81,7 +81,10 @@ impl Meshes {
                     Entry::Vacant(entry) => *entry.insert(textures.add(gpu, texture)?),
                 },
             };
-            let draw = Draw::new(batch, texture, mesh, material);
+            let transform = batch
+                .mesh
+                .map(|index| scene.pose(index).unwrap_or_default() * scene.meshes[index].transform);
+            let draw = Draw::new(batch, texture, transform, material);
             if let Entry::Vacant(entry) = pipelines.entry(draw.kind) {
                 entry.insert(pipeline(gpu, draw.kind, pass, samples)?);
             }
@@ -141,10 +144,10 @@ fn pipeline(
 }
 
 impl Draw {
-    fn new(batch: &Batch, texture: usize, mesh: Option<&Mesh>, material: &Material) -> Self {
+    fn new(batch: &Batch, texture: usize, transform: Option<Mat4>, material: &Material) -> Self {
         let (mut turn, mut origin) = (Quat::IDENTITY, Vec3::ZERO);
-        if let Some(mesh) = mesh {
-            let (_, rotation, translation) = mesh.transform.to_scale_rotation_translation();
+        if let Some(transform) = transform {
+            let (_, rotation, translation) = transform.to_scale_rotation_translation();
             // A mesh that is not turned takes the world's frame: tiles go on round corners.
             if rotation.is_finite() && !rotation.is_near_identity() {
                 (turn, origin) = (rotation.normalize(), translation);
@@ -164,7 +167,7 @@ impl Draw {
         Self {
             kind: Kind {
                 pattern,
-                ground: mesh.is_none().into(),
+                ground: transform.is_none().into(),
                 textured: material.texture.is_some().into(),
             },
             texture,

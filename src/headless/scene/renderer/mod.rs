@@ -19,10 +19,13 @@ mod targets;
 mod textures;
 mod uniforms;
 
+use std::sync::Arc;
+
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use super::{Scene, bake};
+use super::Scene;
+use super::bake::{self, Baked};
 use crate::contract::{Camera, Slot};
 use crate::error::Error;
 use crate::frame::Lens;
@@ -64,6 +67,8 @@ pub struct SceneFrame<'a> {
 /// The pass.
 pub struct SceneRenderer {
     surroundings: Surroundings,
+    /// The light, for the same scene in another frame.
+    pub(in crate::headless) baked: Arc<Baked>,
     geometry: Geometry,
     textures: Textures,
     shadow: Shadow,
@@ -124,9 +129,24 @@ impl SceneRenderer {
         depth_format: vk::Format,
         antialias: bool,
     ) -> Result<Self, Error> {
+        let baked = Arc::new(bake::bake(scene));
+        Self::with_light(gpu, scene, &baked, color_format, depth_format, antialias)
+    }
+
+    /// The same with the light of a renderer of the same scene, in whatever frame.
+    ///
+    /// # Errors
+    /// As [`SceneRenderer::new`].
+    pub(in crate::headless) fn with_light(
+        gpu: &Gpu,
+        scene: &Scene,
+        baked: &Arc<Baked>,
+        color_format: vk::Format,
+        depth_format: vk::Format,
+        antialias: bool,
+    ) -> Result<Self, Error> {
         let formats = Formats { color: color_format, depth: depth_format };
         let surroundings = Surroundings::new(scene)?;
-        let baked = bake::bake(scene);
         let mut textures = Textures::new(gpu)?;
         let color = Color::new(gpu, scene, &baked.batches, &mut textures, formats, antialias)?;
         let slot = |_| {
@@ -136,7 +156,8 @@ impl SceneRenderer {
             Ok(SlotState { uniforms, targets: None })
         };
         Ok(Self {
-            geometry: Geometry::new(gpu, &baked)?,
+            geometry: Geometry::new(gpu, scene, baked)?,
+            baked: Arc::clone(baked),
             textures,
             shadow: Shadow::new(gpu, scene, surroundings.to_sun)?,
             irradiance: Irradiance::new(gpu)?,

@@ -1,5 +1,5 @@
 //! The sun's shadow map: depth of everything that casts a shadow, seen along the sun's light.
-//! Drawn once, in the set-up: nothing in the scene moves.
+//! Drawn once, in the set-up: a scene that moves is set up again.
 //! Reads: vertices. Writes: shadow map.
 
 use ash::vk;
@@ -121,20 +121,7 @@ impl SunView {
     fn new(scene: &Scene, direction: Vec3) -> Self {
         let up = if direction.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
         let view = Mat4::look_to_rh(Vec3::ZERO, -direction, up);
-        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for mesh in &scene.meshes {
-            for &position in &mesh.positions {
-                let at = mesh.transform.transform_point3(position.into());
-                let at = view.transform_point3(at);
-                if at.is_finite() {
-                    low = low.min(at);
-                    high = high.max(at);
-                }
-            }
-        }
-        if !low.is_finite() || !high.is_finite() {
-            (low, high) = (Vec3::splat(-1.0), Vec3::ONE);
-        }
+        let (low, high) = scene.bounds_in(view).unwrap_or((Vec3::splat(-1.0), Vec3::ONE));
         // Square texels, and room for the filter at the border, which is lit.
         let size = (high - low).truncate().max_element().max(1e-4);
         let half = Vec2::splat(0.5 * size * (1.0 + 16.0 / SIZE as f32));

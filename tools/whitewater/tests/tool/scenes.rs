@@ -1,0 +1,68 @@
+//! Scenes: simulated, with parts that move, under a camera that moves.
+
+use super::support::{Folder, SMALL, block, names};
+
+#[test]
+fn what_is_simulated_can_be_drawn() {
+    let folder = Folder::new();
+    let command = "simulate corridor --spacing 0.1 --frames 2-8 --keep 7-8 --out c";
+    folder.run(&format!("{command} --threads 1")).ok();
+    let all = ["camera.json", "corridor_0007.bgeo", "corridor_0008.bgeo", "scene.json"];
+    assert_eq!(names(&folder.path("c")), all);
+    let before = all.map(|name| std::fs::read(folder.path("c").join(name)).unwrap());
+    folder.run(&format!("{command} --threads 3")).ok();
+    assert!(before == all.map(|name| std::fs::read(folder.path("c").join(name)).unwrap()));
+    let view = "--scene c/scene.json --camera c/camera.json --supersample 1";
+    folder.run(&format!("render c/corridor_*.bgeo -o p_%d.png {view} {SMALL}")).ok();
+    assert!(folder.exists("p_7.png") && folder.exists("p_8.png"));
+}
+
+#[test]
+fn what_cannot_be_simulated_is_refused() {
+    let folder = Folder::new();
+    folder.run("simulate bamboo --out b --spacing 0.1").fails(2, &["--spacing", "0.1"]);
+    folder.run("simulate bamboo --out b --frames 3-1").fails(2, &["3-1"]);
+    folder.text("file", "");
+    folder.run("simulate corridor --out file").fails(5, &["cannot write file"]);
+    assert_eq!(folder.run("simulate lake --out b").0.status.code(), Some(2));
+    assert_eq!(folder.files(), ["file"]);
+}
+
+#[test]
+fn parts_and_the_camera_move_by_the_number_of_the_frame() {
+    let folder = Folder::new();
+    for frame in 1..=3 {
+        folder.particles(&format!("f_{frame}.ply"), block(4));
+    }
+    folder.text(
+        "s.json",
+        r#"{"boxes":[{"name":"lid","material":"timber","centre":[0.4,0.2,0],"half":[0.1,0.2,0.2]}],
+            "ground":{"y":0,"material":"sand"},
+            "motion":[{"parts":["lid"],"origin":[0,0,0],"first_frame":1,"poses":[
+                [0,0,0,0,0,0,1],[0,0,0,0,0.3826834,0,0.9238795],[0,0,0,0,0.3826834,0,0.9238795]]}]}"#,
+    );
+    folder.text(
+        "c.json",
+        r#"{"keys":[{"frame":1,"eye":[0,0.5,2],"target":[0,0.2,0]},
+                    {"frame":9,"eye":[2,0.5,2],"target":[0,0.2,0]}]}"#,
+    );
+    let draw = |name: &str, view: &str, more: &str| {
+        let look = format!("--scene s.json --radius 0.05 --supersample 1 {SMALL}");
+        folder.run(&format!("render f_*.ply -o {name}_%d.exr {view} {look} {more}")).ok();
+    };
+    let still = "--eye 0,0.5,2 --target 0,0.2,0";
+    draw("still", still, "");
+    folder.run("compare still_1.exr still_2.exr").fails(1, &[]);
+    folder.run("compare still_2.exr still_3.exr").ok();
+    draw("alone", still, "--frames 2");
+    folder.run("compare still_2.exr alone_2.exr").ok();
+    draw("moving", "--camera c.json", "");
+    folder.run("compare still_1.exr moving_1.exr").ok();
+    folder.run("compare still_3.exr moving_3.exr").fails(1, &[]);
+    draw("one", "--camera c.json", "--frames 3");
+    folder.run("compare moving_3.exr one_3.exr").ok();
+    folder.text("c.json", r#"{"keys":[{"frame":1,"eye":[0,0,0],"target":[0,0,0]}]}"#);
+    folder
+        .run("render f_*.ply -o x.png --camera c.json")
+        .fails(3, &["frame 1", "different places"]);
+}
