@@ -904,8 +904,8 @@ fn memory_is_as_documented() {
             (2, 0, false, false, 4.5, 2.5),
             (1, 3, true, false, 4.5, 5.25),
             (2, 3, true, false, 4.5, 7.75),
-            (1, 3, false, true, 4.5, 2.0),
-            (2, 3, true, true, 4.5, 9.75),
+            (1, 3, false, true, 4.5, 4.0),
+            (2, 3, true, true, 4.5, 11.75),
         ] {
             let each = 32.0 + if foam { 52.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
             let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;

@@ -250,8 +250,8 @@ fn a_flat_pool_lets_the_light_pass() {
     }
 }
 
-/// Particles over a tilted ground of the world.
-fn grounded(lens: Lens) -> Foamy {
+/// Particles about a tilted ground of the world at a height; they are at 0.8 to 1.2.
+fn grounded(lens: Lens, height: f64) -> Foamy {
     let mut shot = Shot::new(SIZE, lens, 0.06, &[]);
     let mut random = Random(8);
     shot.positions = (0..90)
@@ -265,7 +265,7 @@ fn grounded(lens: Lens) -> Foamy {
     let (eye, n) = (back.w_axis.truncate(), DVec3::new(0.1, 1.0, 0.05).normalize());
     shot.scene_depth(|x, y| {
         let along = back.transform_vector3(view.ray(x as usize, y as usize));
-        let depth = n.dot(DVec3::new(3.1, 0.4, 0.2) - eye) / n.dot(along);
+        let depth = n.dot(DVec3::new(3.1, height, 0.2) - eye) / n.dot(along);
         (depth > 0.0 && depth < 60.0).then_some(depth)
     });
     shot.settings.foam.shadow = 8.0;
@@ -334,7 +334,7 @@ fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Pa
         &wrong[..wrong.len().min(900)]
     );
     assert!(
-        outside > 500 && darker > 50,
+        outside > 500 && darker > 10,
         "{name}: {outside} outside, {darker} darker, {lighter} lighter"
     );
 }
@@ -361,16 +361,23 @@ fn the_lit_scene_is_what_the_maps_say() {
         for in_place in [true, false] {
             let config = Config { composite: Some(shading), in_place, ..casting(64) };
             let mut rig = Rig::lit(&gpu, &config, 1);
-            for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
-                let mut case = grounded(lens);
+            for (lens, height) in [
+                (Lens::Standard, 0.4),
+                (Lens::OffAxis, 0.4),
+                (Lens::LeftHanded, 0.4),
+                // What shows lies in the midst of what casts.
+                (Lens::Standard, 1.0),
+                (Lens::Infinite, 1.1),
+            ] {
+                let mut case = grounded(lens, height);
                 // So dark that it shows, in one channel more than in the others.
                 case.shot.settings.light.shade = [0.0, 0.875, 5.0];
                 let drawn = case.draw(&mut rig);
-                let name = format!("lit-{shading:?}-{in_place}-{lens:?}");
+                let name = format!("lit-{shading:?}-{in_place}-{lens:?}-{height}");
                 check_lit(&name, &case, &config, &drawn, &|_, _, _| exact(1.0));
             }
             // Nothing casts: the scene, to half precision.
-            let mut none = grounded(Lens::Standard);
+            let mut none = grounded(Lens::Standard, 0.4);
             (none.shot.positions, none.amounts, none.velocities) = Default::default();
             let drawn = none.draw(&mut rig);
             for (found, scene) in drawn.output.data.iter().zip(&none.shot.color) {
@@ -597,7 +604,7 @@ fn the_lit_scene_is_past_the_scene() {
     for kind in [Shadows::Mask, Shadows::Map] {
         let config = Config { shadow: Some(kind), ..casting(64) };
         let mut rig = Rig::lit(&gpu, &config, 1);
-        let mut case = grounded(Lens::Reversed);
+        let mut case = grounded(Lens::Reversed, 0.4);
         case.shot.settings.light.shade = [0.0, 0.875, 5.0];
         let sun = Vec3::from(case.shot.settings.light.direction);
         let (name, view_projection, reversed) = light_views(sun, Vec3::new(2.7, 0.4, 0.0))[1];
@@ -650,19 +657,8 @@ fn the_order_of_particles_does_not_show_in_light() {
     let (_image, shadow) = even(&rig, 0.625);
     case.shot.sun.shadow = Some(shadow);
     let expected = case.draw(&mut rig);
-    let n = case.shot.positions.len();
     for seed in 0..3 {
-        let order = Random(seed).order(n);
-        fn turn<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
-            order.iter().map(|i| all[*i]).collect()
-        }
-        let mut other = case.clone();
-        other.shot.positions = turn(&case.shot.positions, &order);
-        other.shot.densities = case.shot.densities.as_ref().map(|d| turn(d, &order));
-        other.amounts = turn(&case.amounts, &order);
-        other.velocities = turn(&case.velocities, &order);
-        other.ids = case.ids.as_ref().map(|ids| turn(ids, &order));
-        let drawn = other.draw(&mut rig);
+        let drawn = permuted(&case, seed).draw(&mut rig);
         let (a, b) = (maps(&drawn), maps(&expected));
         compare::same("order-front", a.front, b.front);
         compare::same_color("order-thickness", a.thickness, b.thickness);
@@ -671,6 +667,45 @@ fn the_order_of_particles_does_not_show_in_light() {
         compare::same("order-spray", &spray(&drawn), &spray(&expected));
         compare::same_color("order-output", &drawn.output, &expected.output);
     }
+}
+
+/// Far from the region's middle what a texel holds times its distance has more digits than single
+/// precision: it is what it is to a rounding an addend, the thickness itself bit for bit.
+#[test]
+fn the_order_of_particles_does_not_show_in_far_light() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &casting(64), 1);
+    let mut case = pool(toward(0.2, 1.0, 0.1), 0.06, 12);
+    case.shot.sun.region = Some(Region { center: [0.0, 40.0, 0.0], radius: 45.0 });
+    let expected = case.draw(&mut rig);
+    for seed in 0..3 {
+        let drawn = permuted(&case, seed).draw(&mut rig);
+        let mut differ = 0;
+        for (a, b) in maps(&drawn).thickness.data.iter().zip(&maps(&expected).thickness.data) {
+            assert_eq!(a[..2], b[..2]);
+            differ += usize::from(a != b);
+            let most = U * case.shot.positions.len() as f64 * f64::from(b[2].abs());
+            assert!(f64::from((a[2] - b[2]).abs()) <= most, "{a:?}, not {b:?}");
+        }
+        if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+            eprintln!("order-far: {differ} texels differ");
+        }
+    }
+}
+
+/// The same particles in another order.
+fn permuted(case: &Foamy, seed: u64) -> Foamy {
+    let order = Random(seed).order(case.shot.positions.len());
+    fn turn<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
+        order.iter().map(|i| all[*i]).collect()
+    }
+    let mut other = case.clone();
+    other.shot.positions = turn(&case.shot.positions, &order);
+    other.shot.densities = case.shot.densities.as_ref().map(|d| turn(d, &order));
+    other.amounts = turn(&case.amounts, &order);
+    other.velocities = turn(&case.velocities, &order);
+    other.ids = case.ids.as_ref().map(|ids| turn(ids, &order));
+    other
 }
 
 /// What of the spray the sun lights: all of it, nothing, or of each droplet the same part.
