@@ -10,7 +10,8 @@ use gpu_allocator::vulkan::Allocator;
 use crate::error::Error;
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
-    FoamLook, FoamSettings, Rule, Shading, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
+    FoamLook, FoamSettings, Ladder, Rule, Shading, Shadows, Smoothing, Splat, SprayLook,
+    WaterSettings,
 };
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
@@ -438,6 +439,8 @@ pub struct Settings {
     pub spray: SprayLook,
     /// Light on it.
     pub light: Light,
+    /// How many of the composite's layers are drawn, for a look at each; default all.
+    pub ladder: Ladder,
 }
 
 /// The sun, and the light of the sky as the water's scattering sees it.

@@ -274,7 +274,7 @@ impl FrameUniforms {
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],
-            target: [target_at[0], target_at[1], 0.0, 0.0],
+            target: [target_at[0], target_at[1], f32::from(frame.settings.ladder as u8), 0.0],
             particle: [radius, water.spacing, axis, amplitude],
             density: densities(frame.settings, config),
             smoothing: [
@@ -301,7 +301,7 @@ impl FrameUniforms {
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
             foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
             foam_back: with(foam_color(look.back_color, light), foam_step(water.spacing)),
-            foam_front: foam_color(look.front_color, light),
+            foam_front: with(foam_color(look.front_color, light), look.front_power),
             spray: spray_shape(&frame.settings.spray, water),
             spray_color: spray_color(&frame.settings.spray, light),
             shadow: shadow
@@ -343,8 +343,9 @@ fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
 
 fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
     let optical_depth = -(1.0 - spray.opacity).ln();
-    // Droplets together cover what one would.
-    let half_axis = spray.size * water.radius() / (spray.droplets as f32).sqrt();
+    // Droplets together cover what one would: of their squares 0.513 is the mean (spray.vert).
+    let many = if spray.droplets > 1 { 0.513 * spray.droplets as f32 } else { 1.0 };
+    let half_axis = spray.size * water.radius() / many.sqrt();
     [optical_depth, half_axis, spray.spread * water.spacing, spray.shutter]
 }
 

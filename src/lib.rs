@@ -36,6 +36,8 @@
 //! | `particles.velocities` | 3×f32, world space, with `Config.foam` or `Config.spray` | as above | as above |
 //! | `particles.ids` | u32 that follow the particles, likewise | as above | as above |
 //! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]) | as above | as above |
+//! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
+//! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |
 //! | `camera` | view and projection: perspective, standard or reversed, finite or infinite, off-axis, looking down −z or +z | | |
 //!
 //! # Promises
@@ -43,7 +45,8 @@
 //! - `record` only records: it never submits, waits, creates pipelines or allocates device memory.
 //! - One acquire and one release barrier for each host image; silent under core and
 //!   synchronization validation.
-//! - Pixels outside the fluid are not touched; no particles change nothing.
+//! - Pixels outside the fluid are not touched; no particles change nothing. With `Config.cast` all of
+//!   the view is written: the scene under the shadows and caustics.
 //! - Every [`Error::BadInput`] is found before the first command. After any other error discard the
 //!   command buffer, and tell with [`Renderer::abandon`].
 //! - `resize` and `reconfigure` are legal with frames in flight; what they replace is freed by
@@ -86,6 +89,8 @@
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spray: optical depth (`spray`) | 2 w h | 1.8 MiB | 4.0 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
+//! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
+//! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! # Where it differs from its sources
@@ -115,6 +120,9 @@
 //!   the thesis' foam is flat.
 //! - Spray is water that turns into droplets as its density falls, laid over the picture; the thesis
 //!   adds a sprite a particle ([`water::SprayLook::SOURCE`]).
+//! - Shadows: percentage-closer filtering of the host's map, or its mask; convolution shadow maps, which
+//!   the thesis takes, are still to come. Water and foam cast coloured shadows and caustics, which the
+//!   thesis leaves to the future. What share of the scene's light is the sun's is taken from level ground.
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -177,7 +177,7 @@ impl Renderer {
         let depth_layout = depth_layout(&frame.scene_depth);
         let uses = Uses {
             in_place,
-            depth: depth_use(depth_layout),
+            depth: depth_use(depth_layout, self.config.spray),
             output: self.composite.output_use(),
             scene: self.composite.scene_use(),
             lit: self.light.is_some(),
@@ -730,8 +730,10 @@ fn depth_layout(image: &HostImage) -> vk::ImageLayout {
 }
 
 /// How the scene's depth is used here.
-fn depth_use(layout: vk::ImageLayout) -> Access {
+fn depth_use(layout: vk::ImageLayout, spray: bool) -> Access {
     let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+    // Bound to its vertices too, in place of what tells where the sun does not come.
+    let sampled = if spray { sampled.and(access::VERTEX_SAMPLED) } else { sampled };
     Access { layout, ..sampled }
 }
 

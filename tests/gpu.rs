@@ -46,5 +46,7 @@ mod sheets;
 mod smooth;
 #[path = "gpu/spied.rs"]
 mod spied;
+#[path = "gpu/spray.rs"]
+mod spray;
 #[path = "gpu/thickness.rs"]
 mod thickness;

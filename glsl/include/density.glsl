@@ -2,7 +2,9 @@
 
 // From 0, all spray, to 1, all of it water or foam, over a range of densities.
 float risen(float full, float density) {
-    return smoothstep(frame.density.x, max(full, frame.density.x + 1.0e-6), density);
+    // Never of equal ends, which GLSL leaves open.
+    float end = max(full, frame.density.x * 1.000001 + 1.0e-6);
+    return smoothstep(frame.density.x, end, density);
 }
 
 float bulk(float density) {

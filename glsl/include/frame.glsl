@@ -18,7 +18,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 scene_depth;   // pixels of the scene's depth per full pixel, size of its part
     vec4 scene_color;   // the same of its colour
     vec4 scene_origin;  // first pixel of the part: of the scene's depth, of its colour
-    vec4 target;        // first pixel of the part of the output
+    vec4 target;        // first pixel of the part of the output; rung of the ladder
     vec4 particle;      // drawn radius, spacing, half-axis and amplitude of a thickness sprite
     vec4 density;       // nothing but spray below, full radius above, no spray above; droplets a particle
     vec4 smoothing;     // width, depth falloff, most iterations, fixed count
@@ -32,7 +32,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
     vec4 foam_back;     // radiance of little foam, and of much; w: step of its thickness
-    vec4 foam_front;
+    vec4 foam_front;    // w: power of the other rule, or 0
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak
     vec4 spray_color;   // radiance; w: 1 = added
     mat4 shadow;        // eye -> the host's shadow map: place in it 0 to 1, depth

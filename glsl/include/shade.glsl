@@ -225,6 +225,20 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t) {
     return sheet;
 }
 
+// Rungs of the ladder: what is above the one that is drawn is left out.
+const float BACK_WATER = 1.0;
+const float FOAM_TOO = 2.0;
+const float FRONT_WATER = 3.0;
+const float WHOLE = 4.0;
+
+// Without what is left out.
+Sheet on_ladder(Sheet sheet) {
+    float whole = frame.target.z >= WHOLE ? 1.0 : 0.0;
+    sheet.mirror *= whole;
+    sheet.shine *= whole;
+    return sheet;
+}
+
 // Light through a sheet and off it.
 vec3 over(Sheet sheet, vec3 background) {
     return mix(through_medium(background, sheet.path), sheet.mirrored, sheet.mirror) + sheet.shine;
@@ -286,7 +300,11 @@ Foam foam_of(vec2 pixel, vec3 sun) {
     foam.depth = texelFetch(foam_depth, ivec2(pixel), 0).x;
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
-    foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, 1.0 - exp(-frame.foam.y * t.y));
+    // Or the source's other rule.
+    float power = frame.foam_front.w;
+    float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
+    float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * t.y);
+    foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
     foam.color *= under(sun) * relief(front, f, foam.depth, sun.g);
     return foam;
 }
@@ -296,10 +314,10 @@ Foam foam_of(vec2 pixel, vec3 sun) {
 vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
     float first = before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
-    vec3 c = through_medium(background, sheet.path * (1.0 - share));
+    vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0));
     c = mix(c, sheet.mirrored, sheet.mirror * (1.0 - first)) + sheet.shine * (1.0 - first);
     c = mix(foam.color, c, foam.kept);
-    c = through_medium(c, sheet.path * share);
+    c = through_medium(c, sheet.path * (frame.target.z >= FRONT_WATER ? share : 0.0));
     return mix(c, sheet.mirrored, sheet.mirror * first) + sheet.shine * first;
 }
 
@@ -355,7 +373,11 @@ vec3 layers_at(vec2 pixel, float front) {
         sheet.shine *= past_scene(surface.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
     }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
+    sheet = on_ladder(sheet);
+    back = on_ladder(back);
     if (FOAM == 0u) {
+        sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
+        back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
         if (front >= EMPTY) {
             return scene_at(pixel);
         }
@@ -368,13 +390,16 @@ vec3 layers_at(vec2 pixel, float front) {
     float at = min(texelFetch(foam_depth, ivec2(pixel), 0).x, frame.depth.w);
     vec3 sun = SHADOW + CAST > 0u ? sunlight(at * vec3(ray_slope(pixel, frame.slope), -1.0), pixel) : vec3(1.0);
     Foam foam = foam_of(pixel, sun);
+    foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
     if (front >= EMPTY) {
         return mix(foam.color, scene_at(pixel), foam.depth < EMPTY ? foam.kept : 1.0);
     }
     bool behind_air = covers && foam.depth >= boundary;
     if (behind_air) {
+        sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
         return over(sheet, over_with(back, max(all.y - t, 0.0), share.y, foam, c));
     }
+    back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
     c = back.path > 0.0 ? over(back, c) : c;
     return over_with(sheet, min(all.y, t), t, foam, c);
 }
@@ -386,7 +411,7 @@ vec3 shade(vec2 pixel, float front) {
         return c;
     }
     vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;
-    float kept = exp(-droplets.x);
+    float kept = frame.target.z >= WHOLE ? exp(-droplets.x) : 1.0;
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
     return c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
 }

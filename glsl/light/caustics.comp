@@ -36,9 +36,11 @@ void main() {
     vec2 rise = vec2(front_at(texel + ivec2(1, 0), here) - front_at(texel - ivec2(1, 0), here),
                      front_at(texel + ivec2(0, 1), here) - front_at(texel - ivec2(0, 1), here)) / wide;
     vec3 bent = refract(vec3(0.0, 0.0, 1.0), normalize(vec3(rise, -1.0)), 1.0 / INDEX);
-    float deep = texelFetch(thickness, texel, 0).x;
-    // Drops and thin sheets are no lenses: what they gather is spread again before it lands.
-    float lens = deep * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep);
+    vec2 deep = texelFetch(thickness, texel, 0).xy;
+    // Drops and thin sheets are no lenses: what they gather is spread again before it lands. Foam
+    // scatters it.
+    float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)
+               * exp(-4.0 * frame.shade.w * deep.y);
     vec2 at = vec2(texel) + bent.xy / max(bent.z, 0.2) * (lens / frame.light_map.y);
     ivec2 base = ivec2(floor(at));
     vec2 f = at - vec2(base);

@@ -27,7 +27,7 @@ void main() {
         discard;
     }
     float rho2 = dot(place, place);
-    float noise = gradient_noise(vec3(3.0 * place, 0.0) + look.yzw);
+    float noise = gradient_noise(vec3(1.6 * place, 0.0) + look.yzw);
     float amount = look.x * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
     amount *= max(1.0 + frame.foam_noise.x * noise, 0.0);
     // Whole steps: their sums are exact, in any order.

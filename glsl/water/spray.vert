@@ -17,6 +17,8 @@ layout(location = 4) flat out vec2 amount; // optical depth in its middle; share
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
+// Optical depth of mist over that of a droplet.
+const float MIST = 0.08;
 
 void main() {
     uint droplets = uint(frame.density.w);
@@ -29,7 +31,12 @@ void main() {
     float away = frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
     float level_radius = sqrt(max(1.0 - level * level, 0.0));
     vec3 off = away * vec3(level_radius * cos(turn), level_radius * sin(turn), level);
-    float size = droplets > 1u ? 0.5 + uniform_of(PLACE, id, number + 3u) : 1.0;
+    // Many are small, a few large; one is mist. No two particles alike.
+    float wide = 0.6 + 0.8 * uniform_of(PLACE, id, 4096u);
+    float small = uniform_of(PLACE, id, number + 3u);
+    float size = droplets > 1u ? 0.35 + 1.15 * small * small * small : 1.0;
+    bool mist = droplets > 1u && gl_InstanceIndex % droplets == 0u;
+    off *= droplets > 1u ? wide : 1.0;
 
     // World, so that it does not turn with the camera.
     centre = sprite.centre.xyz + mat3(frame.view) * off;
@@ -38,15 +45,17 @@ void main() {
     motion -= dot(motion, normal) * normal;
     float speed = length(motion);
     vec3 side = abs(normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-    vec3 e1 = speed > 1.0e-6 * frame.particle.y ? motion / speed : normalize(cross(side, normal));
+    // What rounding leaves of a motion straight at the eye is no direction.
+    float still_below = max(1.0e-6 * frame.particle.y, 1.0e-3 * length(sprite.velocity.xyz));
+    vec3 e1 = speed > still_below ? motion / speed : normalize(cross(side, normal));
     vec3 e2 = cross(e1, normal);
     // Over the time of a streak it covers more, and each place for less long. No smaller than a pixel's
     // half, or it would flicker; then it is thinner.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
-    float still = frame.spray.y * size;
+    float still = mist ? 0.7 * frame.spray.z : frame.spray.y * size;
     vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
-    amount.x = sprite.centre.w * frame.spray.x * still * still / (axes.x * axes.y);
+    amount.x = sprite.centre.w * frame.spray.x * (mist ? MIST : 1.0) * still * still / (axes.x * axes.y);
     // Of all colours together: what it is in is foam more than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));

@@ -48,7 +48,7 @@ void visit(uint index) {
     velocity = mat3(frame.view) * velocity;
     // Droplets lie round the centre, and reach half their streak. Nearer than that nothing is drawn:
     // it would fill the picture.
-    float reach = frame.spray.z + LARGEST_DROPLET * frame.spray.y + 0.5 * length(velocity) * frame.spray.w;
+    float reach = 2.2 * frame.spray.z + LARGEST_DROPLET * frame.spray.y + 0.5 * length(velocity) * frame.spray.w;
     if (-centre.z <= max(frame.depth.z, 2.0 * frame.spray.z) || !in_frustum(centre, reach)) {
         return;
     }

@@ -31,6 +31,22 @@ pub enum Shadows {
     Map,
 }
 
+/// How far the composite goes: each holds those before it (the source's debug views).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Ladder {
+    /// The scene as it is refracted.
+    Background,
+    /// And the water behind the frontmost foam.
+    BackWater,
+    /// And foam.
+    Foam,
+    /// And the water before it, or all where there is none.
+    FrontWater,
+    /// And reflections, highlights and spray.
+    #[default]
+    Whole,
+}
+
 /// How many iterations a pixel of the smoothing gets, and how large its steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rule {
@@ -261,12 +277,15 @@ impl FoamSettings {
 /// How foam looks. Of no effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamLook {
-    /// Light that foam takes away, per metre of it, [0, ∞), default 0.6 / spacing: two layers hide
-    /// seven tenths.
+    /// Light that foam takes away, per metre of it, [0, ∞), default 0.4 / spacing: two layers hide
+    /// half.
     pub extinction: f32,
     /// How fast its colour turns to that of the front with the foam right behind the frontmost, per
     /// metre, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
+    /// Or 0 (default), or the power p of the source's other rule: the front colour's share is that of the
+    /// foam there over the layer's depth, to the power p, [0, 64].
+    pub front_power: f32,
     /// Depth of that layer, scene units, [0, ∞), default 60 spacings (the source's 7 shows drops
     /// before the foam as discs: it begins anew behind each).
     pub front_depth: f32,
@@ -280,9 +299,9 @@ pub struct FoamLook {
     /// reads as steam. Not in the source; 0: none of that.
     pub veil: f32,
     /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
-    /// default 0.45.
+    /// default 0.35.
     pub relief: f32,
-    /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.15 / spacing: less than
+    /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.25 / spacing: less than
     /// its extinction, for most of the light goes on.
     pub shadow: f32,
     /// Albedo of thin foam and of thick one, linear RGB, 0 to 1, default grey 0.65 and white 0.9 (the
@@ -296,15 +315,16 @@ impl FoamLook {
     /// The defaults for particles of a spacing.
     pub fn of_spacing(spacing: f32) -> Self {
         Self {
-            extinction: 0.6 / spacing,
+            extinction: 0.4 / spacing,
             front_extinction: 0.15 / spacing,
+            front_power: 0.0,
             front_depth: 60.0 * spacing,
             motion_threshold: 21.0,
             noise: 1.0,
             noise_rate: 2.0,
             veil: spacing,
-            relief: 0.45,
-            shadow: 0.15 / spacing,
+            relief: 0.35,
+            shadow: 0.25 / spacing,
             back_color: [0.65; 3],
             front_color: [0.9; 3],
         }
@@ -314,6 +334,7 @@ impl FoamLook {
     pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
         range("Settings.foam.extinction", self.extinction, 0.0, f32::MAX)?;
         range("Settings.foam.front_extinction", self.front_extinction, 0.0, f32::MAX)?;
+        range("Settings.foam.front_power", self.front_power, 0.0, 64.0)?;
         range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
         range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
         range("Settings.foam.noise", self.noise, 0.0, 1.0)?;

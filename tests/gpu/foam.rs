@@ -1,7 +1,7 @@
 //! Pass `foam`: sprites against the twin, what is foam is no water, and the picture with foam.
 
 use glam::{DVec2, DVec3};
-use whitewater::water::{Shading, Splat};
+use whitewater::water::{Ladder, Shading, Splat};
 use whitewater::{Config, Particles};
 
 use crate::depth::spheres;
@@ -221,7 +221,7 @@ fn what_is_foam_is_no_water() {
 
 /// The same picture by other instructions: the composite of foam splits the water in two, of which one
 /// part is nothing; an exponential and a few products more.
-fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
+pub(crate) fn nearly(drawn: &Drawn, expected: &Drawn, name: &str) {
     for (i, (found, wanted)) in drawn.output.data.iter().zip(&expected.output.data).enumerate() {
         let near = found
             .iter()
@@ -479,5 +479,86 @@ fn the_relief_of_foam_follows_the_sun() {
             darker += usize::from(factor < 0.98);
         }
         assert!(lighter > 30 && darker > 30, "{lens:?}: {lighter} lighter, {darker} darker");
+    }
+}
+
+/// Each rung of the ladder against what its layers say: water behind the frontmost foam, foam by both
+/// rules of its colour, water before it; and the whole adds light.
+#[test]
+fn the_ladder_adds_a_layer_a_rung() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config {
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        smoothing_level: 0,
+        sheets: 1,
+        ..foaming(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = Foamy::new(size, Lens::OffAxis, 10.0);
+    case.shot.settings.water.refraction = 0.0;
+    let absorption = [1.5, 0.6, 0.2];
+    case.shot.settings.water.medium =
+        whitewater::water::Medium::Physical { absorption, scattering: [0.0; 3] };
+    let look = &mut case.shot.settings.foam;
+    (look.relief, look.veil, look.extinction, look.front_extinction) = (0.0, 0.0, 2.0, 3.0);
+    (look.front_depth, look.back_color, look.front_color) = (1.5, [0.2, 0.3, 0.4], [0.9, 0.8, 0.7]);
+    case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+    let view = case.shot.view(size);
+    for power in [0.0, 1.0, 2.5] {
+        case.shot.settings.foam.front_power = power;
+        let [scene, back, foam, front, whole] = [
+            Ladder::Background,
+            Ladder::BackWater,
+            Ladder::Foam,
+            Ladder::FrontWater,
+            Ladder::Whole,
+        ]
+        .map(|rung| {
+            case.shot.settings.ladder = rung;
+            case.draw(&mut rig)
+        });
+        let found = of(&whole);
+        let (mut parted, mut shone) = (0, 0);
+        for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+            if whole.depth.at(x, y) >= 1e9 {
+                continue;
+            }
+            let [all, before] = [&whole.thickness, &found.before].map(|t| f64::from(t.at(x, y)));
+            let before = before.min(all);
+            let [t, near] = found.thickness.at(x, y).map(f64::from);
+            let long = view.ray(x, y).length();
+            let kept = (-2.0 * t).exp();
+            let much = match power {
+                0.0 => 1.0 - (-3.0 * near).exp(),
+                p => (near / 1.5).clamp(1e-6, 1.0).powf(f64::from(p)),
+            };
+            parted += usize::from(before > 0.02 && all - before > 0.02 && kept < 0.9);
+            for i in 0..3 {
+                let thin = f64::from([0.2_f32, 0.3, 0.4][i]);
+                let color = thin + (f64::from([0.9_f32, 0.8, 0.7][i]) - thin) * much;
+                let of = |drawn: &Drawn| f64::from(drawn.output.at(x, y)[i]);
+                let lost = |c: f64, t: f64| c * (-f64::from(absorption[i]) * t * long).exp();
+                let c0 = f64::from(case.shot.color[y * 97 + x][i]);
+                let c1 = lost(c0, all - before);
+                let c2 = color + (c1 - color) * kept;
+                let c3 = lost(c2, before);
+                // Exponentials of at most a few, 3 + 2|x| ulp each; the power's logarithm 16 ulp
+                // times its exponent; quotients and mixes a few more.
+                let bound = 400.0 * U * (1.0 + c0);
+                for (name, drawn, expected) in [
+                    ("scene", &scene, c0),
+                    ("back", &back, c1),
+                    ("foam", &foam, c2),
+                    ("front", &front, c3),
+                ] {
+                    let off = (of(drawn) - expected).abs();
+                    assert!(off <= bound, "{name} {power} {x} {y}: {} not {expected}", of(drawn));
+                }
+                shone += usize::from(of(&whole) > of(&front) + 1e-3);
+            }
+        }
+        assert!(parted > 100 && shone > 100, "{power}: {parted} parted, {shone} lit");
     }
 }

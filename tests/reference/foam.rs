@@ -40,7 +40,7 @@ const EDGE_ON: f64 = 1e-6;
 /// The least |n_z| that the amplitude is divided by.
 const LEAST_FACING: f64 = 0.2;
 /// Cells of the noise to a half-axis.
-const CELLS: f64 = 3.0;
+const CELLS: f64 = 1.6;
 /// The noise of the particles begins within this many cells.
 const SPREAD: f64 = 64.0;
 
@@ -208,7 +208,11 @@ impl Ellipse {
 }
 
 /// The pixels that may see anything within a distance of a point.
-fn pixels(view: &View, center: DVec3, reach: f64) -> impl Iterator<Item = (usize, usize)> {
+pub(super) fn pixels(
+    view: &View,
+    center: DVec3,
+    reach: f64,
+) -> impl Iterator<Item = (usize, usize)> {
     let (middle, half) = (center.truncate(), DVec2::splat(reach));
     let (columns, rows) = view.footprint(middle, half, -center.z - reach, -center.z + reach);
     rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
@@ -223,7 +227,7 @@ fn in_full<T: Clone>(image: &Image<T>, x: usize, y: usize, level: u32) -> T {
 }
 
 /// The scene's depth; what is no depth hides nothing.
-fn scene_depth(scene: f64) -> f64 {
+pub(super) fn scene_depth(scene: f64) -> f64 {
     if scene > 0.0 { scene } else { f64::INFINITY }
 }
 
@@ -351,15 +355,28 @@ fn noise_rounding() -> f64 {
 
 /// A vector and the length of the error that it may have.
 #[derive(Clone, Copy, Debug)]
-struct Off {
-    v: DVec3,
-    e: f64,
+pub(super) struct Off {
+    pub(super) v: DVec3,
+    pub(super) e: f64,
 }
 
 impl Off {
+    /// A point by the product with the view's matrix: a product and three sums an axis, 4u of
+    /// `|R| |p| + |t|`, with |p| <= |c| + |t|; as a vector |R| is no longer than the root of 3.
+    pub(super) fn point(v: DVec3, view: &View) -> Self {
+        let t = view.view.w_axis.truncate().length();
+        let terms = 3.0_f64.sqrt() * (v.length() + t) + t;
+        Self { v, e: 4.0 * U * terms }
+    }
+
+    /// A direction by the same without t: 3u.
+    pub(super) fn direction(v: DVec3) -> Self {
+        Self { v, e: 3.0 * 3.0_f64.sqrt() * U * v.length() }
+    }
+
     /// The error lies across in whole and turns the vector. The sum of squares 3u/2, the root by `1
     /// / inversesqrt` 9u, the quotient 5u.
-    fn normalize(self) -> Self {
+    pub(super) fn normalize(self) -> Self {
         let length = self.v.length();
         let turned = self.e / (length - self.e).max(f64::MIN_POSITIVE);
         Self { v: self.v / length, e: turned + 16.0 * U }
@@ -367,7 +384,7 @@ impl Off {
 
     /// Two products and a sum, 2u of `|a_i b_j| + |a_j b_i|`: as a vector no longer than
     /// 2^(3/2) u |a| |b|.
-    fn cross(self, other: Self) -> Self {
+    pub(super) fn cross(self, other: Self) -> Self {
         let v = self.v.cross(other.v);
         let (a, b) = (self.v.length(), other.v.length());
         let from = a * other.e + b * self.e + self.e * other.e;
@@ -375,7 +392,7 @@ impl Off {
     }
 
     /// A product and two sums, 3u.
-    fn dot(self, other: Self) -> Rounded {
+    pub(super) fn dot(self, other: Self) -> Rounded {
         let (a, b) = (self.v.length(), other.v.length());
         let from = a * other.e + b * self.e + self.e * other.e;
         Rounded { v: self.v.dot(other.v), e: from + 3.0 * U * (a + self.e) * (b + other.e) }
@@ -389,30 +406,15 @@ impl Off {
     }
 
     /// The length: 3u/2 of the squares, 9u of the root.
-    fn length(self) -> Rounded {
+    pub(super) fn length(self) -> Rounded {
         let v = self.v.length();
         Rounded { v, e: self.e + 11.0 * U * v }
     }
 }
 
-impl Sprite {
-    /// The centre by the product with the view's matrix: a product and three sums an axis, 4u of
-    /// `|R| |p| + |t|`, with |p| <= |c| + |t|; as a vector |R| is no longer than the root of 3.
-    fn center_off(&self, view: &View) -> Off {
-        let t = view.view.w_axis.truncate().length();
-        let terms = 3.0_f64.sqrt() * (self.center.length() + t) + t;
-        Off { v: self.center, e: 4.0 * U * terms }
-    }
-
-    /// The velocity by the same without t: 3u.
-    fn velocity_off(&self) -> Off {
-        Off { v: self.velocity, e: 3.0 * 3.0_f64.sqrt() * U * self.velocity.length() }
-    }
-}
-
 /// The ray of a pixel as `pixel scale + offset`, up to 2 / P00 and (1 + |P20|) / P00: two rounded
 /// numbers, a product and a sum, 4u.
-fn ray_off(view: &View, x: usize, y: usize) -> Off {
+pub(super) fn ray_off(view: &View, x: usize, y: usize) -> Off {
     let terms = (3.0 + view.shift().abs()) / view.focal().abs();
     Off { v: view.ray(x, y), e: 4.0 * U * terms.length() }
 }
@@ -468,46 +470,48 @@ fn loose_axes(center: Off, velocity: Off, settings: &Settings) -> Vec<LooseAxes>
 
 /// An ellipse and its errors.
 #[derive(Clone, Copy, Debug)]
-struct LooseEllipse {
-    center: Off,
-    e1: Off,
-    e2: Off,
-    n: Off,
-    a: Rounded,
-    b: Rounded,
+pub(super) struct LooseEllipse {
+    pub(super) center: Off,
+    pub(super) e1: Off,
+    pub(super) e2: Off,
+    pub(super) n: Off,
+    pub(super) a: Rounded,
+    pub(super) b: Rounded,
+    /// The angle by which both axes may be turned in their plane, besides their errors.
+    pub(super) turn: f64,
 }
 
 /// Where a ray may meet an ellipse.
 #[derive(Clone, Copy, Debug)]
-struct LooseHit {
+pub(super) struct LooseHit {
     /// The depth.
-    k: Rounded,
+    pub(super) k: Rounded,
     /// The place in half-axes.
     x: Rounded,
     y: Rounded,
     /// The square of its distance from the centre.
-    rho_squared: Rounded,
+    pub(super) rho_squared: Rounded,
     /// Whether it does meet it, before the scene.
-    sure: bool,
+    pub(super) sure: bool,
 }
 
 impl LooseEllipse {
     /// Those that rounding may make of a sprite, with the half-axis at rest in radii.
     fn all(sprite: &Sprite, view: &View, settings: &Settings, half: f64) -> Vec<Self> {
-        let center = sprite.center_off(view);
-        let axes = loose_axes(center, sprite.velocity_off(), settings);
+        let center = Off::point(sprite.center, view);
+        let axes = loose_axes(center, Off::direction(sprite.velocity), settings);
         let ellipse = |axes: LooseAxes| {
             let LooseAxes { e1, e2, stretch } = axes;
             // The radius is a rounded number times the spacing.
             let b = off(half * settings.radius(), 3.0);
             let a = b * (exact(1.0) + stretch);
-            Self { center, e1, e2, n: e1.cross(e2), a, b }
+            Self { center, e1, e2, n: e1.cross(e2), a, b, turn: 0.0 }
         };
         axes.into_iter().map(ellipse).collect()
     }
 
     /// The length in which all of it lies, by far more than its errors.
-    fn reach(&self) -> f64 {
+    pub(super) fn reach(&self) -> f64 {
         1.01 * (self.a.v + self.a.e) + 32.0 * (self.center.e + U * self.center.v.length())
     }
 
@@ -520,7 +524,7 @@ impl LooseEllipse {
     /// x. The error of k counts by `w.e1`, which is small where the plane faces the ray. That of e1
     /// counts by p, those of c and w in whole; u for `k w`, u for the difference, 3u for the
     /// product.
-    fn meet(&self, ray: Off, near: f64, scene: f64) -> Option<LooseHit> {
+    pub(super) fn meet(&self, ray: Off, near: f64, scene: f64) -> Option<LooseHit> {
         let (n, c, w) = (self.n, self.center, ray);
         let q = n.dot(w);
         if q.v.abs() + q.e < EDGE_ON * (1.0 - U) {
@@ -544,7 +548,9 @@ impl LooseEllipse {
                 Rounded { v: p.dot(e.v), e: error } / half
             };
             let (x, y) = (along(self.e1, self.a), along(self.e2, self.b));
-            (Rounded { v: k, e: k_e }, x, y, x * x + y * y)
+            let mut rho_squared = x * x + y * y;
+            rho_squared.e += self.turned(p.length_squared());
+            (Rounded { v: k, e: k_e }, x, y, rho_squared)
         } else {
             // Anywhere.
             let any = Rounded { v: 0.0, e: f64::INFINITY };
@@ -560,6 +566,14 @@ impl LooseEllipse {
             && least >= EDGE_ON * (1.0 + U)
             && between(near * more, scene * less, k.v - k.e, k.v + k.e);
         maybe.then_some(LooseHit { k, x, y, rho_squared, sure })
+    }
+
+    /// What the turn makes of the square of a distance in half-axes: its slope by the angle is no
+    /// more than all that it ranges over, `d^2 (1/b^2 - 1/a^2)`. A circle may turn.
+    fn turned(&self, distance_squared: f64) -> f64 {
+        let (a, b) = (self.a.v + self.a.e, self.b.v - self.b.e);
+        let range = distance_squared * (1.0 / (b * b) - 1.0 / (a * a)).max(0.0);
+        if self.turn > 0.0 { self.turn.min(1.0) * range } else { 0.0 }
     }
 
     /// See [`Ellipse::amplitude`]. The volume 2u, pi J 3u, the least |n_z| u; a quotient more for
@@ -580,7 +594,7 @@ fn maybe_drawn<'a>(
 ) -> impl Iterator<Item = (&'a Sprite, f64, bool)> {
     let near = view.near();
     sprites.iter().filter_map(move |sprite| {
-        let (d, e) = (-sprite.center.z, sprite.center_off(view).e);
+        let (d, e) = (-sprite.center.z, Off::point(sprite.center, view).e);
         let foam = sprite.part().filter(|_| d + e > near * (1.0 - 8.0 * U))?;
         Some((sprite, foam, d - e > near * (1.0 + 8.0 * U)))
     })
@@ -1164,7 +1178,7 @@ mod tests {
         fn value(&self, sprite: &Sprite, at: Vec2, settings: &Settings) -> f32 {
             let own = origin(sprite.id).as_vec3();
             let z = sprite.age as f32 * settings.noise_rate as f32 + own.z;
-            let place = Vec3::new(3.0 * at.x + own.x, 3.0 * at.y + own.y, z);
+            let place = Vec3::new(1.6 * at.x + own.x, 1.6 * at.y + own.y, z);
             let (cell, fr) = (place.floor(), place - place.floor());
             let fade = fr * fr * fr * (fr * (6.0 * fr - 15.0) + 10.0);
             let mut sums = [0.0_f32; 8];

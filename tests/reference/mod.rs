@@ -23,6 +23,7 @@ pub mod light;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;
+pub mod spray;
 pub mod surface;
 pub mod thickness;
 

@@ -104,10 +104,15 @@ impl Environment {
             ambient: ((self.sky_irradiance + 0.5 * self.sun_irradiance) / (4.0 * PI)).to_array(),
             irradiance: (self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0))
                 .to_array(),
-            // What sunlit ground throws back comes there too.
-            shade: (self.sky_irradiance + 0.12 * self.sun_irradiance * self.sun.y.max(0.0))
-                .to_array(),
+            shade: self.shade().to_array(),
         }
+    }
+
+    /// Irradiance without the sun: of the sky, of what sunlit ground throws back, and of what the foam round
+    /// it scatters, which has lost its colour.
+    fn shade(&self) -> Vec3 {
+        let sky = 0.5 * (self.sky_irradiance + self.sky_irradiance.dot(LUMINANCE));
+        sky + 0.15 * self.sun_irradiance * self.sun.y.max(0.0)
     }
 
     /// The same sun for the scene behind the water.

@@ -46,6 +46,7 @@ pub struct FoamTable {
     motion_threshold: Option<f32>,
     noise: Option<f32>,
     noise_rate: Option<f32>,
+    front_power: Option<f32>,
     veil: Option<f32>,
     relief: Option<f32>,
     shadow: Option<f32>,
@@ -159,6 +160,7 @@ impl SettingsFile {
         set(&mut foam.motion_threshold, table.motion_threshold);
         set(&mut foam.noise, table.noise);
         set(&mut foam.noise_rate, table.noise_rate);
+        set(&mut foam.front_power, table.front_power);
         set(&mut foam.veil, table.veil);
         set(&mut foam.relief, table.relief);
         set(&mut foam.shadow, table.shadow);
@@ -262,6 +264,7 @@ pub fn to_toml(settings: &Settings) -> String {
         ("motion_threshold", foam.motion_threshold),
         ("noise", foam.noise),
         ("noise_rate", foam.noise_rate),
+        ("front_power", foam.front_power),
         ("veil", foam.veil),
         ("relief", foam.relief),
         ("shadow", foam.shadow),

@@ -1,0 +1,456 @@
+//! Pass `spray`: droplets against the twin, and the picture with them.
+
+use glam::DVec3;
+use whitewater::water::{Shading, SprayLook};
+use whitewater::{Config, Packets, Particles};
+
+use crate::foam::nearly;
+use crate::invariants::packet_bytes;
+use crate::reduce::wide;
+use crate::reference::Image;
+use crate::reference::spray::{self, Particle};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::Data;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
+use crate::support::scenes::{self, LENSES, Lens, Random};
+
+const STORAGE: ash::vk::BufferUsageFlags = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
+
+fn spraying(size: ash::vk::Extent2D) -> Config {
+    Config { spray: true, ..config(size) }
+}
+
+/// A shot with spray.
+#[derive(Clone)]
+struct Sprayed {
+    shot: Shot,
+    /// In the world.
+    velocities: Option<Vec<[f32; 3]>>,
+    ids: Option<Vec<u32>>,
+    /// Foam and age.
+    amounts: Option<Vec<[f32; 2]>>,
+    /// Whether each is a packet of its own.
+    packets: bool,
+}
+
+impl Sprayed {
+    /// Particles at all speeds up to `fastest` spacings a second, a quarter of them water.
+    fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
+        Self::of(Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0)), fastest)
+    }
+
+    fn of(mut shot: Shot, fastest: f32) -> Self {
+        let (mut random, count) = (Random(5), shot.positions.len());
+        let most = fastest * shot.settings.water.spacing / 3.0_f32.sqrt();
+        let velocities = (0..count).map(|_| [0; 3].map(|_| random.between(-most, most))).collect();
+        let densities = (0..count).map(|i| match i % 4 {
+            0 => 1000.0,
+            1 => random.between(1.0, 600.0),
+            _ => random.between(550.0, 900.0),
+        });
+        shot.densities = Some(densities.collect());
+        // Seen by so few pixels, droplets of many have to be larger.
+        shot.settings.spray.size = 1.5;
+        let ids = Some((0..count).map(|_| random.bits() as u32).collect());
+        Self { shot, velocities: Some(velocities), ids, amounts: None, packets: false }
+    }
+
+    fn look(&mut self) -> &mut SprayLook {
+        &mut self.shot.settings.spray
+    }
+
+    fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
+        let data = |bytes: &[u8]| rig.stub.data(bytes, STORAGE);
+        let cloud = rig.particles(&self.shot);
+        let velocities = self.velocities.as_ref().map(|all| data(bytemuck::cast_slice(all)));
+        let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
+        let amounts = self.amounts.as_ref().map(|all| data(bytemuck::cast_slice(all)));
+        let ranges: Vec<_> = (0..cloud.count).map(|first| (first, 1)).collect();
+        let packets = data(&packet_bytes(&self.shot, &ranges));
+        let packets = Packets { buffer: packets.buffer, offset: 0, count: cloud.count };
+        let all = |data: &Option<Data>, stride| data.as_ref().map(|data| stream(data, 0, stride));
+        let particles = Particles {
+            velocities: all(&velocities, 12),
+            ids: all(&ids, 4),
+            foam: all(&amounts, 8),
+            packets: self.packets.then_some(packets),
+            ..cloud.particles()
+        };
+        rig.draw_particles(&self.shot, &particles)
+    }
+
+    /// As the twin takes them.
+    fn particles(&self) -> Vec<Particle> {
+        let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+        let densities = self.shot.densities.as_ref().expect("densities");
+        (0..densities.len())
+            .map(|i| Particle {
+                position: wide(self.shot.positions[i]),
+                velocity: self.velocities.as_ref().map_or(DVec3::ZERO, |all| wide(all[i])),
+                density: f64::from(densities[i]),
+                id: self.ids.as_ref().map_or(i as u32, |ids| ids[i]),
+            })
+            .collect()
+    }
+
+    fn settings(&self) -> spray::Settings {
+        let (look, water) = (&self.shot.settings.spray, &self.shot.settings.water);
+        let [all, _, none] = look.densities.map(f64::from);
+        spray::Settings {
+            spacing: f64::from(water.spacing),
+            rest_density: f64::from(water.rest_density),
+            opacity: f64::from(look.opacity),
+            size: f64::from(look.size),
+            droplets: look.droplets,
+            spread: f64::from(look.spread),
+            densities: [all, none],
+            shutter: f64::from(look.shutter),
+            step: spray::STEP,
+        }
+    }
+
+    /// The spray is the twin's; says how often it may be added to, and how many pixels have it.
+    fn check(&self, name: &str, drawn: &Drawn) -> (Image<u32>, usize) {
+        let (view, scene) = (self.shot.view(self.shot.size), self.shot.scene_at(self.shot.size, 0));
+        // Water that the scene hides is none in the layer: no spray behind it is seen anyway.
+        let (water, settings) = (wide(&drawn.depth), self.settings());
+        let twin = spray::spray(&self.particles(), &view, &settings, &scene, &water);
+        compare::between(name, of(drawn), &twin.bounds);
+        (twin.count, of(drawn).data.iter().filter(|x| **x > 0.0).count())
+    }
+
+    /// The picture is spray over what there was: untouched where there is nothing.
+    fn check_over(&self, name: &str, drawn: &Drawn, behind: &[[f32; 4]]) {
+        let (look, light) = (&self.shot.settings.spray, &self.shot.settings.light.irradiance);
+        for (i, (found, behind)) in drawn.output.data.iter().zip(behind).enumerate() {
+            let x = of(drawn).data[i];
+            let untouched = drawn.depth.data[i] >= 1e9
+                && drawn.foam.as_ref().is_none_or(|foam| foam.depth.data[i] >= 1e9)
+                && x == 0.0;
+            if untouched {
+                assert_eq!(found.map(f32::to_bits), behind.map(f32::to_bits), "{name}: {i}");
+                continue;
+            }
+            for c in 0..3 {
+                let light = f64::from(look.color[c]) * f64::from(light[c]) / std::f64::consts::PI;
+                let (wanted, bound) =
+                    spray::over(f64::from(behind[c]), f64::from(x), light, look.additive);
+                let error = (f64::from(found[c]) - wanted).abs();
+                assert!(error <= bound, "{name}: {} not {wanted} in pixel {i}", found[c]);
+            }
+        }
+    }
+}
+
+fn of(drawn: &Drawn) -> &Image<f32> {
+    drawn.spray.as_ref().expect("a frame with spray")
+}
+
+#[test]
+fn spray_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &spraying(size));
+    let mut faded = 0;
+    for lens in LENSES {
+        for (droplets, moving) in [(1, true), (16, true), (1, false), (16, false)] {
+            let mut case = Sprayed::new(size, lens, 40.0);
+            case.look().droplets = droplets;
+            if !moving {
+                (case.velocities, case.ids) = (None, None);
+            }
+            let name = format!("spray-{lens:?}-{droplets}-{moving}");
+            let whole = case.draw(&mut rig);
+            let (_, covered) = case.check(&name, &whole);
+            assert!(covered > 1000, "{name}: {covered} pixels");
+            case.shot.scene_depth(|x, y| ((x / 9 + y / 5) % 2 == 0).then_some(4.0));
+            let cut = case.draw(&mut rig);
+            let (_, left) = case.check(&format!("{name}-cut"), &cut);
+            assert!(left * 10 < covered * 9, "{name}: {left} of {covered} pixels");
+            // Water is before some of it.
+            case.shot.positions.iter_mut().step_by(4).for_each(|p| *p = [f32::NAN; 3]);
+            case.shot.scene_depth(|_, _| None);
+            let dry = of(&case.draw(&mut rig)).clone();
+            faded += dry.data.iter().zip(&of(&whole).data).filter(|(a, b)| **a > 1.1 * **b).count();
+        }
+    }
+    assert!(faded > 1000, "{faded} pixels behind water");
+}
+
+type Change = (&'static str, fn(&mut SprayLook));
+
+/// Every setting at its ends, and particles about the eye, at no place and at no speed.
+#[test]
+fn spray_of_all_settings_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &spraying(size));
+    let changes: [Change; 15] = [
+        ("default", |look| *look = SprayLook::default()),
+        ("source", |look| *look = SprayLook::SOURCE),
+        ("spread-0", |look| look.spread = 0.0),
+        // Droplets beyond the near plane of centres before it.
+        ("spread-small", |look| look.spread = 0.3),
+        ("spread-8", |look| look.spread = 8.0),
+        ("shutter-0", |look| look.shutter = 0.0),
+        ("shutter-1", |look| look.shutter = 1.0),
+        ("opacity-99", |look| look.opacity = 0.99),
+        ("opacity-most", |look| look.opacity = 1.0 - f32::EPSILON),
+        ("opacity-least", |look| look.opacity = 1e-4),
+        ("size-8", |look| (look.size, look.droplets) = (8.0, 1)),
+        ("size-least", |look| look.size = 1e-6),
+        ("droplets-64", |look| look.droplets = 64),
+        ("densities-same", |look| look.densities = [0.6; 3]),
+        ("densities-0", |look| look.densities = [0.0, 0.0, 3.0]),
+    ];
+    for (name, change) in changes {
+        for (i, near) in [false, true].into_iter().enumerate() {
+            let (from, to, radius) = if near { (0.01, 1.2, 0.05) } else { (1.5, 6.0, 0.2) };
+            let mut look = SprayLook { size: 1.5, ..SprayLook::default() };
+            change(&mut look);
+            let mut points = scenes::cloud(8, 90, from, to);
+            // Just before and just behind what they begin at.
+            for limit in [scenes::NEAR, 2.0 * look.spread * radius / 0.656] {
+                points.extend([0.97, 0.99, 1.01, 1.03].map(|d| [0.0, 0.0, d * limit.max(0.01)]));
+            }
+            let mut case = Sprayed::of(Shot::new(size, Lens::OffAxis, radius, &points), 20.0);
+            *case.look() = look;
+            // Pixels twice as wide as high.
+            case.shot.camera = scenes::camera(Lens::OffAxis, extent(194, 61));
+            case.shot.positions[1][i] = f32::NAN;
+            case.shot.positions[5][i] = -2e18;
+            let velocities = case.velocities.as_mut().expect("velocities");
+            (velocities[2], velocities[3]) = ([f32::INFINITY; 3], [0.0, -2e18, 0.0]);
+            let strange = [0.0, -1.0, f32::NAN, f32::INFINITY, 600.0, 350.0, 850.0];
+            let densities = case.shot.densities.as_mut().expect("densities");
+            densities[6..13].copy_from_slice(&strange);
+            densities[90..].fill(300.0);
+            let drawn = case.draw(&mut rig);
+            let (_, covered) = case.check(&format!("spray-{name}-{near}"), &drawn);
+            // Thinner than a step; of the least size mist is left.
+            assert_eq!(covered == 0, name == "opacity-least", "{name}");
+        }
+    }
+}
+
+/// More particles than can be bound at once, without ids too: their number goes on from chunk to
+/// chunk. Packets are culled by the centres' boxes: nothing of what shows.
+#[test]
+fn chunks_and_packets_of_spray_are_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &Config { max_stride: 1 << 20, ..spraying(size) });
+    let mut case = Sprayed::new(size, Lens::OffAxis, 20.0);
+    (case.look().shutter, case.look().spread) = (0.2, 2.0);
+    for (ids, packets) in [(true, false), (false, false), (false, true)] {
+        case.ids = case.ids.filter(|_| ids);
+        case.packets = packets;
+        let drawn = case.draw(&mut rig);
+        case.check(&format!("spray-chunks-{ids}-{packets}"), &drawn);
+    }
+}
+
+/// Spray alone, over the scene.
+#[test]
+fn spray_lies_over_the_scene() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let mut rig = Rig::lit(&gpu, &Config { composite: Some(shading), ..spraying(size) }, 1);
+        let mut case = Sprayed::new(size, Lens::Mirrored, 40.0);
+        case.shot.densities.as_mut().expect("densities").fill(100.0);
+        case.look().color = [0.9, 0.5, 0.0];
+        case.shot.color[7] = [f32::from_bits(1), -0.0, 1e30, -3.0];
+        for (opacity, additive) in [(0.5, false), (0.5, true), (0.99, false), (0.0, false)] {
+            (case.look().opacity, case.look().additive) = (opacity, additive);
+            let drawn = case.draw(&mut rig);
+            let name = format!("spray-over-{shading:?}-{opacity}-{additive}");
+            case.check_over(&name, &drawn, &case.shot.color);
+            let covered = of(&drawn).data.iter().filter(|x| **x > 0.0).count();
+            assert!(drawn.depth.data.iter().all(|z| *z >= 1e9), "{name}: water");
+            assert!(covered < 5000 && (covered > 1000) == (opacity > 0.0), "{name}: {covered}");
+        }
+    }
+}
+
+/// Spray of no opacity is none, whatever water and foam are: over that picture lies the other.
+#[test]
+fn spray_lies_over_water_and_foam() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for (shading, foam) in
+        [(Shading::Raster, true), (Shading::Compute, true), (Shading::Raster, false)]
+    {
+        let config = Config { composite: Some(shading), foam, sheets: 2, ..spraying(size) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut case = Sprayed::new(size, Lens::Reversed, 10.0);
+        case.amounts = foam.then(|| vec![[0.4, 0.3]; case.shot.positions.len()]);
+        case.look().opacity = 0.0;
+        let none = case.draw(&mut rig);
+        assert!(of(&none).data.iter().all(|x| *x == 0.0));
+        case.look().opacity = 0.9;
+        for additive in [false, true] {
+            case.look().additive = additive;
+            let drawn = case.draw(&mut rig);
+            let name = format!("spray-water-{shading:?}-{foam}-{additive}");
+            compare::same(&name, &drawn.depth, &none.depth);
+            case.check_over(&name, &drawn, &none.output.data);
+            let both = drawn.depth.data.iter().zip(&of(&drawn).data);
+            assert!(both.filter(|(z, x)| **z < 1e9 && **x > 0.1).count() > 100, "{name}");
+        }
+    }
+}
+
+#[test]
+fn without_spray_nothing_changes() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut plain = Rig::lit(&gpu, &config(size), 1);
+    let mut rig = Rig::lit(&gpu, &spraying(size), 1);
+    let mut case = Sprayed::new(size, Lens::Standard, 10.0);
+    case.draw(&mut rig);
+    // The frame before is not seen in this one.
+    for densities in [None, Some(vec![851.0; case.shot.positions.len()])] {
+        case.shot.densities = densities;
+        let (drawn, expected) = (case.draw(&mut rig), case.draw(&mut plain));
+        assert!(of(&drawn).data.iter().all(|x| *x == 0.0) && expected.spray.is_none());
+        compare::same("spray-none-depth", &drawn.depth, &expected.depth);
+        nearly(&drawn, &expected, "spray-none");
+    }
+    // No setting of it counts where it is not drawn.
+    let mut case = Sprayed::new(size, Lens::Standard, 10.0);
+    let expected = case.draw(&mut plain);
+    *case.look() = SprayLook { densities: [0.9, 0.95, 1.2], ..SprayLook::SOURCE };
+    let drawn = case.draw(&mut plain);
+    compare::same_color("spray-off", &drawn.output, &expected.output);
+    compare::same("spray-off-depth", &drawn.depth, &expected.depth);
+}
+
+fn pick<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
+    order.iter().map(|i| all[*i]).collect()
+}
+
+/// In another order, and in a part of another image, it is the same but for the order of the sums.
+#[test]
+fn spray_goes_by_ids_not_by_places() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &spraying(size));
+    let case = Sprayed::new(size, Lens::Infinite, 40.0);
+    let first = case.draw(&mut rig);
+    let (count, _) = case.check("spray-order", &first);
+    let order = Random(9).order(case.shot.positions.len());
+    let mut mixed = case.clone();
+    mixed.shot.margin = [13, 30, 7, 21];
+    mixed.shot.positions = pick(&case.shot.positions, &order);
+    mixed.shot.densities = case.shot.densities.as_ref().map(|all| pick(all, &order));
+    mixed.velocities = case.velocities.as_ref().map(|all| pick(all, &order));
+    mixed.ids = case.ids.as_ref().map(|all| pick(all, &order));
+    let second = mixed.draw(&mut rig);
+    compare::same("spray-order-depth", &second.depth, &first.depth);
+    for (i, n) in count.data.iter().enumerate() {
+        let [a, b] = [&first, &second].map(|drawn| f64::from(of(drawn).data[i]));
+        let [least, most] = spray::summed_again(a, *n);
+        assert!(least <= b && b <= most, "{b} for {a} of {n} in pixel {i}");
+        assert!(*n != 1 || a == b, "{b} for {a} in pixel {i}");
+    }
+    let others = Sprayed { ids: None, ..case.clone() }.draw(&mut rig);
+    assert_ne!(of(&others).data, of(&first).data, "the ids show");
+    let still = Sprayed { velocities: None, ..case }.draw(&mut rig);
+    assert_ne!(of(&still).data, of(&first).data, "the velocities show");
+}
+
+/// Odd sizes, of the frame and of the part of the image it is; smaller ones than it was made for;
+/// no particles, and all behind the eye.
+#[test]
+fn spray_of_any_size() {
+    let gpu = Gpu::shared();
+    let mut large = Rig::lit(&gpu, &spraying(extent(140, 70)), 1);
+    Sprayed::new(extent(140, 70), Lens::Standard, 20.0).draw(&mut large);
+    for (width, height) in [(1, 1), (1, 7), (3, 5), (17, 33), (130, 9)] {
+        let size = extent(width, height);
+        let mut rig = Rig::lit(&gpu, &spraying(size), 1);
+        let mut case = Sprayed::new(size, Lens::Reversed, 20.0);
+        case.shot.margin = [3, 1, 2, 4];
+        for (i, rig) in [&mut rig, &mut large].into_iter().enumerate() {
+            let drawn = case.draw(rig);
+            case.check(&format!("spray-{width}x{height}-{i}"), &drawn);
+        }
+        case.shot.densities.as_mut().expect("densities").fill(1.0);
+        let drawn = case.draw(&mut rig);
+        case.check_over(&format!("spray-{width}x{height}"), &drawn, &case.shot.color);
+        // Where a pixel is as wide as a fourth of the view all are too near.
+        assert!(of(&drawn).data.iter().any(|x| *x > 0.0) == (height > 3), "{width}x{height}");
+        let back = vec![[0.0, 0.0, -3.0]; case.shot.positions.len()];
+        case.shot.positions = scenes::world(&case.shot.camera, &back);
+        let drawn = case.draw(&mut rig);
+        assert!(of(&drawn).data.iter().all(|x| *x == 0.0));
+        assert_eq!(drawn.output.data, case.shot.color, "{width}x{height}");
+        let none = Shot { positions: Vec::new(), densities: Some(Vec::new()), ..case.shot.clone() };
+        let none = Sprayed { shot: none, velocities: None, ids: None, ..case };
+        assert_eq!(none.draw(&mut rig).output.data, none.shot.color, "{width}x{height}");
+    }
+}
+
+/// A few droplets where there is nothing else, in every corner and in the midst: drawn whole at all
+/// levels of the smoothing, and where near water made it a coarser one.
+#[test]
+fn tiles_with_spray_alone_are_drawn() {
+    let gpu = Gpu::shared();
+    let size = extent(263, 150);
+    for (shading, smoothing_level, coarsening) in
+        [(Shading::Raster, 0, 3), (Shading::Compute, 1, 2), (Shading::Raster, 2, 0)]
+    {
+        let levels = Config { smoothing_level, coarsening, max_iterations: 3, ..spraying(size) };
+        let mut rig = Rig::lit(&gpu, &Config { composite: Some(shading), ..levels }, 1);
+        let row: Vec<_> = (-30_i8..=30).map(|x| [f32::from(x) / 4.0, 0.9, 2.0]).collect();
+        let mut points = row.clone();
+        // In halves of the view.
+        let high = 2.0 * 30.0_f32.to_radians().tan();
+        let droplets = [(-0.995, -0.98), (0.995, -0.98), (0.1, -0.5), (-0.6, -0.2), (0.7, -0.7)];
+        points.extend(droplets.map(|(x, y)| [x * high * 263.0 / 150.0, y * high, 2.0]));
+        let mut case = Sprayed::of(Shot::new(size, Lens::Reversed, 0.4, &points), 0.0);
+        let densities = (0..points.len()).map(|i| if i < row.len() { 1000.0 } else { 1.0 });
+        case.shot.densities = Some(densities.collect());
+        case.shot.settings.water.smoothing_width = 40.0;
+        (case.look().size, case.look().spread, case.look().droplets) = (0.1, 0.1, 4);
+        case.look().opacity = 0.0;
+        let none = case.draw(&mut rig);
+        case.look().opacity = 0.9;
+        let drawn = case.draw(&mut rig);
+        let name = format!("spray-tiles-{smoothing_level}-{coarsening}");
+        case.check(&name, &drawn);
+        case.check_over(&name, &drawn, &none.output.data);
+        let texel = f32::from(1_u8 << (smoothing_level + coarsening));
+        assert_eq!(drawn.levels.finer().texel[2], texel, "{name}");
+        let alone = |i: &usize| drawn.depth.data[*i] >= 1e9 && of(&drawn).data[*i] > 0.01;
+        let alone = (0..drawn.depth.data.len()).filter(alone);
+        let seen = alone.filter(|i| drawn.output.data[*i] != case.shot.color[*i]).count();
+        assert!(seen > 20, "{name}: {seen} pixels");
+    }
+}
+
+/// One that flies straight at the eye is as at rest, at any speed: what rounding leaves of its
+/// motion across the view is no direction.
+#[test]
+fn straight_at_the_eye_spray_is_round() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &spraying(size));
+    let mut random = Random(3);
+    for i in 0..12 {
+        let d = random.between(2.0, 9.0);
+        let at = [random.between(-0.7, 0.7) * d, random.between(-0.4, 0.4) * d, d];
+        let mut case = Sprayed::of(Shot::new(size, Lens::Standard, 0.2, &[at]), 0.0);
+        case.shot.densities = Some(vec![1.0]);
+        (case.look().size, case.look().droplets, case.look().spread) = (2.0, 1, 0.0);
+        let eye = case.shot.camera_view().inverse().w_axis.truncate();
+        let away = eye - DVec3::from(case.shot.positions[0].map(f64::from));
+        for speed in [0.0, 0.1, 1.0, 10.0] {
+            case.velocities = Some(vec![(speed * away).as_vec3().to_array()]);
+            let drawn = case.draw(&mut rig);
+            case.check(&format!("spray-straight-{i}-{speed}"), &drawn);
+        }
+    }
+}

@@ -1,0 +1,565 @@
+//! Twin of the spray: a particle that is too thin to be water is droplets round its centre, each an
+//! ellipse across the view through its own centre, drawn out along its motion.
+//!
+//! With p a droplet's centre, N the direction to it and `w = (s_x, s_y, -1)` the pixel's ray, t w
+//! with `t = N.p / N.w` is the point of its plane that is seen, q its place in half-axes. [`spray`]
+//! is the sum of `before A sqrt(1 - q^2) exp(-2 q^2)`, an optical depth, and between what it must
+//! lie where all is single precision and the sum half precision, in any order; [`over`] lays it
+//! over a colour.
+//!
+//! Conventions are those of the twin of the foam, whose planes and rays these are: a number is
+//! [`Rounded`], a vector [`Off`], roundings of an error are left out.
+
+use super::classify;
+use super::foam::{LooseEllipse, Off, pixels, ray_off, scene_depth};
+use super::thickness::kernel;
+use super::{Image, View, smoothstep};
+use crate::support::rounded::{self, Rounded, exact, off};
+use crate::support::tolerance::{Between, U};
+use glam::DVec3;
+use std::f64::consts::{SQRT_2, TAU};
+
+/// Drawn radius of a whole particle over the spacing.
+const RADIUS: f64 = 0.656;
+/// Of the random numbers.
+const SEED: u32 = 0x5370;
+/// Numbers from here on are no positions and no velocities.
+const NOWHERE: f64 = 1e18;
+/// The ramp of the share is at least this wide, in its lower end and in the unit of the densities.
+const STEEPEST: f64 = 1e-6;
+/// Slower than this, in spacings a second, there is no direction of motion.
+const STILL: f64 = 1e-6;
+/// Nor where no more than this share of it is across the view.
+const HEAD_ON: f64 = 1e-3;
+/// The least half-axis, in pixels.
+const LEAST: f64 = 0.7;
+/// Behind water over this many spacings spray fades.
+const FADE: f64 = 1.5;
+/// What sine and cosine may be off. Vulkan says so from -pi to pi alone.
+const TRIGONOMETRY: f64 = 1.0 / 2048.0;
+/// Sums of half precision of multiples of the [`STEP`] are exact up to this.
+const EXACT: f64 = 4.0;
+/// What a droplet adds is a multiple of this.
+pub const STEP: f64 = 1.0 / 512.0;
+/// Mist: its half-axis in spreads, and its optical depth over that of a droplet.
+const MIST: [f64; 2] = [0.7, 0.08];
+/// Mean of the squares of the sizes of many droplets.
+const SQUARES: f64 = 0.513;
+/// Half an ulp of half precision, of a number and of the least ones.
+const HALF: (f64, f64) = (1.0 / 2048.0, 1.0 / (1 << 25) as f64);
+
+/// A particle, in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Particle {
+    /// Its centre.
+    pub position: DVec3,
+    /// Its velocity, world units a second.
+    pub velocity: DVec3,
+    /// Its density, in the unit of [`Settings::rest_density`].
+    pub density: f64,
+    /// What it is known by: the droplets go by it.
+    pub id: u32,
+}
+
+/// What spray is drawn by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Rest spacing of the particles, world units.
+    pub spacing: f64,
+    /// The density of water at rest.
+    pub rest_density: f64,
+    /// The light that the middle of a droplet at rest takes away, [0, 1).
+    pub opacity: f64,
+    /// Half-axis of all droplets together, in drawn radii.
+    pub size: f64,
+    /// n, droplets a particle.
+    pub droplets: u32,
+    /// How far they lie from its centre at most, in spacings.
+    pub spread: f64,
+    /// Parts of the rest density: up to the first all is spray, from the second on nothing.
+    pub densities: [f64; 2],
+    /// Seconds of motion that a droplet streaks over.
+    pub shutter: f64,
+    /// What a droplet adds is a multiple of this, and sums are exact up to [`EXACT`]; 0: they are not.
+    pub step: f64,
+}
+
+/// A number that is more than another: by both as they are, surely, perhaps.
+#[derive(Clone, Copy, Debug)]
+struct More {
+    is: bool,
+    surely: bool,
+    maybe: bool,
+}
+
+fn more(a: Rounded, b: Rounded) -> More {
+    let (d, e) = (a.v - b.v, a.e + b.e);
+    More { is: d > 0.0, surely: d > e, maybe: d > -e }
+}
+
+impl More {
+    fn and(self, other: Self) -> Self {
+        let (is, surely) = (self.is && other.is, self.surely && other.surely);
+        Self { is, surely, maybe: self.maybe && other.maybe }
+    }
+}
+
+fn at_least(a: Rounded, b: Rounded) -> Rounded {
+    Rounded { v: a.v.max(b.v), e: a.e.max(b.e) }
+}
+
+fn depth_of(p: Off) -> Rounded {
+    Rounded { v: -p.v.z, e: p.e }
+}
+
+impl Particle {
+    /// How much of it is spray, if any may be. The ramp may be narrower than its ends are rounded:
+    /// then the share is anything about them.
+    fn share(&self, settings: &Settings) -> Option<Rounded> {
+        let is = |v: DVec3| v.is_finite() && v.abs().max_element() < NOWHERE;
+        if !(self.density > 0.0 && is(self.position) && is(self.velocity)) {
+            return None;
+        }
+        let density = self.density.min(1e30);
+        let [all, none] = settings.densities.map(|d| off(d * settings.rest_density, 1.0));
+        let end = at_least(none, all * off(1.0 + STEEPEST, 1.0) + off(STEEPEST, 1.0));
+        let (above, width) = (exact(density) - all, end - all);
+        let part = |above: f64, width: f64, sign: f64| match (above > 0.0, width > 0.0) {
+            (false, _) => 0.0,
+            (true, false) => 1.0,
+            _ => (above / width * (1.0 + sign * 5.0 * U)).min(1.0),
+        };
+        let least = part(above.v - above.e, width.v + width.e, -1.0);
+        let most = part(above.v + above.e, width.v - width.e, 1.0);
+        let share = |part: f64| 1.0 - smoothstep(0.0, 1.0, part);
+        let v = 1.0 - smoothstep(all.v, end.v, density);
+        let own = if least < 1.0 { 6.0 * U } else { 0.0 };
+        let e = (share(least) - v).max(v - share(most)) + own;
+        (v + e > 0.0).then_some(Rounded { v, e })
+    }
+}
+
+impl Settings {
+    /// Half-axis of droplet k by its random number, and what its optical depth is times.
+    fn half_axis(&self, k: u32, u: f64) -> (Rounded, Rounded) {
+        let many = self.droplets > 1;
+        if many && k == 0 {
+            let [axis, thin] = MIST;
+            return (off(axis * self.spread * self.spacing, 3.0), off(thin, 1.0));
+        }
+        let squares = if many { SQUARES * f64::from(self.droplets) } else { 1.0 };
+        // Radius 2u, products 3u, root 9u, quotient 5u; the size three products and a sum.
+        let whole = off(self.size * RADIUS * self.spacing / squares.sqrt(), 19.0);
+        let size = if many { off(0.35 + 1.15 * u * u * u, 5.0) } else { exact(1.0) };
+        (size * whole, exact(1.0))
+    }
+
+    /// The optical depth of the opacity. A logarithm is 2^-21 off from a half on, else 3 ulp.
+    fn thickest(&self) -> Rounded {
+        let left = off(1.0 - self.opacity, 1.0);
+        let v = -left.v.ln();
+        let own = if left.v >= 0.5 { 8.0 } else { 6.0 * v };
+        Rounded { v, e: left.e / left.v + own * U }
+    }
+}
+
+/// A droplet that may be drawn.
+#[derive(Clone, Copy, Debug)]
+struct Droplet {
+    ellipse: LooseEllipse,
+    /// The optical depth of its middle.
+    amount: Rounded,
+    /// Whether it is drawn, and surely.
+    drawn: More,
+}
+
+/// Those of a particle.
+fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Droplet> {
+    let Some(share) = particle.share(settings) else { return Vec::new() };
+    let c = Off::point(view.view.transform_point3(particle.position), view);
+    let (near, from) = (off(view.near(), 8.0), off(2.0 * settings.spread * settings.spacing, 2.0));
+    let drawn = more(depth_of(c), at_least(near, from));
+    let all = (0..settings.droplets).map(|k| {
+        let random = |n| f64::from(classify::random(SEED, n, particle.id));
+        let u = |j| random(5 * k + j);
+        let many = settings.droplets > 1;
+        let wide = if many { off(0.6 + 0.8 * random(4096), 2.0) } else { exact(1.0) };
+        let p = placed(c, wide, [u(0), u(1), u(2)], view, settings);
+        let v = Off::direction(view.view.transform_vector3(particle.velocity));
+        let depth = depth_of(p);
+        let (h, thin) = settings.half_axis(k, u(3));
+        let (mut one, pixel) = droplet(p, v, h, view, settings);
+        one.amount = one.amount * thin;
+        let twice = exact(2.0) * (one.ellipse.a + pixel);
+        one.drawn = drawn.and(more(depth, twice)).and(more(depth, near));
+        one.amount = share * one.amount;
+        one
+    });
+    all.filter(|one| one.drawn.maybe).collect()
+}
+
+/// Where a droplet of three random numbers is. The direction's parts are off by the root, by sine,
+/// cosine and their argument, and by a product; the world's offset by two products.
+fn placed(c: Off, wide: Rounded, u: [f64; 3], view: &View, settings: &Settings) -> Off {
+    let level = exact(2.0 * u[0] - 1.0);
+    let ring = (exact(1.0) - level * level).clamp(0.0, 1.0).sqrt();
+    let (turn, third) = (TAU * u[1], off(1.0 / 3.0, 1.0));
+    let way = DVec3::new(ring.v * turn.cos(), ring.v * turn.sin(), level.v);
+    let way_e = ring.e + ring.v * (SQRT_2 * (TRIGONOMETRY + U) + 2.0 * U * turn);
+    let away = wide * off(settings.spread * settings.spacing, 1.0) * exact(u[2]).pow(third);
+    let eye = Off::direction(view.view.transform_vector3(away.v * way));
+    let v = c.v + eye.v;
+    let from = away.e + away.v * (way_e + 2.0 * U);
+    Off { v, e: c.e + eye.e + from + U * v.length() }
+}
+
+/// A droplet at a place, at a velocity, of a size, all of it spray; and the world width of a pixel.
+///
+/// By the error of the motion m the axes turn in their plane, straight at the eye by any angle. Out
+/// of it they do not go, whatever is left of m there: a circle stays one.
+fn droplet(p: Off, v: Off, h: Rounded, view: &View, settings: &Settings) -> (Droplet, Rounded) {
+    let n = p.normalize();
+    let along = v.dot(n);
+    let m = v.v - along.v * n.v;
+    let m_e = v.e + along.e + along.v.abs() * (n.e + U) + U * m.length();
+    let m = Off { v: m, e: m_e };
+    let speed = m.length();
+    let towards = off(HEAD_ON * v.v.length(), 4.0);
+    let moving = more(speed, at_least(off(STILL * settings.spacing, 1.0), towards));
+    let angle = m.e / (m.v.length() - m.e).max(f64::MIN_POSITIVE);
+    let turn = if moving.surely { angle } else { 1.0 };
+    let side = if n.v.y.abs() < 0.9 { DVec3::Y } else { DVec3::X };
+    let e1 = if moving.is { m.v.normalize() } else { side.cross(n.v).normalize() };
+    // A cross product over the least sine, 0.43, and a quotient.
+    let e1 = Off { v: e1, e: 24.0 * U };
+    let e2 = e1.cross(n);
+
+    let pixel = depth_of(p) * off(view.c_x().max(view.c_y()), 2.0);
+    let least = off(LEAST, 1.0) * pixel;
+    let a = at_least(h + off(0.5 * settings.shutter, 1.0) * speed, least);
+    let b = at_least(h, least);
+    let amount = settings.thickest() * ((h / a) * (h / b));
+    let ellipse = LooseEllipse { center: p, e1, e2, n, a, b, turn };
+    let drawn = More { is: true, surely: true, maybe: true };
+    (Droplet { ellipse, amount, drawn }, pixel)
+}
+
+/// What spray there is in each pixel.
+pub struct Spray {
+    /// Its optical depth by the definition.
+    pub depth: Image<f64>,
+    /// What that is in an image of half precision. What may or may not be there, by a rim, the
+    /// scene or what is left out, is in `high` alone.
+    pub bounds: Between,
+    /// How many additions there may be.
+    pub count: Image<u32>,
+}
+
+/// The spray of some particles. `scene`: the eye depth of what hides it, infinite or
+/// [`EMPTY`](super::EMPTY) where there is nothing; `water`: that of the nearest water, likewise.
+pub fn spray(
+    particles: &[Particle],
+    view: &View,
+    settings: &Settings,
+    scene: &Image<f64>,
+    water: &Image<f64>,
+) -> Spray {
+    let near = view.near();
+    let mut depth = Image::new(view.width, view.height, 0.0);
+    let (mut low, mut high, mut count) = (depth.clone(), depth.clone(), depth.map(|_| 0));
+    for one in particles.iter().flat_map(|p| droplets(p, view, settings)) {
+        for (x, y) in pixels(view, one.ellipse.center.v, one.ellipse.reach()) {
+            let hidden = scene_depth(scene.at(x, y));
+            let hit = one.ellipse.meet(ray_off(view, x, y), near, hidden);
+            let Some(hit) = hit else { continue };
+            let behind = hit.k - exact(water.at(x, y));
+            let fade = off(FADE * settings.spacing, 1.0);
+            let before = exact(1.0) - rounded::smoothstep(exact(0.0), fade, behind);
+            let (top, q) = (before * one.amount, hit.rho_squared);
+            if one.drawn.is && q.v <= 1.0 && hit.k.v >= near && hit.k.v < hidden {
+                *depth.at_mut(x, y) += top.v * kernel(q.v);
+            }
+            // Under the root u/2, the root 9u, the exponential 7 ulp, the products 2u.
+            let rounding = U * (0.5 + 9.0 + 14.0 + 2.0);
+            if one.drawn.surely && hit.sure {
+                let least = (top.v - top.e).max(0.0) * kernel((q.v + q.e).min(1.0));
+                *low.at_mut(x, y) += in_steps(least * (1.0 - rounding), -1.0, settings.step);
+            }
+            let most = (top.v + top.e) * kernel((q.v - q.e).max(0.0));
+            *high.at_mut(x, y) += in_steps(most * (1.0 + rounding), 1.0, settings.step);
+            *count.at_mut(x, y) += 1;
+        }
+    }
+    for (i, n) in count.data.iter().enumerate() {
+        low.data[i] = summed(low.data[i], *n, settings.step)[0];
+        high.data[i] = summed(high.data[i], *n, settings.step)[1];
+    }
+    Spray { depth, bounds: Between { low, high }, count }
+}
+
+/// What an addend may be rounded to, at least or at most by the sign.
+fn in_steps(addend: f64, sign: f64, step: f64) -> f64 {
+    if step == 0.0 {
+        return addend;
+    }
+    ((addend / step + 0.5 + sign * 2.0 * U).floor() * step).max(0.0)
+}
+
+/// Least and most that half precision makes of a sum of so many additions, in any order: each is of
+/// no more than the whole, rounded to the nearest or, which Vulkan leaves open, towards zero.
+fn summed(sum: f64, count: u32, step: f64) -> [f64; 2] {
+    if step > 0.0 && sum <= EXACT {
+        return [sum; 2];
+    }
+    let (n, (by, least)) = (f64::from(count), HALF);
+    let low = sum * (1.0 - 2.0 * by).powf(n) - 2.0 * n * least;
+    [low.max(0.0), sum * (1.0 + by).powf(n) + n * least]
+}
+
+/// The same of a sum that was made so itself, in another order.
+pub fn summed_again(sum: f64, count: u32) -> [f64; 2] {
+    if sum < EXACT {
+        return [sum; 2];
+    }
+    let (n, (by, least)) = (f64::from(count), HALF);
+    let ratio = ((1.0 + by) / (1.0 - 2.0 * by)).powf(n);
+    // Three of the least, or two times a ratio and one.
+    [sum / ratio - 4.0 * n * least, sum * ratio + 4.0 * n * least]
+}
+
+/// A channel of a colour with spray of an optical depth over it, of a light, and what single
+/// precision may be off: of either part exp 3 + 2x ulp, a difference and five products.
+pub fn over(behind: f64, spray: f64, light: f64, additive: bool) -> (f64, f64) {
+    let k = (-spray).exp();
+    let v = behind * if additive { 1.0 } else { k } + light * (1.0 - k);
+    (v, U * (12.0 + 4.0 * spray) * (behind.abs() + light))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::view;
+    use super::super::thickness::J;
+    use super::*;
+    use crate::reference::EMPTY;
+    use crate::support::scenes::Random;
+    use glam::{DVec2, Mat4, Vec2, Vec3};
+    use std::f64::consts::PI;
+
+    fn settings() -> Settings {
+        Settings {
+            spacing: 0.5,
+            rest_density: 1000.0,
+            opacity: 0.5,
+            size: 0.5,
+            droplets: 1,
+            spread: 0.0,
+            densities: [0.6, 0.85],
+            shutter: 1.0 / 60.0,
+            step: 0.0,
+        }
+    }
+
+    fn particle(position: [f64; 3]) -> Particle {
+        let position = DVec3::from(position);
+        Particle { position, velocity: DVec3::ZERO, density: 500.0, id: 7 }
+    }
+
+    fn open(view: &View) -> Image<f64> {
+        Image::new(view.width, view.height, EMPTY)
+    }
+
+    fn total(particles: &[Particle], view: &View, settings: &Settings) -> f64 {
+        let none = open(view);
+        spray(particles, view, settings, &none, &none).depth.data.iter().sum()
+    }
+
+    #[test]
+    fn the_amount_is_the_integral_and_no_motion_changes_it() {
+        let (settings, view) = (settings(), view(DVec2::splat(3.0), DVec2::ZERO, 401, 301));
+        let (at, d) = ([0.0, 0.0, -9.0], 9.0);
+        let area = view.c_x() * view.c_y() * d * d;
+        let h = 0.5 * RADIUS * 0.5;
+        let expected = 2.0_f64.ln() * h * h * PI * J;
+        for (density, share) in [(500.0, 1.0), (725.0, 0.5)] {
+            for velocity in [DVec3::ZERO, 20.0 * DVec3::X, DVec3::new(-9.0, 30.0, 0.0)] {
+                let found =
+                    total(&[Particle { density, velocity, ..particle(at) }], &view, &settings);
+                let ratio = found * area / (share * expected);
+                assert!((ratio - 1.0).abs() < 3e-3, "{density}, {velocity}: {ratio}");
+            }
+            // Towards the eye there is nothing to see of it.
+            let towards = Particle { velocity: 30.0 * DVec3::Z, ..particle(at) };
+            assert_eq!(
+                total(&[towards], &view, &settings),
+                total(&[particle(at)], &view, &settings)
+            );
+        }
+        // Droplets are as much together, but for the first, which is mist.
+        let mist = MIST[1] * (MIST[0] * 0.7 * 0.5 / h).powi(2);
+        let many = Settings { droplets: 16, spread: 0.7, ..settings };
+        let all: Vec<_> = (0..60).map(|id| Particle { id, ..particle(at) }).collect();
+        let ratio = total(&all, &view, &many) * area / (60.0 * expected * (15.0 / 16.0 + mist));
+        assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
+    }
+
+    #[test]
+    fn what_takes_no_part() {
+        let (settings, view) = (settings(), view(DVec2::ONE, DVec2::ZERO, 17, 17));
+        let good = particle([0.0, 0.0, -3.0]);
+        for density in [850.0, 1000.0, f64::INFINITY, 0.0, -1.0, f64::NAN] {
+            let none = total(&[Particle { density, ..good }], &view, &settings);
+            assert_eq!(none, 0.0, "{density}");
+        }
+        assert!(total(&[Particle { density: 849.0, ..good }], &view, &settings) > 0.0);
+        let (nan, far) = (DVec3::new(0.0, f64::NAN, 0.0), DVec3::new(-2e18, 0.0, 0.0));
+        for bad in [
+            Particle { position: nan, ..good },
+            Particle { velocity: nan, ..good },
+            Particle { velocity: far, ..good },
+            particle([0.0, 0.0, -0.09]),
+            particle([0.0, 0.0, 3.0]),
+            // Nearer than twice its half-axis.
+            particle([0.0, 0.0, -0.3]),
+        ] {
+            assert_eq!(total(&[bad], &view, &settings), 0.0, "{bad:?}");
+        }
+        let spread = Settings { spread: 3.1, ..settings };
+        assert_eq!(total(&[good], &view, &spread), 0.0, "nearer than twice the spread");
+        // All of it fades behind water, none of it before.
+        let none = open(&view);
+        let of = |scene: f64, water: f64| {
+            spray(&[good], &view, &settings, &none.map(|_| scene), &none.map(|_| water)).depth.data
+        };
+        assert_eq!(of(EMPTY, 3.0), of(EMPTY, EMPTY));
+        assert!(of(EMPTY, 2.2).iter().chain(&of(2.9, EMPTY)).all(|v| *v == 0.0));
+    }
+
+    /// The definition in single precision, each operation rounded, the sum in half precision.
+    fn single(
+        particle: &Particle,
+        view: &View,
+        settings: &Settings,
+        (scene, water): (&Image<f64>, &Image<f64>),
+    ) -> Image<half::f16> {
+        let mut sum = Image::new(view.width, view.height, half::f16::ZERO);
+        let to_eye = view.view.as_mat4();
+        let (s, n, near) = (settings.spacing as f32, settings.droplets, view.near() as f32);
+        let step = |low: f32, high: f32, x: f32| {
+            let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+            t * t * (3.0 - 2.0 * t)
+        };
+        let (spread, rest) = (settings.spread as f32 * s, settings.rest_density as f32);
+        let [all, none] = settings.densities.map(|d| d as f32 * rest);
+        let scale = view.slope_step().as_vec2();
+        let first = ((view.shift() - 1.0) / view.focal()).as_vec2();
+        let share = 1.0 - step(all, none.max(all * 1.000001 + 1e-6), particle.density as f32);
+        let c = to_eye.transform_point3(particle.position.as_vec3());
+        let v = to_eye.transform_vector3(particle.velocity.as_vec3());
+        if share <= 0.0 || -c.z <= near.max(2.0 * spread) {
+            return sum;
+        }
+        for k in 0..n {
+            let u = [0, 1, 2, 3].map(|j| classify::random(SEED, 5 * k + j, particle.id));
+            let (level, turn) = (2.0 * u[0] - 1.0, std::f32::consts::TAU * u[1]);
+            let ring = (1.0 - level * level).max(0.0).sqrt();
+            let way = Vec3::new(ring * turn.cos(), ring * turn.sin(), level);
+            let wide = 0.6 + 0.8 * classify::random(SEED, 4096, particle.id);
+            let far = spread * u[2].powf(1.0 / 3.0) * if n > 1 { wide } else { 1.0 };
+            let p = c + to_eye.transform_vector3(far * way);
+            let normal = p / p.length();
+            let m = v - v.dot(normal) * normal;
+            let speed = m.length();
+            let side = if normal.y.abs() < 0.9 { Vec3::Y } else { Vec3::X };
+            let e1 = if speed > (1e-6 * s).max(1e-3 * v.length()) { m } else { side.cross(normal) };
+            // Straight at the eye e1 is noise in all directions.
+            let e2 = (e1 / e1.length()).cross(normal);
+            let e2 = if e2.length() > 1e-3 { e2 } else { side.cross(normal).cross(normal) };
+            let e2 = e2 / e2.length();
+            let e1 = normal.cross(e2);
+            let squares = if n > 1 { 0.513 * n as f32 } else { 1.0 };
+            let g = if n > 1 { 0.35 + 1.15 * u[3] * u[3] * u[3] } else { 1.0 };
+            let mist = n > 1 && k == 0;
+            let h = g * settings.size as f32 * 0.656 * s / squares.sqrt();
+            let (h, thin) = if mist { (0.7 * spread, 0.08) } else { (h, 1.0) };
+            let pixel = -p.z * scale.abs().max_element();
+            let a = (h + 0.5 * speed * settings.shutter as f32).max(0.7 * pixel);
+            let b = h.max(0.7 * pixel);
+            let amount = thin * share * -(1.0 - settings.opacity as f32).ln() * h * h / (a * b);
+            if -p.z <= (2.0 * (a + pixel)).max(near) {
+                continue;
+            }
+            for (x, y) in (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y))) {
+                let w = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) * scale + first;
+                let w = w.extend(-1.0);
+                let t = normal.dot(p) / normal.dot(w);
+                let at = w * t - p;
+                let q = Vec2::new(at.dot(e1) / a, at.dot(e2) / b).length_squared();
+                let hidden = f64::from(t) >= scene.at(x, y) && scene.at(x, y) > 0.0;
+                if normal.dot(w).abs() < 1e-6 || t < near || q > 1.0 || hidden {
+                    continue;
+                }
+                let before = 1.0 - step(0.0, 1.5 * s, t - water.at(x, y) as f32);
+                let value = before * amount * (1.0 - q).max(0.0).sqrt() * (-2.0 * q).exp();
+                let pixel = sum.at_mut(x, y);
+                *pixel = half::f16::from_f32(pixel.to_f32() + value);
+            }
+        }
+        sum
+    }
+
+    #[test]
+    fn single_precision_stays_in_the_bounds() {
+        let full = view(DVec2::new(0.9, -1.2), DVec2::new(0.2, -0.1), 37, 26);
+        let turned = Mat4::from_rotation_y(0.7) * Mat4::from_rotation_x(0.4);
+        let scene =
+            Image::from_fn(37, 26, |x, y| if (x / 9 + y / 5) % 2 == 0 { 7.0 } else { EMPTY });
+        let water = Image::from_fn(37, 26, |x, _| if x < 12 { 5.0 } else { EMPTY });
+        let (mut sure, mut seen, mut widths) = (0, 0, Vec::new());
+        for (eye, droplets, size, shutter) in
+            [(2.0, 1, 2.0, 0.02), (50.0, 16, 4.0, 0.02), (0.0, 5, 0.5, 0.2), (1.0, 64, 8.0, 0.0)]
+        {
+            let eye = Mat4::from_translation(eye * Vec3::new(1.0, -0.7, 0.3));
+            let view = View { view: (turned * eye).as_dmat4(), ..full };
+            let back = view.view.inverse();
+            let spread = f64::from(0.7_f32) * f64::from(u8::from(droplets > 1));
+            let [opacity, size, shutter] = [0.9_f32, size, shutter].map(f64::from);
+            let [all, none] = [0.6_f32, 0.85].map(f64::from);
+            let densities = [all, none];
+            let settings =
+                Settings { droplets, size, spread, opacity, shutter, densities, ..settings() };
+            let mut r = Random(u64::from(droplets));
+            let mut random = |low: f32, high: f32| f64::from(r.between(low, high));
+            for i in 0..80 {
+                let d = random(0.1, 12.0);
+                let at = DVec3::new(random(-1.0, 1.0) * d, random(-1.0, 1.0) * d, -d);
+                let any =
+                    20.0 * DVec3::new(random(-1.0, 1.0), random(-1.0, 1.0), random(-1.0, 1.0));
+                // At rest, hardly moving, straight at the eye.
+                let v = [any, DVec3::ZERO, 1e-7 * any, at][i % 5 % 4];
+                let held = |v: DVec3| v.as_vec3().as_dvec3();
+                let particle = Particle {
+                    position: held(back.transform_point3(at)),
+                    velocity: held(back.transform_vector3(v)),
+                    density: random(400.0, 900.0),
+                    id: i as u32,
+                };
+                let twin = spray(&[particle], &view, &settings, &scene, &water);
+                let single = single(&particle, &view, &settings, (&scene, &water));
+                for (i, n) in twin.count.data.iter().enumerate() {
+                    let (low, high) = (twin.bounds.low.data[i], twin.bounds.high.data[i]);
+                    for value in [twin.depth.data[i], single.data[i].to_f64()] {
+                        assert!(low <= value && value <= high, "{low} {value} {high}, {n} times");
+                    }
+                    seen += usize::from(single.data[i].to_f32() > 0.0);
+                    if low > 0.0 {
+                        sure += 1;
+                        widths.push((high - low) / (high + low) / f64::from(*n));
+                    }
+                }
+            }
+        }
+        widths.sort_by(f64::total_cmp);
+        assert!(sure > 4000 && seen < sure + sure / 10, "{sure} of {seen} pixels are sure");
+        assert!(widths[sure / 2] < 2e-3, "{}", widths[sure / 2]);
+    }
+}
