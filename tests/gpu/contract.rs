@@ -879,7 +879,8 @@ fn memory_is_as_documented() {
     for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
-        // The light's maps, and a lit scene in place of the copied one, which is of half precision too.
+        // The light's maps, and a lit scene in place of the copied one, which is of half precision
+        // too.
         for cast in [None, Some(256), Some(1024)] {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config { cast, ..Config::new(extent(width, height), format, count) };

@@ -1,10 +1,11 @@
 //! Twin of the sunlight: the light's maps, the caustics made of them, and what they leave of the
 //! scene's light.
 //!
-//! The light's space is (u, v, d): place in the maps of a ball's silhouette, metres along the light.
+//! The light's space is (u, v, d): place in the maps of a ball's silhouette, metres along the
+//! light.
 //! Numbers come as [`Rounded`] or between two where single precision decides something: the first
-//! particle of a texel, a multiple of a step, whether two depths are of one surface. A decision that
-//! rounding may turn opens the bounds by what it decides, and by nothing else.
+//! particle of a texel, a multiple of a step, whether two depths are of one surface. A decision
+//! that rounding may turn opens the bounds by what it decides, and by nothing else.
 
 use super::thickness::{J, kernel};
 use super::{EMPTY, Image, is_surface};
@@ -111,8 +112,9 @@ impl Light {
     }
 
     /// Metres that a coordinate may be off. The axes are unit vectors of components to 16u, as
-    /// vectors 28u, by a scale that is rounded twice; they turn what lies off the middle. The offset
-    /// is a sum of four, and so is the product with a point: 8u of what cancels, 4u of the map.
+    /// vectors 28u, by a scale that is rounded twice; they turn what lies off the middle. The
+    /// offset is a sum of four, and so is the product with a point: 8u of what cancels, 4u of the
+    /// map.
     pub fn off(&self, p: DVec3) -> f64 {
         let from = p - self.center;
         U * (36.0 * from.length() + 8.0 * (p.length() + self.center.length()) + 8.0 * self.radius)
@@ -239,8 +241,9 @@ impl Light {
         off(self.falloff * self.r(), 2.0)
     }
 
-    /// A row or a column of the front, smoothed. The sums of n weights and products add 2 (n + 3) u of
-    /// the depth; a weight is off by its exponent, 48u, which counts by what the depths differ.
+    /// A row or a column of the front, smoothed. The sums of n weights and products add 2 (n + 3)
+    /// u of the depth; a weight is off by its exponent, 48u, which counts by what the depths
+    /// differ.
     fn smoothed(&self, front: &Image<Rounded>, along: (isize, isize)) -> Image<Rounded> {
         let sigma = (self.width * self.r() / self.texel()).max(1e-3);
         let reach = (2.5 * sigma).ceil().min(64.0) as isize;
@@ -358,8 +361,8 @@ impl Light {
         (sums, Between { low, high })
     }
 
-    /// Share of sunlight that fluid leaves at a point which is so many metres off, per channel, and by
-    /// which the caustics change it.
+    /// Share of sunlight that fluid leaves at a point which is so many metres off, per channel,
+    /// and by which the caustics change it.
     pub fn at(&self, maps: &Maps<'_>, p: DVec3, by: f64) -> ([Rounded; 3], Rounded) {
         let (at, d) = self.place(p);
         let (at, n) = (at - 0.5, self.texels as f64);
@@ -412,8 +415,8 @@ impl Light {
     }
 }
 
-/// Light of a colour of the scene where so much of the sun is past the scene; `shade` over light in the
-/// sun.
+/// Light of a colour of the scene where so much of the sun is past the scene; `shade` over light
+/// in the sun.
 pub fn lit(color: f64, shade: f64, past: Rounded, through: Rounded, gain: Rounded) -> Rounded {
     let sun = exact(1.0) - off(shade, 5.0).clamp(0.0, 1.0);
     off(color, 1.0) * (exact(1.0) + sun * past * (through * gain - exact(1.0)))
@@ -431,8 +434,8 @@ pub struct ShadowMap<'a> {
 }
 
 impl ShadowMap<'_> {
-    /// The share of the sun at a point which is so many metres off: a mean of comparisons, those that
-    /// rounding may turn count half and as much error.
+    /// The share of the sun at a point which is so many metres off: a mean of comparisons, those
+    /// that rounding may turn count half and as much error.
     pub fn past(&self, p: DVec3, by: f64) -> Rounded {
         let p = p + self.bias * self.sun.normalize();
         let clip = self.view_projection * p.extend(1.0);
