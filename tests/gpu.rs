@@ -28,6 +28,8 @@ mod headless;
 mod invariants;
 #[path = "gpu/level.rs"]
 mod level;
+#[path = "gpu/light.rs"]
+mod light;
 #[path = "gpu/limits.rs"]
 mod limits;
 #[path = "gpu/queries.rs"]

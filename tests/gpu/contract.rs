@@ -2,10 +2,10 @@
 //! kind of host image.
 
 use ash::vk;
-use whitewater::water::{Gate, Rule, Shading, Smoothing, Splat};
+use whitewater::water::{Gate, Rule, Shading, Shadows, Smoothing, Splat};
 use whitewater::{
-    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Renderer, Settings,
-    Slot, Stream,
+    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Region, Renderer,
+    Settings, Shadow, Slot, Stream,
 };
 
 use crate::reference::Image;
@@ -19,6 +19,22 @@ use crate::support::spy;
 fn water(size: vk::Extent2D, lens: Lens) -> Shot {
     let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
     Shot::new(size, lens, 0.2, &points)
+}
+
+/// The sun's way as a rig's configuration asks for it, by the depth of a scene. It lies before the
+/// water: a shot is in the shade where the map says so.
+fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
+    let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
+    shot.sun.region = rig.config.cast.map(|_| Region { center, radius: 4.0 });
+    let kind = rig.config.shadow?;
+    let (color, depth) = rig.scene(shot);
+    let image = match kind {
+        Shadows::Mask => color,
+        Shadows::Map => depth,
+    };
+    let view_projection = shot.camera.projection * shot.camera.view;
+    shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
+    Some(image)
 }
 
 /// What a frame in flight needs to stay alive.
@@ -164,6 +180,17 @@ fn resize_gives_what_a_new_renderer_gives() {
         let name = format!("resize-{}", size.width);
         compare::same_color(&name, &rig.draw(&shot).output, &expected.output);
     }
+    let config =
+        |size| Config { cast: Some(32), shadow: Some(Shadows::Map), foam: true, ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config(extent(96, 64)), 1);
+    for size in [extent(33, 17), extent(1, 1), extent(96, 64)] {
+        rig.resize(size);
+        let mut shot = water(size, Lens::Standard);
+        let _shade = sunny(&rig, &mut shot);
+        let expected = Rig::lit(&gpu, &config(size), 1).draw(&shot);
+        let name = format!("resize-sun-{}", size.width);
+        compare::same_color(&name, &rig.draw(&shot).output, &expected.output);
+    }
 }
 
 /// Every part of the configuration changes while frames of the old one are in flight.
@@ -187,6 +214,10 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { foam: true, depth_splat: Some(Splat::Raster), ..base },
         Config { spray: true, ..base },
         Config { spray: true, foam: true, composite: Some(Shading::Compute), ..base },
+        Config { cast: Some(32), ..base },
+        Config { cast: Some(64), shadow: Some(Shadows::Map), foam: true, spray: true, ..base },
+        Config { cast: Some(64), composite: Some(Shading::Compute), sheets: 2, ..base },
+        Config { shadow: Some(Shadows::Mask), extent: extent(50, 40), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -199,7 +230,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
             rig.set_up();
             rig.light();
         }
-        let shot = water(config.extent, Lens::Standard);
+        let mut shot = water(config.extent, Lens::Standard);
+        let _shade = sunny(&rig, &mut shot);
         let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
         let name = format!("reconfigure-{i}");
         let now = launch(&mut rig, i as u32 % 2, &shot, expected);
@@ -493,7 +525,83 @@ fn spoils() -> Vec<Spoil> {
             g.settings.foam.motion_threshold = 0.0;
         }),
         ("white", "Settings.foam.front_color", |g| g.settings.foam.front_color[1] = 1.1),
+        ("foam's shadow", "Settings.foam.shadow", |g| g.settings.foam.shadow = f32::NAN),
+        ("shade", "Settings.light", |g| g.settings.light.shade[0] = -1.0),
+        ("region", "Frame.sun.region", |g| {
+            g.frame.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
+        }),
+        ("shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = Some(shadow(&g.frame))),
     ]
+}
+
+/// The scene's depth as it were the light's.
+fn shadow(frame: &Frame<'_>) -> Shadow {
+    Shadow { image: frame.scene_depth, view_projection: glam::Mat4::IDENTITY, bias: 0.0 }
+}
+
+/// The sun's way where the configuration has it.
+fn sunny_spoils() -> Vec<Spoil> {
+    fn shadow_of<'a>(g: &'a mut Good<'_>) -> &'a mut Shadow {
+        g.frame.sun.shadow.as_mut().expect("a good one")
+    }
+    fn region_of<'a>(g: &'a mut Good<'_>) -> &'a mut Region {
+        g.frame.sun.region.as_mut().expect("a good one")
+    }
+    vec![
+        ("no shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = None),
+        ("no region", "Frame.sun.region", |g| g.frame.sun.region = None),
+        ("radius", "Frame.sun.region", |g| region_of(g).radius = 0.0),
+        ("radius of NaN", "Frame.sun.region", |g| region_of(g).radius = f32::NAN),
+        ("center", "Frame.sun.region", |g| region_of(g).center[1] = f32::INFINITY),
+        ("bias", "Frame.sun.shadow.bias", |g| shadow_of(g).bias = f32::NAN),
+        ("matrix", "Frame.sun.shadow.view_projection", |g| {
+            shadow_of(g).view_projection = glam::Mat4::ZERO;
+        }),
+        ("part", "HostImage.rect", |g| shadow_of(g).image.rect.offset.x = 1),
+        ("lost shadow", "Frame.sun.shadow.image.before", |g| {
+            shadow_of(g).image.before.layout = vk::ImageLayout::UNDEFINED;
+        }),
+    ]
+}
+
+#[test]
+fn bad_frames_in_the_sun_are_errors_before_any_command() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let size = extent(32, 16);
+    let config = Config { shadow: Some(Shadows::Map), cast: Some(16), ..config(size) };
+    let mut rig = Rig::with_slots(&gpu, &config, 1);
+    let mut shot = water(size, Lens::Standard);
+    shot.sun.region = Some(Region { center: [0.0; 3], radius: 4.0 });
+    let ((color, depth), (_, map)) = (rig.scene(&shot), rig.scene(&shot));
+    let cloud = rig.particles(&shot);
+    shot.sun.shadow =
+        Some(Shadow { image: map.host_image(), view_projection: glam::Mat4::IDENTITY, bias: 0.0 });
+    let cmd = rig.stub.begin(0);
+    let good = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    for (name, field, spoil) in sunny_spoils() {
+        let mut bad = Good { frame: good, settings: shot.settings.clone() };
+        spoil(&mut bad);
+        let Good { frame, settings } = bad;
+        spy::reset();
+        // SAFETY: nothing of a bad frame may be used.
+        let result = unsafe { rig.renderer().record(cmd, &Frame { settings: &settings, ..frame }) };
+        let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
+        match result {
+            Err(Error::BadInput { field: found, why }) => {
+                assert!(
+                    found == field && !why.is_empty() && commands == 0,
+                    "{name}: {found}, {why}"
+                );
+            }
+            other => panic!("{name}: {:?}", other.map(|_| "no error")),
+        }
+    }
+    // SAFETY: a good frame.
+    unsafe { rig.renderer().record(cmd, &good) }.expect("record");
+    rig.stub.end(0);
+    rig.stub.wait(0);
 }
 
 /// Each is found before the first command; the command buffer is still good for the next record.
@@ -591,6 +699,9 @@ fn bad_configurations_are_errors() {
         ("Config.coarsening", Config { coarsening: 4, ..good }),
         ("Config.sheets", Config { sheets: 0, ..good }),
         ("Config.sheets", Config { sheets: 3, ..good }),
+        ("Config.cast", Config { cast: Some(0), ..good }),
+        ("Config.cast", Config { cast: Some(24), ..good }),
+        ("Config.cast", Config { cast: Some(4112), ..good }),
         ("Config.environment_size", Config { environment_size: 8, ..good }),
         ("Config.environment_size", Config { environment_size: 100, ..good }),
         ("Config.environment_size", Config { environment_size: 4096, ..good }),
@@ -768,6 +879,22 @@ fn memory_is_as_documented() {
     for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
+        // The light's maps, and a lit scene in place of the copied one, which is of half precision
+        // too.
+        for cast in [None, Some(256), Some(1024)] {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let config = Config { cast, ..Config::new(extent(width, height), format, count) };
+            // SAFETY: live handles.
+            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let memory = renderer.memory();
+            // SAFETY: nothing was recorded.
+            unsafe { renderer.destroy() };
+            let maps = cast.map_or(0.0, |n| 36.0 * f64::from(n * n));
+            let found = (memory.images + memory.buffers) as f64;
+            let said = needed(width, height, count, (2, 3, false, false)) + maps;
+            let off = (found - said).abs();
+            assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}: {found}, said {said}");
+        }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
         // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
@@ -778,8 +905,8 @@ fn memory_is_as_documented() {
             (2, 0, false, false, 4.5, 2.5),
             (1, 3, true, false, 4.5, 5.25),
             (2, 3, true, false, 4.5, 7.75),
-            (1, 3, false, true, 4.5, 2.0),
-            (2, 3, true, true, 4.5, 9.75),
+            (1, 3, false, true, 4.5, 4.0),
+            (2, 3, true, true, 4.5, 11.75),
         ] {
             let each = 32.0 + if foam { 52.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
             let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
@@ -796,9 +923,9 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let mut rig =
-        Rig::with_slots(&gpu, &Config { sheets: 2, foam: true, spray: true, ..config(size) }, 2);
-    let shot = water(size, Lens::Standard);
+    let config = Config { sheets: 2, foam: true, spray: true, ..config(size) };
+    let mut rig = Rig::with_slots(&gpu, &config, 2);
+    let mut shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
     assert!(rig.renderer().timings(Slot(9)).is_empty(), "no such slot");
     for _ in 0..3 {
@@ -830,4 +957,12 @@ fn timings_name_every_pass() {
         assert!(!falls, "{timings:?}");
     }
     assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
+    let mut rig = Rig::new(&gpu, &Config { cast: Some(16), ..config });
+    sunny(&rig, &mut shot);
+    rig.draw(&shot);
+    let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();
+    let at = |name| names.iter().position(|n| *n == name);
+    let (light, caustics, lit) = (at("light"), at("caustics"), at("lit"));
+    assert!(light.is_some() && light < caustics && caustics < lit, "{names:?}");
+    assert!(lit < at("composite"), "{names:?}");
 }

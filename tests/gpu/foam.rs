@@ -22,13 +22,13 @@ fn foaming(size: ash::vk::Extent2D) -> Config {
 
 /// A shot with foam.
 #[derive(Clone)]
-struct Foamy {
-    shot: Shot,
+pub struct Foamy {
+    pub shot: Shot,
     /// Foam and age.
-    amounts: Vec<[f32; 2]>,
+    pub amounts: Vec<[f32; 2]>,
     /// In the world.
-    velocities: Vec<[f32; 3]>,
-    ids: Option<Vec<u32>>,
+    pub velocities: Vec<[f32; 3]>,
+    pub ids: Option<Vec<u32>>,
 }
 
 /// Its buffers.
@@ -52,7 +52,7 @@ impl Streams {
 
 impl Foamy {
     /// Particles of all amounts of foam, at all speeds up to `fastest` spacings a second.
-    fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
+    pub fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
         let shot = Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0));
         let mut random = Random(5);
         let most = fastest * shot.settings.water.spacing / 3.0_f32.sqrt();
@@ -79,7 +79,7 @@ impl Foamy {
         }
     }
 
-    fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
+    pub fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
         let streams = self.streams(rig);
         rig.draw_particles(&self.shot, &streams.particles())
     }

@@ -19,6 +19,7 @@ pub mod cull;
 pub mod depth;
 pub mod environment;
 pub mod foam;
+pub mod light;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;
