@@ -385,7 +385,7 @@ pub struct Region {
 
 impl Region {
     /// World to the light's maps: place 0 to 1, metres along the light.
-    pub(crate) fn to_map(&self, light: &Light) -> Mat4 {
+    pub(crate) fn to_map(self, light: &Light) -> Mat4 {
         let sun = Vec3::from(light.direction).normalize_or(Vec3::Y);
         let up = if sun.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
         let right = up.cross(sun).normalize();

@@ -54,7 +54,8 @@
 //!   `reconfigure`, `collect` and `destroy` lock the allocator.
 //! - Equal inputs give equal pictures on one device, whatever the order of the particles, but for the
 //!   additive blending of [`Splat::Raster`](water::Splat): other sums are of integers, or of steps
-//!   that floats hold exactly.
+//!   that floats hold exactly (where the light's maps lie some hundred spacings from their region's
+//!   middle, nearly).
 //!
 //! # Demands
 //!
@@ -87,7 +88,7 @@
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
 //! | foam: depth, thickness, what water is before it (`foam`) | 5¼ w h | 4.6 MiB | 10.4 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
-//! | spray: optical depth (`spray`) | 2 w h | 1.8 MiB | 4.0 MiB |
+//! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |

@@ -11,18 +11,17 @@ const float MOST_GATHERED = 3.0;
 float caustics_at(LightTexels t) {
     float sum = 0.0;
     float below = 0.0;
-    float far = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
         vec4 thick = texelFetch(light_thickness, texel, 0);
-        below += weight * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);
-        far += weight * max(t.depth - thick.z / max(thick.x, 1.0e-9) - 0.5 * thick.x, 0.0);
+        // Far behind the water it is spread by the sun's width: even again.
+        float far = max(t.depth - thick.z / max(thick.x, 1.0e-9) - 0.5 * thick.x, 0.0);
+        float sharp = 1.0 / (1.0 + far / (8.0 * frame.particle.y));
+        below += weight * sharp * before_depth(thick, t.depth).x / max(thick.x, 1.0e-9);
         sum += weight * texelFetch(caustics, texel, 0).x;
     }
-    // Far behind the water it is spread by the sun's width: even again.
-    float sharp = 1.0 / (1.0 + far / (8.0 * frame.particle.y));
-    return t.inside ? mix(1.0, min(sum, MOST_GATHERED), below * sharp) : 1.0;
+    return t.inside ? mix(1.0, min(sum, MOST_GATHERED), below) : 1.0;
 }
 
 // Colour of a pixel (its centre, at +0.5), filtered as the scene's size is.

@@ -74,14 +74,15 @@ vec2 before_depth(vec4 thick, float depth) {
 vec3 through_fluid(vec3 eye) {
     LightTexels t = light_texels(eye);
     vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
-    vec3 kept = vec3(0.0);
+    // What is lost, not what is kept: where there is nothing it is nothing.
+    vec3 lost = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = t.base + ivec2(i & 1, i >> 1);
         vec2 thick = before_depth(texelFetch(light_thickness, texel, 0), t.depth - 0.5 * frame.particle.y);
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
-        kept += weight * exp(-extinction * thick.x - frame.shade.w * thick.y);
+        lost += weight * (1.0 - exp(-extinction * thick.x - frame.shade.w * thick.y));
     }
-    return t.inside ? kept : vec3(1.0);
+    return t.inside ? 1.0 - lost : vec3(1.0);
 }
 
 // Share of the sun's light at a point of the fluid.

@@ -317,17 +317,13 @@ fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Pa
         for c in 0..3 {
             let shade = f64::from(sun.shade[c]) / f64::from(sun.irradiance[c]);
             let past = past(p, by, (x, y));
-            // With distance the focus fades, to none at most.
-            let ends = [gain, exact(1.0)]
-                .map(|gain| lit(f64::from(color[c]), shade, past, through[c], gain));
+            let end = lit(f64::from(color[c]), shade, past, through[c], gain);
             let v = f64::from(found[c]);
-            let low = ends.iter().map(|end| end.v - end.e).fold(f64::INFINITY, f64::min);
-            let high = ends.iter().map(|end| end.v + end.e).fold(0.0, f64::max);
-            let [low, high] = halves(low, high);
+            let [low, high] = halves(end.v - end.e, end.v + end.e);
             darker += usize::from(v < 0.97 * f64::from(color[c]));
             lighter += usize::from(v > 1.01 * f64::from(color[c]));
             if v < low || v > high {
-                wrong += &format!("({x}, {y}) {c}: {v}, not {ends:?}\n");
+                wrong += &format!("({x}, {y}) {c}: {v}, not {end:?}\n");
             }
         }
     }
@@ -426,6 +422,37 @@ fn wall(lens: Lens) -> Foamy {
     case
 }
 
+/// The mean of the frontmost foam's nine depths a radius apart that lie on the surface of a pixel, and how
+/// far off that makes a point; none where rounding decides which those are.
+fn mean_depth(case: &Foamy, foam: &Image<f32>, (x, y): (usize, usize)) -> Option<(f64, f64)> {
+    let (view, shot) = (case.shot.view(SIZE), &case.shot);
+    let here = f64::from(foam.at(x, y));
+    let step = f64::from(shot.settings.water.radius()) / (view.c_x() * here);
+    let step = step.clamp(1.0, 32.0);
+    let falloff = f64::from(shot.falloff());
+    let (mut sum, mut count) = (0.0, 0.0);
+    for i in 0..9_i32 {
+        let mut at = [x, y];
+        for (axis, by) in [(0, i % 3 - 1), (1, i / 3 - 1)] {
+            let place = at[axis] as f64 + 0.5 + step * f64::from(by);
+            if (place - place.round()).abs() < 32.0 * U * (1.0 + place.abs()) {
+                return None;
+            }
+            let last = [foam.width, foam.height][axis] - 1;
+            at[axis] = (place.max(0.0) as usize).min(last);
+        }
+        let off = f64::from(foam.at(at[0], at[1])) - here;
+        if (off.abs() - falloff).abs() < 8.0 * U * (here + falloff) {
+            return None;
+        }
+        if off.abs() < falloff {
+            (sum, count) = (sum + off, count + 1.0);
+        }
+    }
+    // Differences, their sums, a quotient and a sum; a ray is no longer than two of its depths here.
+    Some((here + sum / count, 2.0 * 24.0 * U * (here + falloff)))
+}
+
 /// Opaque foam is as light as the sun on it; what part of the pixels is neither lit nor dark.
 fn check_foam(
     name: &str,
@@ -441,8 +468,11 @@ fn check_foam(
         if depth >= 1e9 || foam.thickness.data[i][1] < 1e-3 {
             continue;
         }
+        // Which nine they are rounding may turn.
+        let Some((depth, off_by)) = mean_depth(case, &foam.depth, (x, y)) else { continue };
         seen_foam += 1;
         let (p, by) = seen(&case.shot, depth, (x, y));
+        let by = by + off_by;
         let sun = sun(p, by, (x, y));
         kinds[if sun[0].v < 0.05 { 0 } else { 1 + usize::from(sun[0].v > 0.95) }] += 1;
         for c in 0..3 {

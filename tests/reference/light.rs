@@ -310,8 +310,10 @@ impl Light {
             let k = exact(1.0) - eta * eta * (exact(1.0) - cosine * cosine);
             let bend = eta * cosine + k.sqrt();
             let b = [-(bend * n[0]), -(bend * n[1]), eta - bend * n[2]];
-            let x_water = exact(f64::from(maps.thickness.at(x, y)[0]));
-            let lens = x_water * smoothstep(off(s, 1.0), off(4.0 * s, 2.0), x_water);
+            let [x_water, foam, ..] = maps.thickness.at(x, y).map(|v| exact(f64::from(v)));
+            let scattered = (-(off(4.0 * self.foam_extinction, 1.0) * foam)).exp();
+            let thick = smoothstep(off(s, 1.0), off(4.0 * s, 2.0), x_water);
+            let lens = x_water * thick * scattered;
             let down = b[2].clamp(0.2, 2.0);
             let index = [x, y].map(|i| exact(i as f64));
             Some([0, 1].map(|i| index[i] + b[i] / down * lens / t))
@@ -389,7 +391,11 @@ impl Light {
             let kept = self.extinction.map(|k| (-(self::off(k, 1.0) * water) - lost).exp());
             let below = before(x, z, exact(0.0)) / if x.v > 1e-9 { x } else { exact(1e-9) };
             let caustics = exact(f64::from(maps.caustics.clamped(i, j)));
-            [kept[0], kept[1], kept[2], below, caustics]
+            let mean = z / if x.v > 1e-9 { x } else { exact(1e-9) };
+            let far = (d - mean - exact(0.5) * x).clamp(0.0, f64::INFINITY);
+            // Far behind the water it is spread.
+            let sharp = one / (one + far / self::off(8.0 * self.spacing, 1.0));
+            [kept[0], kept[1], kept[2], below * sharp, caustics]
         };
         let (i, j) = (base.x as isize, base.y as isize);
         let mean = |c: usize| {
@@ -406,7 +412,7 @@ impl Light {
             }
             Rounded { e: sum.e + 2.0 * moved * (most - least), ..sum }
         };
-        let focus = mean(4).clamp(0.0, 4.0);
+        let focus = mean(4).clamp(0.0, 3.0);
         let gain = one + (focus - one) * mean(3);
         let (kept, gain) = ([0, 1, 2].map(mean), gain);
         // So near to the border it may be outside as well.
