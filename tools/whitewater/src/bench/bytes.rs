@@ -14,6 +14,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
     let thick = pixels(drawn.config.thickness_level);
     let visible = u64::from(drawn.counts.visible);
     let front = u64::from(drawn.counts.front);
+    let texels = u64::from(drawn.config.cast.unwrap_or(0)).pow(2);
     Some(match pass {
         // Positions in, spheres out.
         "cull" => 12 * u64::from(drawn.particles) + 16 * visible,
@@ -26,6 +27,17 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "foam" => {
             8 * u64::from(drawn.particles) + (24 + 3 * 48) * drawn.foaming + 4 * full + 8 * thick
         }
+        // Positions and densities in; of those that are spray position in, the sprite out and in; the
+        // image cleared. What blending moves is not counted.
+        "spray" => {
+            4 * u64::from(drawn.particles) + (12 + 64) * u64::from(drawn.counts.spray) + 4 * full
+        }
+        // Positions in twice, both maps cleared.
+        "light" => 24 * u64::from(drawn.particles) + 20 * texels,
+        // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.
+        "caustics" => (4 * 4 + 4 + 16 + 12 + 4 + 4) * texels,
+        // Scene colour and depth in, lit scene out, in, and to the output. The maps are not counted.
+        "lit" => (8 + 4 + 8 + 8 + 8) * full,
         // Depth in, scene depth of covered pixels in, two surfaces and the plan out.
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
         // Three small buffers; a coarser reduction, where there is one, is not counted.

@@ -11,8 +11,9 @@ use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
 use whitewater::water::{FoamLook, FoamSettings, Gate, Rule, Shading, Smoothing, Splat};
-use whitewater::{Camera, Config, Settings};
+use whitewater::{Camera, Config, Region, Settings};
 
+use crate::bounds::Bounds;
 use crate::failure::Outcome;
 use report::{Format, Row};
 
@@ -75,6 +76,10 @@ pub enum Path {
     OneSheet,
     /// With foam: the highest twentieth of the particles, and some of half as many again
     Foam,
+    /// With spray: the highest fortieth of the particles is nothing else
+    Spray,
+    /// With shadows and caustics of the water, maps of 512 texels a side
+    Light,
     /// Composite: a render pass over the tiles
     RasterComposite,
     /// Composite: a compute shader over the tiles
@@ -112,6 +117,8 @@ impl Path {
             Self::QueryVertex | Self::ReadBack => config.smoothing = query(Gate::VertexCull),
             Self::OneSheet => config.sheets = 1,
             Self::Foam => config.foam = true,
+            Self::Spray => config.spray = true,
+            Self::Light => config.cast = Some(512),
             Self::RasterComposite => config.composite = Some(Shading::Raster),
             Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,
@@ -202,7 +209,11 @@ fn sample(
     let camera = camera(extent);
     let mut settings = Settings::default();
     settings.water.spacing = pool.spacing;
-    headless.particles(&pool.positions, None)?;
+    let densities = config.spray.then(|| densities(pool));
+    headless.particles(&pool.positions, densities.as_deref())?;
+    if config.cast.is_some() {
+        headless.region(region(pool));
+    }
     let mut foaming = 0;
     if config.foam {
         settings.foam = FoamLook::of_spacing(pool.spacing);
@@ -255,6 +266,20 @@ fn sample(
     let all = rows.iter().filter_map(|row| row.bytes).sum();
     rows.push(row("frame", &mut totals, Some(all)));
     Ok(rows)
+}
+
+/// A fortieth is spray, the highest.
+fn densities(pool: &pool::Pool) -> Vec<f32> {
+    let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1]).collect();
+    heights.sort_unstable_by(f32::total_cmp);
+    let high = heights[heights.len() * 39 / 40];
+    pool.positions.iter().map(|p| if p[1] > high { 300.0 } else { 1000.0 }).collect()
+}
+
+/// The pool, seen from the sun.
+fn region(pool: &pool::Pool) -> Region {
+    Bounds::of_bulk(&pool.positions)
+        .map_or(Region { center: [0.0; 3], radius: 1.0 }, |bounds| bounds.region())
 }
 
 /// As fast as it is high: the splash foams. How many particles do.
