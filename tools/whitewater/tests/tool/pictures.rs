@@ -18,6 +18,7 @@ fn a_block_of_water_has_all_its_layers() {
         "G",
         "R",
         "scene.Z",
+        "spray",
         "water.back.Z",
         "water.depth.Z",
         "water.iterations",
