@@ -21,7 +21,7 @@ layout(push_constant, std430) uniform Push {
     uint front;           // 1: as spheres, 0: as thickness sprites
 } push;
 
-layout(location = 0) out vec2 place;       // in half-axes
+layout(location = 0) flat out vec2 centre; // in texels
 layout(location = 1) flat out float depth; // metres along the light
 layout(location = 2) flat out float axis;  // half-axis, metres
 layout(location = 3) flat out vec2 amount; // height of its water and of its foam
@@ -58,8 +58,8 @@ void main() {
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
     // A texel more, so that snapping does not cut it.
-    place = side * (1.0 + texel / axis);
-    vec2 ndc = (seen.xy + place * axis / (texel * frame.light_map.x)) * 2.0 - 1.0;
+    centre = seen.xy * frame.light_map.x;
+    vec2 ndc = (centre + side * (axis / texel + 1.0)) / frame.light_map.x * 2.0 - 1.0;
     bool there = shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));
     gl_Position = vec4(there ? ndc : vec2(-4.0), 0.5, 1.0);
 }

@@ -5,13 +5,15 @@
 #include "frame.glsl"
 #include "kernel.glsl"
 
-layout(location = 0) in vec2 place;
+layout(location = 0) flat in vec2 centre;
 layout(location = 1) flat in float depth;
+layout(location = 2) flat in float axis;
 layout(location = 3) flat in vec2 amount;
 
 layout(location = 0) out vec4 thickness;
 
 void main() {
+    vec2 place = (gl_FragCoord.xy - centre) * (frame.light_map.y / axis);
     float rho2 = dot(place, place);
     if (rho2 > 1.0) {
         discard;

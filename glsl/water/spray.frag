@@ -6,6 +6,7 @@
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec2 amount;
+layout(location = 5) flat in int aside;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
@@ -19,7 +20,15 @@ void main() {
         discard;
     }
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
-    float water = texelFetch(water_depth, ivec2(gl_FragCoord.xy), 0).x;
+    // Only a body of water hides it, not a drop, which shows what is behind: the farthest of five, a drop
+    // apart.
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float water = texelFetch(water_depth, pixel, 0).x;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 there = pixel + aside * (2 * ivec2(i & 1, i >> 1) - 1);
+        there = clamp(there, ivec2(0), ivec2(frame.extent.xy) - 1);
+        water = max(water, texelFetch(water_depth, there, 0).x);
+    }
     if (scene > 0.0 && depth >= scene) {
         discard;
     }

@@ -14,9 +14,12 @@ layout(location = 1) flat out vec3 along;  // over its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec2 amount; // optical depth in its middle; share that the sun lights
+layout(location = 5) flat out int aside;   // pixels to water beside it
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
+// Where water is asked for, in drawn radii.
+const float ASIDE = 1.5;
 // Optical depth of mist over that of a droplet.
 const float MIST = 0.08;
 
@@ -59,6 +62,7 @@ void main() {
     // Of all colours together: what it is in is foam more than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
+    aside = clamp(int(ASIDE * frame.particle.x / pixel + 0.5), 1, 64);
     along = e1 / axes.x;
     across = e2 / axes.y;
 

@@ -33,6 +33,8 @@ const STILL: f64 = 1e-6;
 const HEAD_ON: f64 = 1e-3;
 /// The least half-axis, in pixels.
 const LEAST: f64 = 0.7;
+/// Water is asked for this many drawn radii beside it too.
+const ASIDE: f64 = 1.5;
 /// Behind water over this many spacings spray fades.
 const FADE: f64 = 1.5;
 /// What sine and cosine may be off. Vulkan says so from -pi to pi alone.
@@ -169,6 +171,8 @@ struct Droplet {
     ellipse: LooseEllipse,
     /// The optical depth of its middle.
     amount: Rounded,
+    /// How many pixels beside it water is asked for: two numbers where rounding decides.
+    aside: [isize; 2],
     /// Whether it is drawn, and surely.
     drawn: More,
 }
@@ -241,7 +245,17 @@ fn droplet(p: Off, v: Off, h: Rounded, view: &View, settings: &Settings) -> (Dro
     let amount = settings.thickest() * ((h / a) * (h / b));
     let ellipse = LooseEllipse { center: p, e1, e2, n, a, b, turn };
     let drawn = More { is: true, surely: true, maybe: true };
-    (Droplet { ellipse, amount, drawn }, pixel)
+    let radii = off(ASIDE * RADIUS * settings.spacing, 4.0) / pixel + exact(0.5);
+    let aside = [radii.v - radii.e, radii.v + radii.e].map(|n| (n as isize).clamp(1, 64));
+    (Droplet { ellipse, amount, aside, drawn }, pixel)
+}
+
+/// The depth of the body of water that hides spray in a pixel: of a drop that shows what is behind it
+/// the corners of a square round it tell.
+fn body(water: &Image<f64>, (x, y): (usize, usize), aside: isize) -> f64 {
+    let corner = |i: isize, j: isize| water.clamped(x as isize + i * aside, y as isize + j * aside);
+    let corners = [corner(-1, -1), corner(1, -1), corner(-1, 1), corner(1, 1)];
+    corners.into_iter().fold(water.at(x, y), f64::max)
 }
 
 /// What spray there is in each pixel.
@@ -272,9 +286,13 @@ pub fn spray(
             let hidden = scene_depth(scene.at(x, y));
             let hit = one.ellipse.meet(ray_off(view, x, y), near, hidden);
             let Some(hit) = hit else { continue };
-            let behind = hit.k - exact(water.at(x, y));
-            let fade = off(FADE * settings.spacing, 1.0);
-            let before = exact(1.0) - rounded::smoothstep(exact(0.0), fade, behind);
+            let before = one.aside.map(|aside| {
+                let behind = hit.k - exact(body(water, (x, y), aside));
+                let fade = off(FADE * settings.spacing, 1.0);
+                exact(1.0) - rounded::smoothstep(exact(0.0), fade, behind)
+            });
+            let apart = (before[0].v - before[1].v).abs();
+            let before = Rounded { e: before[0].e.max(before[1].e) + apart, ..before[0] };
             let (top, q) = (before * one.amount, hit.rho_squared);
             if one.drawn.is && q.v <= 1.0 && hit.k.v >= near && hit.k.v < hidden {
                 *depth.at_mut(x, y) += top.v * kernel(q.v);
@@ -498,7 +516,9 @@ mod tests {
                 if normal.dot(w).abs() < 1e-6 || t < near || q > 1.0 || hidden {
                     continue;
                 }
-                let before = 1.0 - step(0.0, 1.5 * s, t - water.at(x, y) as f32);
+                let radii = 1.5 * (0.656 * s) / pixel + 0.5;
+                let water = body(water, (x, y), (radii as isize).clamp(1, 64)) as f32;
+                let before = 1.0 - step(0.0, 1.5 * s, t - water);
                 let value = before * amount * (1.0 - q).max(0.0).sqrt() * (-2.0 * q).exp();
                 let pixel = sum.at_mut(x, y);
                 *pixel = half::f16::from_f32(pixel.to_f32() + value);
