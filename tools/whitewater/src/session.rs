@@ -77,8 +77,10 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
     }
 }
 
-/// Edge of the light's maps.
-const LIGHT_TEXELS: u32 = 1024;
+/// Edge of the light's maps for a picture so many pixels wide.
+fn light_texels(width: u32) -> u32 {
+    (width / 2).next_multiple_of(16).clamp(256, 1024)
+}
 
 /// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
 const WARM_UP: u32 = 8;
@@ -159,7 +161,7 @@ impl<'a> Session<'a> {
         config.foam = self.look.foam.is_some();
         config.spray = args.spray == SprayArg::Auto;
         config.shadow = (args.shadows != ShadowArg::None).then_some(Shadows::Map);
-        config.cast = (args.shadows == ShadowArg::All).then_some(LIGHT_TEXELS);
+        config.cast = (args.shadows == ShadowArg::All).then(|| light_texels(width));
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
