@@ -1,4 +1,4 @@
-//! Pass `composite`: the only one that writes the output; takes the layers of all techniques.
+//! Pass `composite`: writes the output, as only `lit` does else; takes the layers of all techniques.
 //!
 //! Over the tiles that hold water alone: pixels outside the fluid are not touched. Two ways with
 //! the same shading: an instance a tile in a render pass, and a compute shader that stores to the

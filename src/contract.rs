@@ -101,8 +101,8 @@ pub struct Config {
     /// Foam is drawn (default: not): the passes `foam`, and the particles' water shrinks by what of
     /// them is foam. 52 bytes a particle more.
     pub foam: bool,
-    /// Spray is drawn (default: not): the pass `spray`, of particles between and below the two
-    /// densities of [`WaterSettings`]. 32 bytes a particle more.
+    /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
+    /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
     /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`]; `None`
     /// (default): it is everywhere.

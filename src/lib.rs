@@ -139,6 +139,7 @@ pub mod access {
 pub use ash;
 pub use gpu_allocator;
 
+mod check;
 mod composite;
 mod contract;
 mod environment;
@@ -147,6 +148,7 @@ mod frame;
 mod gpu;
 #[cfg(feature = "headless")]
 pub mod headless;
+mod host_images;
 #[cfg(feature = "io")]
 pub mod io;
 mod light;

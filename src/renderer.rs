@@ -5,17 +5,14 @@ use std::sync::Arc;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
+use crate::check;
 use crate::composite::{Composite, Surroundings};
-use crate::contract::{
-    Config, Count, Frame, Host, HostImage, MemoryUse, Particles, Recorded, Slot, Stream,
-};
+use crate::contract::{Config, Frame, Host, HostImage, MemoryUse, Recorded, Slot};
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
-use crate::frame::{FrameUniforms, Lens, check_settings};
+use crate::frame::{FrameUniforms, Lens};
 use crate::gpu::Gpu;
-use crate::gpu::access::{
-    self, Access, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer,
-};
+use crate::gpu::access::{self, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::graveyard::Owned;
@@ -23,9 +20,9 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::requirements::Offer;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
-use crate::light::{Light, Output, Sunlight};
-use crate::water::settings::Shadows;
-use crate::water::{Recording, Water};
+use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, sunlight};
+use crate::light::{Light, Output};
+use crate::water::{Recording, Water, buffers_of};
 
 /// What one frame in flight owns.
 struct SlotState {
@@ -67,7 +64,7 @@ impl Renderer {
     /// The host's handles are alive, belong together, and outlive the renderer; what
     /// [`Enabled`](crate::Enabled) and [`requirements`](crate::requirements) name is enabled.
     pub unsafe fn new(host: &Host<'_>, config: &Config) -> Result<Self, Error> {
-        check_config(config)?;
+        check::config(config)?;
         Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
         let gpu = Gpu::new(host)?;
         let made = Parts::new(&gpu, config).and_then(|parts| {
@@ -231,13 +228,8 @@ impl Renderer {
         )?;
 
         let cmd = r.cmd;
-        let mut buffers = Vec::with_capacity(7);
-        for handle in particle_buffers(&frame.particles) {
-            let barrier = buffer(handle, COMPUTE_READ, frame.particles.after);
-            if !buffers.iter().any(|b: &vk::BufferMemoryBarrier2<'_>| b.buffer == handle) {
-                buffers.push(barrier);
-            }
-        }
+        let given_back = |handle| buffer(handle, COMPUTE_READ, frame.particles.after);
+        let buffers: Vec<_> = buffers_of(&frame.particles).into_iter().map(given_back).collect();
         gpu.barriers(cmd, &release(frame, &uses), &buffers);
         gpu.end_label(cmd);
         let recorded = Recorded {
@@ -415,7 +407,7 @@ impl Renderer {
     }
 
     fn check_config(&self, config: &Config) -> Result<(), Error> {
-        check_config(config)?;
+        check::config(config)?;
         Offer::of(&self.instance, self.physical_device, config.output_format).check(config)
     }
 
@@ -424,205 +416,8 @@ impl Renderer {
         if !self.whole {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
         }
-        check_settings(&frame.settings.water, &frame.settings.light)?;
-        frame.settings.foam.check()?;
-        frame.settings.spray.check()?;
-        let (part, most) = (frame.output.rect.extent, self.config.extent);
-        if part.width > most.width || part.height > most.height {
-            return Err(Error::bad(
-                "Frame.output.rect",
-                format!(
-                    "{}x{}, but the renderer is made for {}x{} at most: call resize first",
-                    part.width, part.height, most.width, most.height
-                ),
-            ));
-        }
-        if frame.output.format != self.config.output_format {
-            return Err(Error::bad(
-                "Frame.output.format",
-                format!("{:?} is not Config.output_format", frame.output.format),
-            ));
-        }
-        let shadow = frame.sun.shadow.as_ref().map(|s| ("Frame.sun.shadow.image.before", &s.image));
-        let images = [
-            ("Frame.output.before", &frame.output),
-            ("Frame.scene_color.before", &frame.scene_color),
-            ("Frame.scene_depth.before", &frame.scene_depth),
-        ];
-        for (field, image) in images.into_iter().chain(shadow) {
-            if image.before.layout == vk::ImageLayout::UNDEFINED {
-                return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
-            }
-            if matches!(
-                image.after.layout,
-                vk::ImageLayout::UNDEFINED | vk::ImageLayout::PREINITIALIZED
-            ) {
-                return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
-            }
-            let vk::Rect2D { offset, extent } = image.rect;
-            let fits = |at: i32, size: u32, whole: u32| {
-                at >= 0
-                    && size > 0
-                    && u64::from(at.unsigned_abs()) + u64::from(size) <= whole.into()
-            };
-            if !fits(offset.x, extent.width, image.extent.width)
-                || !fits(offset.y, extent.height, image.extent.height)
-            {
-                return Err(Error::bad(
-                    "HostImage.rect",
-                    format!(
-                        "{}x{} at ({}, {}) is no part of an image of {}x{}",
-                        extent.width,
-                        extent.height,
-                        offset.x,
-                        offset.y,
-                        image.extent.width,
-                        image.extent.height
-                    ),
-                ));
-            }
-        }
-        if frame.in_place() && !self.config.in_place {
-            return Err(Error::bad(
-                "Frame.scene_color",
-                "is the output itself, but Config.in_place is false",
-            ));
-        }
-        check_particles(&frame.particles, &self.config, &self.gpu.limits)?;
-        check_sun(frame, &self.config)?;
-        Lens::new(&frame.camera)
+        check::frame(frame, &self.config, &self.gpu.limits)
     }
-}
-
-fn check_particles(
-    particles: &Particles,
-    config: &Config,
-    limits: &vk::PhysicalDeviceLimits,
-) -> Result<(), Error> {
-    let count = match particles.count {
-        Count::Cpu(count) if count > config.max_particles => {
-            return Err(Error::bad(
-                "Frame.particles.count",
-                format!("{count} is more than Config.max_particles, {}", config.max_particles),
-            ));
-        }
-        Count::Cpu(count) => count,
-        Count::Gpu { .. } => 0,
-    };
-    let stream = |field, stream: &Stream, bytes: u64| {
-        stream.check(field, bytes, count, ("Config.max_stride", config.max_stride))
-    };
-    stream("Frame.particles.positions", &particles.positions, 12)?;
-    if let Some(densities) = &particles.densities {
-        stream("Frame.particles.densities", densities, 4)?;
-    }
-    if let Some(velocities) = &particles.velocities {
-        stream("Frame.particles.velocities", velocities, 12)?;
-    }
-    if let Some(ids) = &particles.ids {
-        stream("Frame.particles.ids", ids, 4)?;
-    }
-    if let Some(foam) = &particles.foam {
-        stream("Frame.particles.foam", foam, 8)?;
-        if !config.foam {
-            let why = "given, but Config.foam is false";
-            return Err(Error::bad("Frame.particles.foam", why));
-        }
-    }
-    let aligned = |field, offset: u64| {
-        let to = limits.min_storage_buffer_offset_alignment.max(4);
-        if offset.is_multiple_of(to) {
-            Ok(())
-        } else {
-            Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
-        }
-    };
-    if let Count::Gpu { offset, .. } = particles.count {
-        aligned("Frame.particles.count.offset", offset)?;
-    }
-    if let Some(packets) = &particles.packets {
-        aligned("Frame.particles.packets.offset", packets.offset)?;
-        if packets.count > 65_535 {
-            return Err(Error::bad(
-                "Frame.particles.packets.count",
-                format!("{} is more than 65535", packets.count),
-            ));
-        }
-    }
-    Ok(())
-}
-
-fn check_sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
-    let bad = |field, why: &str| Err(Error::bad(field, why));
-    match (config.shadow, &frame.sun.shadow) {
-        (Some(_), None) => return bad("Frame.sun.shadow", "none, but Config.shadow asks for it"),
-        (None, Some(_)) => return bad("Frame.sun.shadow", "given, but Config.shadow is None"),
-        (Some(Shadows::Map), Some(shadow)) => {
-            let clip = &shadow.view_projection;
-            if !clip.is_finite() || clip.determinant().abs() < 1e-30 {
-                return bad("Frame.sun.shadow.view_projection", "not finite, or singular");
-            }
-            if !shadow.bias.is_finite() {
-                return bad("Frame.sun.shadow.bias", "not finite");
-            }
-        }
-        _ => {}
-    }
-    match (config.cast, &frame.sun.region) {
-        (Some(_), None) => bad("Frame.sun.region", "none, but Config.cast asks for it"),
-        (None, Some(_)) => bad("Frame.sun.region", "given, but Config.cast is None"),
-        (Some(_), Some(region)) => {
-            let finite = region.center.iter().all(|c| c.is_finite());
-            if finite && region.radius.is_finite() && region.radius > 0.0 {
-                Ok(())
-            } else {
-                bad("Frame.sun.region", "a finite centre and a radius over 0 expected")
-            }
-        }
-        (None, None) => Ok(()),
-    }
-}
-
-fn check_config(config: &Config) -> Result<(), Error> {
-    let bad = |field, why: String| Err(Error::bad(field, why));
-    if config.extent.width == 0 || config.extent.height == 0 {
-        return bad("Config.extent", "zero; a minimised window has nothing to draw".into());
-    }
-    if config.max_particles == 0 {
-        return bad("Config.max_particles", "zero; it sizes the buffers".into());
-    }
-    if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
-        return bad("Config.max_stride", format!("{} is no multiple of 4", config.max_stride));
-    }
-    if config.smoothing_level > 2 {
-        return bad("Config.smoothing_level", format!("{} of 0, 1, 2", config.smoothing_level));
-    }
-    if config.thickness_level > 3 {
-        return bad("Config.thickness_level", format!("{} of 0 to 3", config.thickness_level));
-    }
-    if !(1..=256).contains(&config.max_iterations) {
-        return bad("Config.max_iterations", format!("{} of 1 to 256", config.max_iterations));
-    }
-    if config.coarsening > crate::water::MOST_COARSENING {
-        return bad("Config.coarsening", format!("{} of 0 to 3", config.coarsening));
-    }
-    if !(1..=2).contains(&config.sheets) {
-        return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
-    }
-    if let Some(edge) = config.cast
-        && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))
-    {
-        let why = format!("{edge}: a multiple of 16 from 16 to 4096 expected");
-        return bad("Config.cast", why);
-    }
-    let size = config.environment_size;
-    if !size.is_power_of_two() || !(16..=2048).contains(&size) {
-        return bad(
-            "Config.environment_size",
-            format!("{size}: a power of two from 16 to 2048 expected"),
-        );
-    }
-    Ok(())
 }
 
 /// What depends on the configuration.
@@ -700,113 +495,6 @@ impl SlotState {
         }
         self.descriptors.reset(gpu)
     }
-}
-
-fn particle_buffers(particles: &Particles) -> impl Iterator<Item = vk::Buffer> {
-    let count = match particles.count {
-        Count::Gpu { buffer, .. } => Some(buffer),
-        Count::Cpu(_) => None,
-    };
-    [
-        Some(particles.positions.buffer),
-        particles.densities.map(|s| s.buffer),
-        particles.packets.map(|p| p.buffer),
-        particles.velocities.map(|s| s.buffer),
-        particles.ids.map(|s| s.buffer),
-        particles.foam.map(|s| s.buffer),
-        count,
-    ]
-    .into_iter()
-    .flatten()
-}
-
-/// Layout in which the scene's depth is sampled.
-fn depth_layout(image: &HostImage) -> vk::ImageLayout {
-    if image.aspect.contains(vk::ImageAspectFlags::DEPTH) {
-        vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL
-    } else {
-        vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL
-    }
-}
-
-/// How the scene's depth is used here.
-fn depth_use(layout: vk::ImageLayout, spray: bool) -> Access {
-    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
-    // Bound to its vertices too, in place of what tells where the sun does not come.
-    let sampled = if spray { sampled.and(access::VERTEX_SAMPLED) } else { sampled };
-    Access { layout, ..sampled }
-}
-
-/// How the host's images are used here.
-struct Uses {
-    /// The output is the scene's colour too.
-    in_place: bool,
-    depth: Access,
-    /// By `composite`.
-    output: Access,
-    /// The scene's colour, or its copy, by `composite`.
-    scene: Access,
-    /// The scene is read by `lit` first.
-    lit: bool,
-}
-
-impl Uses {
-    /// What reads or writes the output first.
-    fn output_first(&self) -> Access {
-        match (self.in_place, self.lit) {
-            (true, true) => Light::SCENE_USE,
-            (true, false) => COPY_READ,
-            (false, _) => self.output,
-        }
-    }
-
-    /// What reads the host's own image of the scene.
-    fn scene_first(&self) -> Access {
-        if self.lit { Light::SCENE_USE } else { self.scene }
-    }
-}
-
-/// How a shadow map or mask is used here.
-fn shadow_use(image: &HostImage) -> Access {
-    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(access::VERTEX_SAMPLED);
-    Access { layout: depth_layout(image), ..sampled }
-}
-
-/// What tells where the sun does not come; the scene's depth stands in for what is not read.
-fn sunlight(frame: &Frame<'_>, light: Option<&Light>, gpu: &Gpu, depth: Resource) -> Sunlight {
-    let shadow = frame.sun.shadow.map_or(depth, |shadow| {
-        let layout = depth_layout(&shadow.image);
-        Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
-    });
-    Sunlight { shadow, thickness: light.map_or(depth, |light| light.thickness(gpu)) }
-}
-
-/// The one barrier of each host image on its way in.
-fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
-    let barrier =
-        |image: &HostImage, to| access::raw_image(image.image, image.aspect, image.before, to);
-    let mut all =
-        vec![barrier(&frame.scene_depth, uses.depth), barrier(&frame.output, uses.output_first())];
-    if !uses.in_place {
-        all.push(barrier(&frame.scene_color, uses.scene_first()));
-    }
-    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
-    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
-    all
-}
-
-/// The one barrier of each host image on its way out.
-fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
-    let barrier =
-        |image: &HostImage, from| access::raw_image(image.image, image.aspect, from, image.after);
-    let mut all =
-        vec![barrier(&frame.scene_depth, uses.depth), barrier(&frame.output, uses.output)];
-    if !uses.in_place {
-        all.push(barrier(&frame.scene_color, uses.scene_first()));
-    }
-    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
-    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
-    all
 }
 
 /// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.

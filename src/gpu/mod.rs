@@ -11,6 +11,7 @@ pub mod pipeline;
 pub mod requirements;
 pub mod retire;
 pub mod shader;
+pub mod target;
 pub mod timing;
 
 use std::ffi::CString;

@@ -8,7 +8,7 @@
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use super::map_image;
+use super::map_desc;
 use super::maps::Maps;
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -37,8 +37,8 @@ pub struct Caustics {
 
 impl Caustics {
     pub fn new(gpu: &Gpu, edge: u32) -> Result<Self, Error> {
-        let image =
-            |name| map_image(gpu, name, edge, vk::Format::R32_SFLOAT, vk::ImageUsageFlags::STORAGE);
+        let usage = vk::ImageUsageFlags::STORAGE;
+        let image = |name| Image::new(gpu, &map_desc(name, edge, vk::Format::R32_SFLOAT, usage));
         Ok(Self {
             smooth: Pipeline::compute(gpu, shader::LIGHT_SMOOTH_COMP, &[])?,
             refract: Pipeline::compute(gpu, shader::LIGHT_CAUSTICS_COMP, &[])?,
@@ -61,7 +61,7 @@ impl Caustics {
         let nearest = gpu.samplers.nearest;
         let sampled = |image: &Image| Resource::Sampled(image.view, nearest);
         let extent = self.image.extent;
-        let front = sampled(&maps.front.image);
+        let front = sampled(maps.front.image());
         let photons = self.photons.handle;
         gpu.barriers(cmd, &[], &[buffer(photons, COMPUTE_READ, COPY_WRITE)]);
         // SAFETY: outside a render pass; the frame before has read it (barrier).
@@ -82,7 +82,7 @@ impl Caustics {
         let resources = [
             (0, r.uniforms),
             (1, sampled(smoothed)),
-            (2, sampled(&maps.thickness.image)),
+            (2, sampled(maps.thickness.image())),
             (3, Resource::buffer(&self.photons)),
         ];
         r.descriptors.bind(gpu, cmd, &self.refract, &resources)?;

@@ -19,6 +19,7 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
+use crate::gpu::target::Target;
 use crate::water::Recording;
 use crate::water::settings::Shading;
 
@@ -49,18 +50,15 @@ enum Out {
 
 /// The pass.
 pub struct Lit {
-    pass: Owned<vk::RenderPass>,
-    framebuffer: Owned<vk::Framebuffer>,
+    /// The lit scene; begins with the view.
+    target: Target,
     pipeline: Pipeline,
     out: Out,
-    /// The lit scene; begins with the view.
-    pub image: Image,
 }
 
 impl Lit {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let image = Self::image(gpu, config)?;
-        let pass = gpu.color_pass(NAME, &[image.format], vk::AttachmentLoadOp::DONT_CARE)?;
+        let target = Target::new(gpu, &desc(config), vk::AttachmentLoadOp::DONT_CARE)?;
         let triangle = |fragment, pass, constants: &[(u32, u32)]| {
             Pipeline::graphics(
                 gpu,
@@ -87,20 +85,8 @@ impl Lit {
                 Out::Compute { pipeline: Pipeline::compute(gpu, shader::LIGHT_LIT_OUT_COMP, &[])? }
             }
         };
-        Ok(Self {
-            framebuffer: gpu.framebuffer(NAME, pass.handle, image.view, image.extent)?,
-            pipeline: triangle(shader::LIGHT_LIT_FRAG, pass.handle, &super::constants(config))?,
-            pass,
-            out,
-            image,
-        })
-    }
-
-    fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
-        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        // Every device draws to it and filters it.
-        let format = vk::Format::R16G16B16A16_SFLOAT;
-        Image::new(gpu, &ImageDesc::new(NAME, config.extent, format, usage))
+        let (pass, constants) = (target.pass.handle, super::constants(config));
+        Ok(Self { pipeline: triangle(shader::LIGHT_LIT_FRAG, pass, &constants)?, target, out })
     }
 
     pub fn resize(
@@ -109,11 +95,12 @@ impl Lit {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let image = Self::image(gpu, config)?;
-        let framebuffer = gpu.framebuffer(NAME, self.pass.handle, image.view, image.extent)?;
-        retired.retire(std::mem::replace(&mut self.framebuffer, framebuffer));
-        retired.retire(std::mem::replace(&mut self.image, image));
-        Ok(())
+        self.target.resize(gpu, &desc(config), retired)
+    }
+
+    /// The lit scene.
+    pub fn image(&self) -> &Image {
+        &self.target.image
     }
 
     pub fn record(
@@ -127,7 +114,7 @@ impl Lit {
         let scope = r.begin(c"lit");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let read = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-        gpu.barriers(cmd, &[access::image(&self.image, read.discarded(), COLOR_ATTACHMENT)], &[]);
+        gpu.barriers(cmd, &[access::image(self.image(), read.discarded(), COLOR_ATTACHMENT)], &[]);
         let [shadow, thickness] = sunlight.resources();
         let resources = [
             (0, r.uniforms),
@@ -137,19 +124,18 @@ impl Lit {
             shadow,
             thickness,
         ];
-        let (pass, framebuffer) = (self.pass.handle, self.framebuffer.handle);
-        gpu.begin_pass(cmd, pass, framebuffer, r.extent.into(), [0.0; 4]);
+        self.target.begin(gpu, cmd, r.extent.into(), [0.0; 4]);
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
         // SAFETY: inside the render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_draw(cmd, 3, 1, 0, 0) };
         gpu.end_pass(cmd);
         let to = [
-            access::image(&self.image, COLOR_ATTACHMENT, read),
+            access::image(self.image(), COLOR_ATTACHMENT, read),
             access::raw_image(output.image, output.aspect, output.before, output.after),
         ];
         gpu.barriers(cmd, &to, &[]);
 
-        let lit = (1, Resource::Sampled(self.image.view, gpu.samplers.nearest));
+        let lit = (1, Resource::Sampled(self.image().view, gpu.samplers.nearest));
         match &self.out {
             Out::Raster { pass, pipeline } => {
                 gpu.begin_pass(cmd, pass.handle, output.target, output.area, [0.0; 4]);
@@ -173,4 +159,8 @@ impl Lit {
     }
 }
 
-const NAME: &str = "lit";
+fn desc(config: &Config) -> ImageDesc<'static> {
+    let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::COLOR_ATTACHMENT;
+    // Every device draws to it and filters it.
+    ImageDesc::new("lit", config.extent, vk::Format::R16G16B16A16_SFLOAT, usage)
+}

@@ -9,7 +9,7 @@
 use ash::vk;
 use bytemuck::NoUninit;
 
-use super::map_image;
+use super::map_desc;
 use crate::contract::{Config, Particles};
 use crate::error::Error;
 use crate::frame::EMPTY;
@@ -17,10 +17,10 @@ use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COPY_READ, FRAGMENT_SAMPLED, VERTEX_SAMPLED,
 };
-use crate::gpu::graveyard::Owned;
 use crate::gpu::image::Image;
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
 use crate::gpu::shader;
+use crate::gpu::target::Target;
 use crate::water::{self, Recording, SphereList, Window};
 
 /// Read by compute, by what shades, and by the vertices of spray.
@@ -53,23 +53,21 @@ shader::assert_layout!(
     }
 );
 
-/// An image that sprites are blended into.
-pub struct Target {
-    pub image: Image,
-    pass: Owned<vk::RenderPass>,
-    framebuffer: Owned<vk::Framebuffer>,
+/// A map that sprites are blended into.
+pub struct Map {
+    target: Target,
     pipeline: Pipeline,
     front: bool,
 }
 
-impl Target {
+impl Map {
     fn new(gpu: &Gpu, config: &Config, edge: u32, front: bool) -> Result<Self, Error> {
         let (name, format) = match front {
             true => ("light/front", vk::Format::R32_SFLOAT),
             false => ("light/thickness", vk::Format::R32G32B32A32_SFLOAT),
         };
-        let image = map_image(gpu, name, edge, format, vk::ImageUsageFlags::COLOR_ATTACHMENT)?;
-        let pass = gpu.color_pass(name, &[format], vk::AttachmentLoadOp::CLEAR)?;
+        let desc = map_desc(name, edge, format, vk::ImageUsageFlags::COLOR_ATTACHMENT);
+        let target = Target::new(gpu, &desc, vk::AttachmentLoadOp::CLEAR)?;
         let (fragment, op) = match front {
             true => (shader::LIGHT_FRONT_FRAG, vk::BlendOp::MIN),
             false => (shader::LIGHT_THICKNESS_FRAG, vk::BlendOp::ADD),
@@ -80,13 +78,16 @@ impl Target {
                 vertex: shader::LIGHT_SPRITES_VERT,
                 fragment,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: pass.handle,
+                pass: target.pass.handle,
                 blend: &[blend(op)],
                 constants: &[(9, u32::from(config.foam))],
             },
         )?;
-        let framebuffer = gpu.framebuffer(name, pass.handle, image.view, image.extent)?;
-        Ok(Self { image, pass, framebuffer, pipeline, front })
+        Ok(Self { target, pipeline, front })
+    }
+
+    pub fn image(&self) -> &Image {
+        &self.target.image
     }
 
     fn record(
@@ -97,10 +98,9 @@ impl Target {
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let to = COLOR_ATTACHMENT;
-        gpu.barriers(cmd, &[access::image(&self.image, BEFORE.discarded(), to)], &[]);
+        gpu.barriers(cmd, &[access::image(self.image(), BEFORE.discarded(), to)], &[]);
         let clear = [if self.front { EMPTY } else { 0.0 }, 0.0, 0.0, 0.0];
-        let area = self.image.extent.into();
-        gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, clear);
+        self.target.begin(gpu, cmd, self.image().extent.into(), clear);
         for index in 0..list.chunks {
             let first = index * list.chunk_size;
             // A stream that ends before the chunk has no particles in it: the count was clamped.
@@ -135,22 +135,22 @@ impl Target {
             unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
         }
         gpu.end_pass(cmd);
-        gpu.barriers(cmd, &[access::image(&self.image, COLOR_ATTACHMENT, AFTER)], &[]);
+        gpu.barriers(cmd, &[access::image(self.image(), COLOR_ATTACHMENT, AFTER)], &[]);
         Ok(())
     }
 }
 
 /// The pass.
 pub struct Maps {
-    pub front: Target,
-    pub thickness: Target,
+    pub front: Map,
+    pub thickness: Map,
 }
 
 impl Maps {
     pub fn new(gpu: &Gpu, config: &Config, edge: u32) -> Result<Self, Error> {
         Ok(Self {
-            front: Target::new(gpu, config, edge, true)?,
-            thickness: Target::new(gpu, config, edge, false)?,
+            front: Map::new(gpu, config, edge, true)?,
+            thickness: Map::new(gpu, config, edge, false)?,
         })
     }
 

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, FRAGMENT_SAMPLED};
 use crate::gpu::descriptors::Resource;
-use crate::gpu::image::Image;
+use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::retire::RetireList;
 use crate::water::settings::Shadows;
 use crate::water::{Recording, SphereList};
@@ -76,7 +76,7 @@ impl Light {
 
     /// What shaders read, once [`record_maps`](Self::record_maps) is recorded.
     pub fn thickness(&self, gpu: &Gpu) -> Resource {
-        Resource::Sampled(self.maps.thickness.image.view, gpu.samplers.nearest)
+        Resource::Sampled(self.maps.thickness.image().view, gpu.samplers.nearest)
     }
 
     /// `light` and `caustics`, after `cull`, whose counts they take.
@@ -100,7 +100,7 @@ impl Light {
         sunlight: &Sunlight,
     ) -> Result<&Image, Error> {
         self.lit.record(r, scene, output, sunlight, &self.caustics.image)?;
-        Ok(&self.lit.image)
+        Ok(self.lit.image())
     }
 
     /// How the scene's colour is read.
@@ -117,8 +117,8 @@ impl Light {
             access,
         };
         [
-            layer("light.front", &self.maps.front.image, maps::AFTER),
-            layer("light.thickness", &self.maps.thickness.image, maps::AFTER),
+            layer("light.front", self.maps.front.image(), maps::AFTER),
+            layer("light.thickness", self.maps.thickness.image(), maps::AFTER),
             layer("light.caustics", &self.caustics.image, FRAGMENT_SAMPLED),
         ]
     }
@@ -126,22 +126,21 @@ impl Light {
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         let (images, buffers) = self.caustics.memory();
-        let maps = self.maps.front.image.size + self.maps.thickness.image.size;
-        (images + maps + self.lit.image.size, buffers)
+        let maps = self.maps.front.image().size + self.maps.thickness.image().size;
+        (images + maps + self.lit.image().size, buffers)
     }
 }
 
 pub use lit::Output;
 
 /// A square image of the light's.
-fn map_image(
-    gpu: &Gpu,
+fn map_desc(
     name: &str,
     edge: u32,
     format: vk::Format,
     usage: vk::ImageUsageFlags,
-) -> Result<Image, Error> {
+) -> ImageDesc<'_> {
     let extent = vk::Extent2D { width: edge, height: edge };
     let usage = usage | vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_SRC;
-    Image::new(gpu, &crate::gpu::image::ImageDesc::new(name, extent, format, usage))
+    ImageDesc::new(name, extent, format, usage)
 }

@@ -325,18 +325,10 @@ impl Cull {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let list = &self.list;
         // In: the host's buffers, and ours from the frame before.
-        let mut host: Vec<_> = streams(particles)
-            .map(|(stream, _)| stream.buffer)
-            .chain(particles.packets.map(|p| p.buffer))
-            .chain(match particles.count {
-                Count::Gpu { buffer, .. } => Some(buffer),
-                Count::Cpu(_) => None,
-            })
+        let mut host: Vec<_> = buffers_of(particles)
+            .into_iter()
             .map(|handle| buffer(handle, particles.before, COMPUTE_READ))
             .collect();
-        // Interleaved streams share a buffer: one barrier is enough.
-        host.sort_by_key(|barrier| vk::Handle::as_raw(barrier.buffer));
-        host.dedup_by_key(|barrier| barrier.buffer);
         host.push(buffer(list.counts.handle, LIST_USE, COMPUTE_WRITE));
         host.push(buffer(list.spheres.handle, LIST_USE, COMPUTE_WRITE));
         if let Some(shares) = &list.shares {
@@ -453,6 +445,19 @@ pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
         Some(left) => u32::try_from(left / u64::from(stream.stride.max(4)) + 1).unwrap_or(u32::MAX),
         None => 0,
     }
+}
+
+/// The host's buffers, each once: interleaved streams share one.
+pub fn buffers_of(particles: &Particles) -> Vec<vk::Buffer> {
+    let count = match particles.count {
+        Count::Gpu { buffer, .. } => Some(buffer),
+        Count::Cpu(_) => None,
+    };
+    let all = streams(particles).map(|(stream, _)| stream.buffer);
+    let mut all: Vec<_> = all.chain(particles.packets.map(|p| p.buffer)).chain(count).collect();
+    all.sort_by_key(|handle| vk::Handle::as_raw(*handle));
+    all.dedup();
+    all
 }
 
 /// The streams that there are, with the bytes of a value.

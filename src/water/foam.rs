@@ -24,11 +24,11 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
-use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
+use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 48;
@@ -74,10 +74,8 @@ shader::assert_layout!(
 );
 
 /// An image that sprites are blended into.
-struct Target {
-    image: Image,
-    pass: Owned<vk::RenderPass>,
-    framebuffer: Owned<vk::Framebuffer>,
+struct Blended {
+    target: Target,
     pipeline: Pipeline,
     level: u32,
 }
@@ -89,55 +87,25 @@ enum Kind {
     Thickness,
 }
 
-impl Target {
+impl Blended {
     fn new(gpu: &Gpu, config: &Config, kind: Kind) -> Result<Self, Error> {
         let (fragment, thick, op) = match kind {
             Kind::Depth => (shader::WATER_FOAM_DEPTH_FRAG, 0, vk::BlendOp::MIN),
             Kind::Thickness => (shader::WATER_FOAM_THICKNESS_FRAG, 1, vk::BlendOp::ADD),
         };
-        let image = Self::image(gpu, config, kind)?;
-        let name = image_name(kind);
-        let pass = gpu.color_pass(name, &[image.format], vk::AttachmentLoadOp::CLEAR)?;
+        let target = Target::new(gpu, &desc(config, kind), vk::AttachmentLoadOp::CLEAR)?;
         let pipeline = Pipeline::graphics(
             gpu,
             &Graphics {
                 vertex: shader::WATER_FOAM_VERT,
                 fragment,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: pass.handle,
+                pass: target.pass.handle,
                 blend: &[blend(op)],
                 constants: &[(0, thick)],
             },
         )?;
-        let framebuffer = gpu.framebuffer(name, pass.handle, image.view, image.extent)?;
-        Ok(Self { image, pass, framebuffer, pipeline, level: level(config, kind) })
-    }
-
-    fn image(gpu: &Gpu, config: &Config, kind: Kind) -> Result<Image, Error> {
-        let format = match kind {
-            Kind::Depth => vk::Format::R32_SFLOAT,
-            Kind::Thickness => vk::Format::R32G32_SFLOAT,
-        };
-        let usage = vk::ImageUsageFlags::SAMPLED
-            | vk::ImageUsageFlags::COLOR_ATTACHMENT
-            | vk::ImageUsageFlags::TRANSFER_SRC;
-        let extent = reduced(config.extent, level(config, kind));
-        Image::new(gpu, &ImageDesc::new(image_name(kind), extent, format, usage))
-    }
-
-    fn resize(
-        &mut self,
-        gpu: &Gpu,
-        config: &Config,
-        kind: Kind,
-        retired: &mut RetireList,
-    ) -> Result<(), Error> {
-        let image = Self::image(gpu, config, kind)?;
-        let name = image_name(kind);
-        let framebuffer = gpu.framebuffer(name, self.pass.handle, image.view, image.extent)?;
-        retired.retire(std::mem::replace(&mut self.framebuffer, framebuffer));
-        retired.retire(std::mem::replace(&mut self.image, image));
-        Ok(())
+        Ok(Self { target, pipeline, level: level(config, kind) })
     }
 
     /// Clears the image, and blends all sprites into it, if there are any.
@@ -151,16 +119,16 @@ impl Target {
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let to = COLOR_ATTACHMENT;
-        gpu.barriers(cmd, &[access::image(&self.image, BEFORE.discarded(), to)], &[]);
+        gpu.barriers(cmd, &[access::image(&self.target.image, BEFORE.discarded(), to)], &[]);
         let area = reduced(r.extent, self.level).into();
         let clear = [clear, 0.0, 0.0, 0.0];
-        gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, clear);
+        self.target.begin(gpu, cmd, area, clear);
         for index in 0..if any { list.chunks } else { 0 } {
             let resources = [
                 (0, r.uniforms),
                 (1, foam.chunk(list, index)),
                 (2, r.scene_depth),
-                (3, Resource::Sampled(foam.depth.image.view, gpu.samplers.nearest)),
+                (3, Resource::Sampled(foam.depth().view, gpu.samplers.nearest)),
             ];
             r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
             let draw = list.chunk(index).arguments + cull::FOAM;
@@ -168,16 +136,20 @@ impl Target {
             unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
         }
         gpu.end_pass(cmd);
-        gpu.barriers(cmd, &[access::image(&self.image, COLOR_ATTACHMENT, AFTER)], &[]);
+        gpu.barriers(cmd, &[access::image(&self.target.image, COLOR_ATTACHMENT, AFTER)], &[]);
         Ok(())
     }
 }
 
-fn image_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Depth => "water/foam/depth",
-        Kind::Thickness => "water/foam/thickness",
-    }
+fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
+    let (name, format) = match kind {
+        Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT),
+        Kind::Thickness => ("water/foam/thickness", vk::Format::R32G32_SFLOAT),
+    };
+    let usage = vk::ImageUsageFlags::SAMPLED
+        | vk::ImageUsageFlags::COLOR_ATTACHMENT
+        | vk::ImageUsageFlags::TRANSFER_SRC;
+    ImageDesc::new(name, reduced(config.extent, level(config, kind)), format, usage)
 }
 
 fn level(config: &Config, kind: Kind) -> u32 {
@@ -191,8 +163,8 @@ fn level(config: &Config, kind: Kind) -> u32 {
 pub struct Foam {
     list: Pipeline,
     sprites: Buffer,
-    depth: Target,
-    thickness: Target,
+    depth: Blended,
+    thickness: Blended,
 }
 
 impl Foam {
@@ -207,8 +179,8 @@ impl Foam {
                 vk::BufferUsageFlags::STORAGE_BUFFER,
                 MemoryLocation::GpuOnly,
             )?,
-            depth: Target::new(gpu, config, Kind::Depth)?,
-            thickness: Target::new(gpu, config, Kind::Thickness)?,
+            depth: Blended::new(gpu, config, Kind::Depth)?,
+            thickness: Blended::new(gpu, config, Kind::Thickness)?,
         })
     }
 
@@ -218,8 +190,8 @@ impl Foam {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        self.depth.resize(gpu, config, Kind::Depth, retired)?;
-        self.thickness.resize(gpu, config, Kind::Thickness, retired)
+        self.depth.target.resize(gpu, &desc(config, Kind::Depth), retired)?;
+        self.thickness.target.resize(gpu, &desc(config, Kind::Thickness), retired)
     }
 
     /// A chunk's part of the sprites.
@@ -230,12 +202,12 @@ impl Foam {
 
     /// Eye depth of the frontmost foam.
     pub fn depth(&self) -> &Image {
-        &self.depth.image
+        &self.depth.target.image
     }
 
     /// Metres of foam.
     pub fn thickness(&self) -> &Image {
-        &self.thickness.image
+        &self.thickness.target.image
     }
 
     /// `list`: of `cull`, for its counts.
@@ -337,6 +309,6 @@ impl Foam {
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.depth.image.size + self.thickness.image.size, self.sprites.size)
+        (self.depth().size + self.thickness().size, self.sprites.size)
     }
 }

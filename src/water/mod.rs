@@ -33,7 +33,7 @@ use crate::gpu::timing::{Scope, Timer};
 use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::{Classify, ROW};
-pub(crate) use cull::{CAST, SphereList, Window, chunk_unit, chunks};
+pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, Rule, Shading, Shadows,
@@ -196,7 +196,7 @@ impl Water {
         }
         let foam = self.foam.as_ref().map(foam::Foam::depth);
         self.thickness.record(r, &self.cull.list, gaps, foam)?;
-        let spray = self.spray.as_ref().map(|spray| &spray.image);
+        let spray = self.spray.as_ref().map(spray::Spray::image);
         let depths = reduce::Depths { water: &self.depth.image, foam, spray };
         self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
@@ -222,7 +222,7 @@ impl Water {
             sheets: self.thickness.sheets.as_ref(),
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
-            spray: self.spray.as_ref().map(|spray| &spray.image),
+            spray: self.spray.as_ref().map(spray::Spray::image),
         }
     }
 
@@ -276,7 +276,7 @@ impl Water {
             layers.push(layer("foam.thickness", foam.thickness(), level, foam::AFTER));
         }
         if let Some(spray) = &self.spray {
-            layers.push(layer("spray", &spray.image, 0, spray::AFTER));
+            layers.push(layer("spray", spray.image(), 0, spray::AFTER));
         }
         layers
     }

@@ -283,8 +283,8 @@ pub struct FoamLook {
     /// How fast its colour turns to that of the front with the foam right behind the frontmost, per
     /// metre, [0, ∞), default 0.15 / spacing.
     pub front_extinction: f32,
-    /// Or 0 (default), or the power p of the source's other rule: the front colour's share is that of the
-    /// foam there over the layer's depth, to the power p, [0, 64].
+    /// Power p of the source's other rule, [0, 64]: the front colour's share is the foam there over the
+    /// layer's depth, to the power p. 0 (default): the rule above.
     pub front_power: f32,
     /// Depth of that layer, scene units, [0, ∞), default 60 spacings (the source's 7 shows drops
     /// before the foam as discs: it begins anew behind each).

@@ -22,11 +22,11 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
-use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
+use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 32;
@@ -72,24 +72,21 @@ pub struct Spray {
     list: Pipeline,
     draw: Pipeline,
     sprites: Buffer,
-    pass: Owned<vk::RenderPass>,
-    framebuffer: Owned<vk::Framebuffer>,
     /// Optical depth, a full-resolution texel each.
-    pub image: Image,
+    target: Target,
 }
 
 impl Spray {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let (chunk, chunks) = super::chunks(&gpu.limits, config);
-        let image = Self::image(gpu, config)?;
-        let pass = gpu.color_pass(NAME, &[image.format], vk::AttachmentLoadOp::CLEAR)?;
+        let target = Target::new(gpu, &desc(config), vk::AttachmentLoadOp::CLEAR)?;
         let draw = Pipeline::graphics(
             gpu,
             &Graphics {
                 vertex: shader::WATER_SPRAY_VERT,
                 fragment: shader::WATER_SPRAY_FRAG,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: pass.handle,
+                pass: target.pass.handle,
                 blend: &[blend(vk::BlendOp::ADD)],
                 constants: &crate::light::constants(config),
             },
@@ -104,19 +101,8 @@ impl Spray {
                 vk::BufferUsageFlags::STORAGE_BUFFER,
                 MemoryLocation::GpuOnly,
             )?,
-            framebuffer: gpu.framebuffer(NAME, pass.handle, image.view, image.extent)?,
-            pass,
-            image,
+            target,
         })
-    }
-
-    fn image(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
-        let usage = vk::ImageUsageFlags::SAMPLED
-            | vk::ImageUsageFlags::COLOR_ATTACHMENT
-            | vk::ImageUsageFlags::TRANSFER_SRC;
-        // Every device blends it.
-        let format = vk::Format::R16G16_SFLOAT;
-        Image::new(gpu, &ImageDesc::new(NAME, config.extent, format, usage))
     }
 
     pub fn resize(
@@ -125,11 +111,12 @@ impl Spray {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let image = Self::image(gpu, config)?;
-        let framebuffer = gpu.framebuffer(NAME, self.pass.handle, image.view, image.extent)?;
-        retired.retire(std::mem::replace(&mut self.framebuffer, framebuffer));
-        retired.retire(std::mem::replace(&mut self.image, image));
-        Ok(())
+        self.target.resize(gpu, &desc(config), retired)
+    }
+
+    /// Optical depth of the droplets, and of those that the sun lights.
+    pub fn image(&self) -> &Image {
+        &self.target.image
     }
 
     /// `list`: of `cull`, for its counts. `depth`: of the water, as its pass left it; it comes back
@@ -160,13 +147,13 @@ impl Spray {
             gpu.barriers(cmd, &[], &after);
         }
         let to = [
-            access::image(&self.image, BEFORE.discarded(), COLOR_ATTACHMENT),
+            access::image(self.image(), BEFORE.discarded(), COLOR_ATTACHMENT),
             access::image(depth, COMPUTE_READ_WRITE, FRAGMENT_SAMPLED),
         ];
         gpu.barriers(cmd, &to, &[]);
         let area = r.extent.into();
         let [shadow, thickness] = r.sunlight.resources();
-        gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, [0.0; 4]);
+        self.target.begin(gpu, cmd, area, [0.0; 4]);
         for index in 0..if particles.densities.is_some() { list.chunks } else { 0 } {
             let resources = [
                 (0, r.uniforms),
@@ -183,7 +170,7 @@ impl Spray {
         }
         gpu.end_pass(cmd);
         let back = [
-            access::image(&self.image, COLOR_ATTACHMENT, AFTER),
+            access::image(self.image(), COLOR_ATTACHMENT, AFTER),
             access::image(depth, FRAGMENT_SAMPLED, COMPUTE_READ_WRITE),
         ];
         gpu.barriers(cmd, &back, &[]);
@@ -254,8 +241,14 @@ impl Spray {
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.image.size, self.sprites.size)
+        (self.image().size, self.sprites.size)
     }
 }
 
-const NAME: &str = "water/spray";
+fn desc(config: &Config) -> ImageDesc<'static> {
+    let usage = vk::ImageUsageFlags::SAMPLED
+        | vk::ImageUsageFlags::COLOR_ATTACHMENT
+        | vk::ImageUsageFlags::TRANSFER_SRC;
+    // Every device blends it.
+    ImageDesc::new("water/spray", config.extent, vk::Format::R16G16_SFLOAT, usage)
+}

@@ -1,0 +1,214 @@
+//! Everything that can be wrong with what a host hands in, found before the first command.
+
+use ash::vk;
+
+use crate::contract::{Config, Count, Frame, Particles, Stream};
+use crate::error::Error;
+use crate::frame::{Lens, check_settings};
+use crate::water::MOST_COARSENING;
+use crate::water::settings::Shadows;
+
+/// A frame for a renderer of a configuration; what its camera is taken apart into.
+pub fn frame(
+    frame: &Frame<'_>,
+    config: &Config,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<Lens, Error> {
+    check_settings(&frame.settings.water, &frame.settings.light)?;
+    frame.settings.foam.check()?;
+    frame.settings.spray.check()?;
+    let (part, most) = (frame.output.rect.extent, config.extent);
+    if part.width > most.width || part.height > most.height {
+        return Err(Error::bad(
+            "Frame.output.rect",
+            format!(
+                "{}x{}, but the renderer is made for {}x{} at most: call resize first",
+                part.width, part.height, most.width, most.height
+            ),
+        ));
+    }
+    if frame.output.format != config.output_format {
+        return Err(Error::bad(
+            "Frame.output.format",
+            format!("{:?} is not Config.output_format", frame.output.format),
+        ));
+    }
+    let shadow = frame.sun.shadow.as_ref().map(|s| ("Frame.sun.shadow.image.before", &s.image));
+    let images = [
+        ("Frame.output.before", &frame.output),
+        ("Frame.scene_color.before", &frame.scene_color),
+        ("Frame.scene_depth.before", &frame.scene_depth),
+    ];
+    for (field, image) in images.into_iter().chain(shadow) {
+        if image.before.layout == vk::ImageLayout::UNDEFINED {
+            return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
+        }
+        if matches!(
+            image.after.layout,
+            vk::ImageLayout::UNDEFINED | vk::ImageLayout::PREINITIALIZED
+        ) {
+            return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
+        }
+        let vk::Rect2D { offset, extent } = image.rect;
+        let fits = |at: i32, size: u32, whole: u32| {
+            at >= 0 && size > 0 && u64::from(at.unsigned_abs()) + u64::from(size) <= whole.into()
+        };
+        if !fits(offset.x, extent.width, image.extent.width)
+            || !fits(offset.y, extent.height, image.extent.height)
+        {
+            return Err(Error::bad(
+                "HostImage.rect",
+                format!(
+                    "{}x{} at ({}, {}) is no part of an image of {}x{}",
+                    extent.width,
+                    extent.height,
+                    offset.x,
+                    offset.y,
+                    image.extent.width,
+                    image.extent.height
+                ),
+            ));
+        }
+    }
+    if frame.in_place() && !config.in_place {
+        return Err(Error::bad(
+            "Frame.scene_color",
+            "is the output itself, but Config.in_place is false",
+        ));
+    }
+    particles(&frame.particles, config, limits)?;
+    sun(frame, config)?;
+    Lens::new(&frame.camera)
+}
+
+fn particles(
+    particles: &Particles,
+    config: &Config,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<(), Error> {
+    let count = match particles.count {
+        Count::Cpu(count) if count > config.max_particles => {
+            return Err(Error::bad(
+                "Frame.particles.count",
+                format!("{count} is more than Config.max_particles, {}", config.max_particles),
+            ));
+        }
+        Count::Cpu(count) => count,
+        Count::Gpu { .. } => 0,
+    };
+    let stream = |field, stream: &Stream, bytes: u64| {
+        stream.check(field, bytes, count, ("Config.max_stride", config.max_stride))
+    };
+    stream("Frame.particles.positions", &particles.positions, 12)?;
+    if let Some(densities) = &particles.densities {
+        stream("Frame.particles.densities", densities, 4)?;
+    }
+    if let Some(velocities) = &particles.velocities {
+        stream("Frame.particles.velocities", velocities, 12)?;
+    }
+    if let Some(ids) = &particles.ids {
+        stream("Frame.particles.ids", ids, 4)?;
+    }
+    if let Some(foam) = &particles.foam {
+        stream("Frame.particles.foam", foam, 8)?;
+        if !config.foam {
+            let why = "given, but Config.foam is false";
+            return Err(Error::bad("Frame.particles.foam", why));
+        }
+    }
+    let aligned = |field, offset: u64| {
+        let to = limits.min_storage_buffer_offset_alignment.max(4);
+        if offset.is_multiple_of(to) {
+            Ok(())
+        } else {
+            Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
+        }
+    };
+    if let Count::Gpu { offset, .. } = particles.count {
+        aligned("Frame.particles.count.offset", offset)?;
+    }
+    if let Some(packets) = &particles.packets {
+        aligned("Frame.particles.packets.offset", packets.offset)?;
+        if packets.count > 65_535 {
+            return Err(Error::bad(
+                "Frame.particles.packets.count",
+                format!("{} is more than 65535", packets.count),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
+    let bad = |field, why: &str| Err(Error::bad(field, why));
+    match (config.shadow, &frame.sun.shadow) {
+        (Some(_), None) => return bad("Frame.sun.shadow", "none, but Config.shadow asks for it"),
+        (None, Some(_)) => return bad("Frame.sun.shadow", "given, but Config.shadow is None"),
+        (Some(Shadows::Map), Some(shadow)) => {
+            let clip = &shadow.view_projection;
+            if !clip.is_finite() || clip.determinant().abs() < 1e-30 {
+                return bad("Frame.sun.shadow.view_projection", "not finite, or singular");
+            }
+            if !shadow.bias.is_finite() {
+                return bad("Frame.sun.shadow.bias", "not finite");
+            }
+        }
+        _ => {}
+    }
+    match (config.cast, &frame.sun.region) {
+        (Some(_), None) => bad("Frame.sun.region", "none, but Config.cast asks for it"),
+        (None, Some(_)) => bad("Frame.sun.region", "given, but Config.cast is None"),
+        (Some(_), Some(region)) => {
+            let finite = region.center.iter().all(|c| c.is_finite());
+            if finite && region.radius.is_finite() && region.radius > 0.0 {
+                Ok(())
+            } else {
+                bad("Frame.sun.region", "a finite centre and a radius over 0 expected")
+            }
+        }
+        (None, None) => Ok(()),
+    }
+}
+
+/// A configuration by itself; what the device lacks for it [`Offer`](crate::Offer) says.
+pub fn config(config: &Config) -> Result<(), Error> {
+    let bad = |field, why: String| Err(Error::bad(field, why));
+    if config.extent.width == 0 || config.extent.height == 0 {
+        return bad("Config.extent", "zero; a minimised window has nothing to draw".into());
+    }
+    if config.max_particles == 0 {
+        return bad("Config.max_particles", "zero; it sizes the buffers".into());
+    }
+    if config.max_stride < 4 || !config.max_stride.is_multiple_of(4) {
+        return bad("Config.max_stride", format!("{} is no multiple of 4", config.max_stride));
+    }
+    if config.smoothing_level > 2 {
+        return bad("Config.smoothing_level", format!("{} of 0, 1, 2", config.smoothing_level));
+    }
+    if config.thickness_level > 3 {
+        return bad("Config.thickness_level", format!("{} of 0 to 3", config.thickness_level));
+    }
+    if !(1..=256).contains(&config.max_iterations) {
+        return bad("Config.max_iterations", format!("{} of 1 to 256", config.max_iterations));
+    }
+    if config.coarsening > MOST_COARSENING {
+        return bad("Config.coarsening", format!("{} of 0 to 3", config.coarsening));
+    }
+    if !(1..=2).contains(&config.sheets) {
+        return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
+    }
+    if let Some(edge) = config.cast
+        && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))
+    {
+        let why = format!("{edge}: a multiple of 16 from 16 to 4096 expected");
+        return bad("Config.cast", why);
+    }
+    let size = config.environment_size;
+    if !size.is_power_of_two() || !(16..=2048).contains(&size) {
+        return bad(
+            "Config.environment_size",
+            format!("{size}: a power of two from 16 to 2048 expected"),
+        );
+    }
+    Ok(())
+}

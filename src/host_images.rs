@@ -1,0 +1,98 @@
+//! The host's images: how they are used here, and the one barrier of each on its way in and out.
+
+use ash::vk;
+
+use crate::contract::{Frame, HostImage};
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, Access, COPY_READ, FRAGMENT_SAMPLED};
+use crate::gpu::descriptors::Resource;
+use crate::light::{Light, Sunlight};
+
+/// Layout in which the scene's depth is sampled.
+pub fn depth_layout(image: &HostImage) -> vk::ImageLayout {
+    if image.aspect.contains(vk::ImageAspectFlags::DEPTH) {
+        vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL
+    } else {
+        vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL
+    }
+}
+
+/// How the scene's depth is used here.
+pub fn depth_use(layout: vk::ImageLayout, spray: bool) -> Access {
+    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+    // Bound to its vertices too, in place of what tells where the sun does not come.
+    let sampled = if spray { sampled.and(access::VERTEX_SAMPLED) } else { sampled };
+    Access { layout, ..sampled }
+}
+
+/// How the host's images are used here.
+pub struct Uses {
+    /// The output is the scene's colour too.
+    pub in_place: bool,
+    pub depth: Access,
+    /// By `composite`.
+    pub output: Access,
+    /// The scene's colour, or its copy, by `composite`.
+    pub scene: Access,
+    /// The scene is read by `lit` first.
+    pub lit: bool,
+}
+
+impl Uses {
+    /// What reads or writes the output first.
+    pub fn output_first(&self) -> Access {
+        match (self.in_place, self.lit) {
+            (true, true) => Light::SCENE_USE,
+            (true, false) => COPY_READ,
+            (false, _) => self.output,
+        }
+    }
+
+    /// What reads the host's own image of the scene.
+    fn scene_first(&self) -> Access {
+        if self.lit { Light::SCENE_USE } else { self.scene }
+    }
+}
+
+/// How a shadow map or mask is used here.
+fn shadow_use(image: &HostImage) -> Access {
+    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(access::VERTEX_SAMPLED);
+    Access { layout: depth_layout(image), ..sampled }
+}
+
+/// What tells where the sun does not come; the scene's depth stands in for what is not read.
+pub fn sunlight(frame: &Frame<'_>, light: Option<&Light>, gpu: &Gpu, depth: Resource) -> Sunlight {
+    let shadow = frame.sun.shadow.map_or(depth, |shadow| {
+        let layout = depth_layout(&shadow.image);
+        Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
+    });
+    Sunlight { shadow, thickness: light.map_or(depth, |light| light.thickness(gpu)) }
+}
+
+/// The one barrier of each host image on its way in.
+pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
+    let barrier =
+        |image: &HostImage, to| access::raw_image(image.image, image.aspect, image.before, to);
+    let mut all =
+        vec![barrier(&frame.scene_depth, uses.depth), barrier(&frame.output, uses.output_first())];
+    if !uses.in_place {
+        all.push(barrier(&frame.scene_color, uses.scene_first()));
+    }
+    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
+    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
+    all
+}
+
+/// The one barrier of each host image on its way out.
+pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'static>> {
+    let barrier =
+        |image: &HostImage, from| access::raw_image(image.image, image.aspect, from, image.after);
+    let mut all =
+        vec![barrier(&frame.scene_depth, uses.depth), barrier(&frame.output, uses.output)];
+    if !uses.in_place {
+        all.push(barrier(&frame.scene_color, uses.scene_first()));
+    }
+    let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
+    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
+    all
+}
