@@ -221,7 +221,8 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t) {
     vec3 h = normalize(v + frame.sun_direction.xyz);
     // pow() by hand: of tiny bases some drivers make NaN.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
-    sheet.shine = w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
+    float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
+    sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
     return sheet;
 }
 
@@ -392,9 +393,6 @@ vec3 layers_at(vec2 pixel, float front) {
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     Sheet sheet = sheet_of(surface, pixel, t);
-    if (SHADOW > 0u) {
-        sheet.shine *= past_scene(surface.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
-    }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     sheet = on_ladder(sheet);
     back = on_ladder(back);

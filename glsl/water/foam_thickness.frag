@@ -6,6 +6,7 @@
 #include "frame.glsl"
 #include "random.glsl"
 #include "foam.glsl"
+#include "kernel.glsl"
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec4 look;
@@ -26,9 +27,8 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    float rho2 = dot(place, place);
     float noise = gradient_noise(vec3(1.6 * place, 0.0) + look.yzw);
-    float amount = look.x * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
+    float amount = look.x * thickness_kernel(dot(place, place));
     amount *= max(1.0 + frame.foam_noise.x * noise, 0.0);
     // Whole steps: their sums are exact, in any order.
     amount = floor(amount / frame.foam_back.w + 0.5) * frame.foam_back.w;

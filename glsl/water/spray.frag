@@ -3,6 +3,7 @@
 // Reads: scene depth, water depth. Writes: spray (RG16F), summed.
 
 #include "frame.glsl"
+#include "kernel.glsl"
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec2 amount;
@@ -35,8 +36,7 @@ void main() {
     // Droplets lie round particles that may be water too: those just behind the surface are seen.
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
     // As the thickness: the source's exp(-2 rho^2) alone ends with an edge.
-    float rho2 = dot(place, place);
-    float added = before * amount.x * sqrt(max(1.0 - rho2, 0.0)) * exp(-2.0 * rho2);
+    float added = before * amount.x * thickness_kernel(dot(place, place));
     // Whole steps: sums of half floats are exact up to 4, in any order.
     optical_depth = floor(added * vec2(1.0, amount.y) * 512.0 + 0.5) / 512.0;
 }

@@ -52,8 +52,8 @@ void main() {
     float still_below = max(1.0e-6 * frame.particle.y, 1.0e-3 * length(sprite.velocity.xyz));
     vec3 e1 = speed > still_below ? motion / speed : normalize(cross(side, normal));
     vec3 e2 = cross(e1, normal);
-    // Over the time of a streak it covers more, and each place for less long. No smaller than a pixel's
-    // half, or it would flicker; then it is thinner.
+    // Over the time of a streak it covers more, and each place for less long. No narrower than a pixel
+    // and a half, or it would flicker; then it is thinner.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? 0.7 * frame.spray.z : frame.spray.y * size;

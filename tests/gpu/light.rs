@@ -798,3 +798,35 @@ fn light_on_frames_of_any_size() {
         }
     }
 }
+
+/// Where the sun does not come, neither its highlight on water nor the relief of foam is seen.
+#[test]
+fn highlights_and_relief_are_the_suns() {
+    let gpu = Gpu::shared();
+    let config = Config { shadow: Some(Shadows::Mask), foam: true, sheets: 2, ..config(SIZE) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = Foamy::new(SIZE, Lens::Standard, 0.0);
+    // A pane behind them all: the farther sheet shines too.
+    let pane = scenes::block(3, 0.3, [40, 28, 3], [-6.0, -4.2, 12.0]);
+    case.shot.positions.extend(scenes::world(&case.shot.camera, &pane));
+    case.amounts.resize(case.shot.positions.len(), [0.0; 2]);
+    case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
+    case.ids = None;
+    case.amounts.iter_mut().step_by(2).for_each(|amount| amount[0] = 0.0);
+    let view = case.shot.camera_view().inverse();
+    // From behind the eye: the spheres shine in their middle.
+    let sun = view.transform_vector3(DVec3::new(0.1, 0.2, 1.0)).normalize();
+    case.shot.settings.light.direction = sun.as_vec3().to_array();
+    for (lit, seen) in [(1.0, true), (0.0, false)] {
+        let (_texture, shadow) = even(&rig, lit);
+        case.shot.sun.shadow = Some(shadow);
+        let mut drawn = |specular: f32, relief: f32| {
+            case.shot.settings.water.specular = specular;
+            case.shot.settings.foam.relief = relief;
+            case.draw(&mut rig).output.data
+        };
+        let [plain, shining, raised] = [drawn(0.0, 0.0), drawn(1.0, 0.0), drawn(0.0, 0.6)];
+        assert_eq!(plain != shining, seen, "highlights, sun {lit}");
+        assert_eq!(plain != raised, seen, "relief, sun {lit}");
+    }
+}
