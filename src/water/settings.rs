@@ -173,9 +173,9 @@ impl Medium {
     /// Pure water.
     pub const CLEAR: Self =
         Self::Physical { absorption: [0.35, 0.065, 0.03], scattering: [0.003, 0.006, 0.01] };
-    /// A pool: a few times denser than pure water, so that a metre of it is visibly blue-green.
+    /// A pool: three times denser than pure water, so that a metre of it is visibly blue-green.
     pub const POOL: Self =
-        Self::Physical { absorption: [1.6, 0.36, 0.16], scattering: [0.02, 0.045, 0.06] };
+        Self::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.014, 0.03, 0.04] };
     /// Coastal ocean.
     pub const OCEAN: Self =
         Self::Physical { absorption: [2.4, 0.75, 0.55], scattering: [0.12, 0.3, 0.34] };

@@ -207,7 +207,7 @@ impl Material {
             "plain" => Self::default(),
             "concrete" => Self::new([0.44, 0.42, 0.385], 0.8, Pattern::Concrete),
             "tiles" => {
-                Self::new([0.36, 0.60, 0.63], 0.22, Pattern::Tiles { size: 0.1, band: None })
+                Self::new([0.50, 0.62, 0.63], 0.22, Pattern::Tiles { size: 0.1, band: None })
             }
             "timber" => Self::new([0.36, 0.235, 0.135], 0.75, Pattern::Planks { width: 0.12 }),
             "stone" => Self::new([0.47, 0.40, 0.32], 0.8, Pattern::Stone { course: 0.3 }),
