@@ -72,11 +72,13 @@ pub struct Config {
     /// Resolution of the thickness: 0 full, 1 half, 2 quarter (default), 3 eighth. Upsampled with
     /// the weights of texels on the same surface.
     pub thickness_level: u32,
-    /// How depth is splatted; `None`: the measured fastest for the device.
+    /// How depth is splatted; `None`: [`Splat::Compute`] on every device and at every size, which is
+    /// faster at all that were measured (on lavapipe; GPUs are still to be).
     pub depth_splat: Option<Splat>,
-    /// How thickness is splatted; `None`: the measured fastest for the device.
+    /// How thickness is splatted; `None`: as depth.
     pub thickness_splat: Option<Splat>,
-    /// Form of the smoothing; `None`: the measured fastest for the device.
+    /// Form of the smoothing; `None`: [`Smoothing::Tiles`] on a CPU, where it was measured to be the
+    /// fastest, [`Smoothing::Fused`] on GPUs, which are still to be measured.
     pub smoothing: Option<Smoothing>,
     /// How the water is shaded; `None`: [`Shading::Raster`] on every device (GPUs are still to
     /// be measured).
@@ -505,6 +507,11 @@ pub struct Recorded {
     /// A buffer with one [`SmoothingLevels`]: at which resolutions the frame was smoothed. Transfer
     /// source; last written by a compute shader, read as a uniform buffer.
     pub levels: Option<vk::Buffer>,
+    /// A buffer of 259 times four `u32`, the work of the smoothing: in the first the second word is how
+    /// many 16×16 tiles (of its texels, of all levels in use) hold water; the fourth word of number i, 1
+    /// to 257, how many iteration i runs over. Transfer source; last written by a compute shader, read as
+    /// indirect arguments.
+    pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` for each texel of the frame's thickness,
     /// row by row, the eye depth between the two sheets; 1e10 where there is but one. Transfer source;
     /// last written by a compute shader, read by compute and fragment shaders.

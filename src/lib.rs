@@ -43,7 +43,8 @@
 //! # Promises
 //!
 //! - `record` only records: it never submits, waits, creates pipelines or allocates device memory.
-//! - One acquire and one release barrier for each host image; silent under core and
+//! - One acquire and one release barrier for each host image (the output has more between them where it
+//!   is copied first, and where the lit scene is drawn); silent under core and
 //!   synchronization validation.
 //! - Pixels outside the fluid are not touched; no particles change nothing. With `Config.cast` all of
 //!   the view is written: the scene under the shadows and caustics.

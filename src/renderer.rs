@@ -243,6 +243,7 @@ impl Renderer {
             active_samples: self.water.query_results(),
             counts: Some(self.water.counts()),
             levels: Some(self.water.levels()),
+            tiles: Some(self.water.tiles()),
             sheets: self.water.boundaries(),
         };
         Ok((recorded, cmd))

@@ -50,3 +50,5 @@ mod spied;
 mod spray;
 #[path = "gpu/thickness.rs"]
 mod thickness;
+#[path = "gpu/work.rs"]
+mod work;

@@ -245,6 +245,11 @@ impl Water {
         self.level.levels.handle
     }
 
+    /// The tiles of the smoothing at work.
+    pub fn tiles(&self) -> vk::Buffer {
+        self.tiles.arguments.handle
+    }
+
     /// Samples counted by the smoothing's queries, when it has them.
     pub fn query_results(&self) -> Option<(vk::Buffer, u32)> {
         self.smooth.query_results()

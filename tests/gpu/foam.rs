@@ -32,7 +32,7 @@ pub struct Foamy {
 }
 
 /// Its buffers.
-struct Streams {
+pub struct Streams {
     cloud: Cloud,
     amounts: Data,
     velocities: Data,
@@ -40,7 +40,7 @@ struct Streams {
 }
 
 impl Streams {
-    fn particles(&self) -> Particles {
+    pub fn particles(&self) -> Particles {
         Particles {
             foam: Some(stream(&self.amounts, 0, 8)),
             velocities: Some(stream(&self.velocities, 0, 12)),
@@ -69,7 +69,7 @@ impl Foamy {
         Self { shot, amounts, velocities, ids }
     }
 
-    fn streams(&self, rig: &Rig<'_>) -> Streams {
+    pub fn streams(&self, rig: &Rig<'_>) -> Streams {
         let data = |bytes: &[u8]| rig.stub.data(bytes, STORAGE);
         Streams {
             cloud: rig.particles(&self.shot),

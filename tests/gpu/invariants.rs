@@ -174,7 +174,7 @@ fn strays_do_no_harm() {
         let drawn = rig.draw(&shot);
         same_drawn(&format!("strays-{splat:?}-{sheets}"), &drawn, &expected);
         // The last one is a number that is only far away.
-        assert_eq!((expected.dropped, drawn.dropped), (0, 12), "strays are counted");
+        assert_eq!((expected.work.dropped, drawn.work.dropped), (0, 12), "strays are counted");
     }
 }
 
@@ -192,7 +192,7 @@ fn densities_are_the_twins() {
     let drawn = rig.draw(&shot);
     let below = |d: &&f32| **d > 0.0 && **d < 350.0;
     let spray = shot.densities.iter().flatten().filter(below).count();
-    assert_eq!(drawn.set_aside as usize, spray, "spray is counted, on the screen or not");
+    assert_eq!(drawn.work.set_aside as usize, spray, "spray is counted, on the screen or not");
     let radius = f64::from(shot.settings.water.radius());
     let params = CullParams::new(radius, f64::from(shot.settings.water.rest_density));
     let view = shot.view(size);

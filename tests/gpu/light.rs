@@ -661,7 +661,7 @@ fn the_lit_scene_is_past_the_scene() {
 }
 
 /// Everything that the sun does, of particles of all kinds.
-fn everything(case: &mut Foamy) -> Config {
+pub fn everything(case: &mut Foamy) -> Config {
     let n = case.shot.positions.len();
     let mut random = Random(12);
     case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
@@ -671,7 +671,7 @@ fn everything(case: &mut Foamy) -> Config {
 }
 
 /// A mask that is the same all over.
-fn even(rig: &Rig<'_>, sun: f32) -> (Texture, Shadow) {
+pub fn even(rig: &Rig<'_>, sun: f32) -> (Texture, Shadow) {
     let image = shadows(rig, Shadows::Mask, &Image::new(3, 2, sun));
     let shadow = Shadow { image: image.host_image(), view_projection: Mat4::ZERO, bias: 0.0 };
     (image, shadow)

@@ -19,7 +19,7 @@ use crate::reference::{EMPTY, Image, Sphere, View, depth, is_surface, smooth};
 use crate::shading::close;
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Drawn, OUTPUT, Rig, Sheets, Shot, config, extent};
+use crate::support::rig::{Drawn, OUTPUT, Rig, Sheets, Shot, Work, config, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::shaded::{Filter, Shaded, shaded_both};
 use crate::support::slow;
@@ -753,8 +753,7 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         light_front: None,
         light_thickness: None,
         caustics: None,
-        dropped: 0,
-        set_aside: 0,
+        work: Work::default(),
     };
     let layers = Layers::new(&drawn, shot);
     let sky = Sky::Even.radiance(DVec3::Y);

@@ -6,8 +6,10 @@ use std::mem;
 use ash::vk;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Gate, Shading, Smoothing, Splat};
-use whitewater::{Config, Error, Frame, Recorded, Slot};
+use whitewater::{Config, Error, Frame, Particles, Recorded, Slot};
 
+use crate::foam::Foamy;
+use crate::light::{even, everything};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
@@ -25,10 +27,10 @@ fn water(size: vk::Extent2D) -> Shot {
     Shot::new(size, Lens::Standard, 0.2, &points)
 }
 
-fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot) {
+fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
     let (color, depth) = rig.scene(shot);
-    let cloud = rig.particles(shot);
-    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    let frame = shot.frame(color.host_image(), depth.host_image(), particles);
+    let shadow = shot.sun.shadow.map(|shadow| shadow.image.image);
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
         spy::reset();
@@ -44,6 +46,13 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot) {
         let (sets, room) = (spy::ALLOCATE_SETS.calls(), spy::MAX_SETS.load(RELAXED));
         assert!(sets <= room, "{name}: {sets} descriptor sets from a pool of {room}");
         assert!(spy::CMD_BARRIER.calls() > 5 && spy::CMD_BIND_PIPELINE.calls() > 5, "it sees");
+        // One to take it, one to give it back; the scene's colour is the output here: copied before it is
+        // drawn to, by the lit scene too.
+        for image in [depth.image].into_iter().chain(shadow) {
+            assert_eq!(spy::barriers_of(image), 2, "{name}");
+        }
+        let inner = 1 + usize::from(rig.config.cast.is_some());
+        assert_eq!(spy::barriers_of(color.image), 2 + inner, "{name}");
         rig.stub.end(0);
         rig.stub.wait(0);
         rig.renderer().collect(Slot(0));
@@ -59,7 +68,8 @@ fn record_only_records() {
     let base = config(size);
     let query = Some(Smoothing::Query(Gate::VertexCull));
     let mut configs = vec![
-        ("default", base),
+        ("one sheet", base),
+        ("two sheets", Config { sheets: 2, ..base }),
         (
             "raster",
             Config {
@@ -81,7 +91,25 @@ fn record_only_records() {
         configs.push(("draw count", Config { smoothing, ..base }));
     }
     for (name, config) in configs {
-        watched(name, &mut Rig::new(&gpu, &config), &water(size));
+        let mut rig = Rig::new(&gpu, &config);
+        let (shot, cloud) = (water(size), rig.particles(&water(size)));
+        watched(name, &mut rig, &shot, cloud.particles());
+    }
+}
+
+/// With all that may be drawn besides, by sprites and by compute.
+#[test]
+fn record_only_records_with_foam_spray_and_light() {
+    let gpu = spied();
+    let mut case = Foamy::new(extent(48, 32), Lens::Reversed, 30.0);
+    let all = everything(&mut case);
+    for (name, splat) in [("compute", Splat::Compute), ("raster", Splat::Raster)] {
+        let config = Config { depth_splat: Some(splat), thickness_splat: Some(splat), ..all };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let (_image, shadow) = even(&rig, 0.5);
+        case.shot.sun.shadow = Some(shadow);
+        let streams = case.streams(&rig);
+        watched(name, &mut rig, &case.shot, streams.particles());
     }
 }
 
@@ -91,7 +119,9 @@ fn many_chunks_have_their_descriptor_sets() {
     let gpu = spied();
     let size = extent(48, 32);
     let config = Config { max_stride: 1 << 16, max_particles: 1 << 16, ..config(size) };
-    watched("many chunks", &mut Rig::new(&gpu, &config), &water(size));
+    let mut rig = Rig::new(&gpu, &config);
+    let (shot, cloud) = (water(size), rig.particles(&water(size)));
+    watched("many chunks", &mut rig, &shot, cloud.particles());
 }
 
 /// Frames in a steady state make and destroy as much.
@@ -99,7 +129,7 @@ fn many_chunks_have_their_descriptor_sets() {
 fn memory_is_steady() {
     let gpu = spied();
     let size = extent(16, 8);
-    let mut rig = Rig::with_slots(&gpu, &config(size), 3);
+    let mut rig = Rig::with_slots(&gpu, &Config { sheets: 2, ..config(size) }, 3);
     let shot = Shot::new(size, Lens::Standard, 0.3, &[[0.0, 0.0, 3.0], [0.4, 0.1, 4.0]]);
     let (color, depth) = rig.scene(&shot);
     let cloud = rig.particles(&shot);

@@ -217,9 +217,20 @@ pub struct Drawn {
     pub light_thickness: Option<Image<[f32; 4]>>,
     /// As above.
     pub caustics: Option<Image<f32>>,
+    pub work: Work,
+}
+
+/// What a frame worked on.
+#[derive(Clone, Debug, Default)]
+pub struct Work {
+    /// Particles on the screen, and those of them that can show.
+    pub visible: u32,
+    pub front: u32,
     /// Particles dropped for their positions, and set aside as spray.
     pub dropped: u32,
     pub set_aside: u32,
+    /// Tiles with water; then those that iteration 1, 2, … runs over.
+    pub tiles: Vec<u32>,
 }
 
 /// What a frame with foam gave besides.
@@ -454,8 +465,7 @@ impl<'g> Rig<'g> {
             light_front: None,
             light_thickness: None,
             caustics: None,
-            dropped: 0,
-            set_aside: 0,
+            work: Work::default(),
         };
         if let Some(counts) = &recorded.counts {
             let size = 256 * u64::from(counts.chunks);
@@ -463,9 +473,22 @@ impl<'g> Rig<'g> {
             self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, counts.all, &back));
             for chunk in back.bytes().chunks_exact(256) {
                 let words: Vec<u32> = words(chunk).collect();
-                drawn.dropped += words[18];
-                drawn.set_aside += words[19];
+                drawn.work.visible += words[0] + words[5];
+                drawn.work.dropped += words[18];
+                drawn.work.set_aside += words[19];
             }
+            self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, counts.front, &back));
+            for chunk in back.bytes().chunks_exact(256) {
+                let words: Vec<u32> = words(chunk).collect();
+                drawn.work.front += words[0] + words[5];
+            }
+        }
+        if let Some(tiles) = recorded.tiles {
+            let back = self.stub.sized(16 * 259, vk::BufferUsageFlags::TRANSFER_DST);
+            self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, tiles, &back));
+            let words: Vec<u32> = words(back.bytes()).collect();
+            drawn.work.tiles = words.chunks_exact(4).skip(1).take(257).map(|w| w[3]).collect();
+            drawn.work.tiles.insert(0, words[1]);
         }
         let [a, b, back] = &levels.level;
         let fading = a.texel[3] > 0.0 && b.texel[3] > 0.0;

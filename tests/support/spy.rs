@@ -157,7 +157,6 @@ macro_rules! spied_void {
 }
 
 spied_void! {
-    CMD_BARRIER c"vkCmdPipelineBarrier2" (c: vk::CommandBuffer, i: P);
     CMD_BIND_PIPELINE c"vkCmdBindPipeline" (c: vk::CommandBuffer, b: i32, p: u64);
     CMD_DISPATCH c"vkCmdDispatch" (c: vk::CommandBuffer, x: u32, y: u32, z: u32);
     CMD_DISPATCH_INDIRECT c"vkCmdDispatchIndirect" (c: vk::CommandBuffer, b: u64, o: u64);
@@ -263,6 +262,30 @@ unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P
     };
     CREATE_DESCRIPTOR_POOL.live.fetch_add(i64::from(result == vk::Result::SUCCESS), SeqCst);
     result
+}
+
+/// Made by hand: it keeps the images.
+pub static CMD_BARRIER: Function = Function::new(c"vkCmdPipelineBarrier2");
+/// The image of each image barrier since the last reset.
+static IMAGE_BARRIERS: Mutex<Vec<vk::Image>> = Mutex::new(Vec::new());
+
+/// Barriers of an image since the last reset.
+pub fn barriers_of(image: vk::Image) -> usize {
+    held(&IMAGE_BARRIERS).iter().filter(|other| **other == image).count()
+}
+
+unsafe extern "system" fn cmd_barrier(c: vk::CommandBuffer, i: P) {
+    CMD_BARRIER.called();
+    // SAFETY: the driver's function, with a valid dependency info.
+    unsafe {
+        let info = &*i.cast::<vk::DependencyInfo<'_>>();
+        for n in 0..info.image_memory_barrier_count as usize {
+            held(&IMAGE_BARRIERS).push((*info.p_image_memory_barriers.add(n)).image);
+        }
+        let real: unsafe extern "system" fn(vk::CommandBuffer, P) =
+            std::mem::transmute(CMD_BARRIER.real.load(SeqCst));
+        real(c, i);
+    }
 }
 
 /// Made by hand: it keeps the cube.
@@ -424,6 +447,7 @@ const BY_HAND: &[(&Function, *const c_void)] = &[
     (&QUERY_RESULTS, query_results as *const c_void),
     (&CREATE_DESCRIPTOR_POOL, create_descriptor_pool as *const c_void),
     (&CREATE_IMAGE, create_image as *const c_void),
+    (&CMD_BARRIER, cmd_barrier as *const c_void),
 ];
 
 fn all() -> impl Iterator<Item = &'static (&'static Function, *const c_void)> {
@@ -471,6 +495,7 @@ pub fn reset() {
         function.calls.store(0, SeqCst);
         function.fails_in.store(0, SeqCst);
     }
+    held(&IMAGE_BARRIERS).clear();
 }
 
 /// Objects that are made and not destroyed, device memory apart (the allocator keeps blocks).

@@ -1,0 +1,121 @@
+//! Only what is needed is done: particles off the screen, spheres that cannot show and tiles without water
+//! cost nothing. The pictures are the same without any of it, so that only counts can tell.
+
+use whitewater::{Packets, Particles};
+
+use super::invariants::packet_bytes;
+use crate::reference::cull::{CullParams, cull};
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::scenes::{self, LENSES, Lens};
+
+/// Edge of a tile of the smoothing, in its texels.
+const TILE: usize = 16;
+
+/// Two thirds and more of a cloud lie beside, behind or before the frustum.
+#[test]
+fn particles_off_the_screen_are_culled() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut rig = Rig::new(&gpu, &config(size));
+    for lens in LENSES {
+        let shot =
+            Shot::new(size, lens, 0.05, &scenes::block(7, 0.6, [14, 14, 14], [-4.2, -4.2, -2.0]));
+        let drawn = rig.draw(&shot);
+        // Single precision may see those otherwise whose bounding spheres touch a plane.
+        let count = |slack: f64| {
+            let mut params = CullParams::new(f64::from(shot.settings.water.radius()), 1000.0);
+            params.bound += slack;
+            cull(&shot.positions, None, &params, &shot.view(size)).visible.len() as u32
+        };
+        let expected = count(-1.0e-4)..=count(1.0e-4);
+        assert!(
+            expected.contains(&drawn.work.visible),
+            "{lens:?}: {} of {expected:?}",
+            drawn.work.visible
+        );
+        let all = shot.positions.len() as u32;
+        assert!(
+            drawn.work.visible > 0 && 3 * drawn.work.visible < all,
+            "{lens:?}: {} of {all}",
+            drawn.work.visible
+        );
+    }
+}
+
+/// A packet's box is believed: particles of one that is off the screen are not looked at.
+#[test]
+fn packets_off_the_screen_are_culled() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let shot =
+        Shot::new(size, Lens::Standard, 0.1, &scenes::block(2, 0.2, [6, 6, 6], [-0.5, -0.5, 4.0]));
+    let mut beside = shot.clone();
+    let right = shot.camera_view().inverse().transform_vector3(glam::DVec3::X * 20.0);
+    for p in &mut beside.positions {
+        *p = (glam::DVec3::from(p.map(f64::from)) + right).as_vec3().to_array();
+    }
+    let half = shot.positions.len() as u32 / 2;
+    let mut bytes = packet_bytes(&shot, &[(0, half)]);
+    bytes.extend(packet_bytes(&beside, &[(half, half)]));
+    let cloud = rig.particles(&shot);
+    let boxes = rig.stub.data(&bytes, ash::vk::BufferUsageFlags::STORAGE_BUFFER);
+    let packets = Some(Packets { buffer: boxes.buffer, offset: 0, count: 2 });
+    let drawn = rig.draw_particles(&shot, &Particles { packets, ..cloud.particles() });
+    assert_eq!(drawn.work.visible, half);
+}
+
+/// Of a block ten layers deep the inner ones are covered; all its sides show.
+#[test]
+fn spheres_that_cannot_show_are_left_out() {
+    let gpu = Gpu::shared();
+    let size = extent(160, 120);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let shot = Shot::new(
+        size,
+        Lens::Standard,
+        0.2,
+        &scenes::block(3, 0.25, [14, 10, 10], [-1.7, -1.2, 4.0]),
+    );
+    let drawn = rig.draw(&shot);
+    assert!(
+        drawn.work.front > 0 && 5 * drawn.work.front < 4 * drawn.work.visible,
+        "{} of {}",
+        drawn.work.front,
+        drawn.work.visible
+    );
+}
+
+/// The list of tiles is those with water, and each iteration runs over those that want it: iteration i
+/// over all that want i - 1 or more (one more, which leaves the result in both images).
+#[test]
+fn tiles_without_work_are_not_listed() {
+    let gpu = Gpu::shared();
+    // Six by four tiles, and what is left over.
+    let size = extent(2 * 16 * 6 + 6, 2 * 16 * 4 + 10);
+    let mut rig = Rig::new(&gpu, &config(size));
+    // Drops near and far, so that tiles differ.
+    let mut points = scenes::block(5, 0.3, [3, 3, 2], [-2.2, -1.4, 6.0]);
+    points.extend(scenes::block(6, 0.3, [3, 3, 2], [1.0, 0.6, 3.0]));
+    let shot = Shot::new(size, Lens::Standard, 0.2, &points);
+    let drawn = rig.draw(&shot);
+    let plan = &drawn.plan;
+    let (columns, rows) = (plan.width.div_ceil(TILE), plan.height.div_ceil(TILE));
+    let mut most = vec![None; columns * rows];
+    for (i, (n, z)) in plan.data.iter().zip(&drawn.surface.data).enumerate() {
+        if *z < 1.0e10 {
+            let n = n & 511; // the rest is the step
+            let tile = &mut most[i / plan.width / TILE * columns + i % plan.width / TILE];
+            *tile = Some(tile.map_or(n, |before: u32| before.max(n)));
+        }
+    }
+    let wet: Vec<u32> = most.into_iter().flatten().collect();
+    assert!(wet.len() > 3 && 2 * wet.len() < columns * rows, "{} tiles", wet.len());
+    assert_eq!(drawn.work.tiles[0], wet.len() as u32);
+    for (i, listed) in (1u32..).zip(&drawn.work.tiles[1..]) {
+        let wanted = wet.iter().filter(|n| **n + 1 >= i.max(2)).count();
+        assert_eq!(*listed, wanted as u32, "iteration {i}");
+    }
+    assert!(drawn.work.tiles[200] == 0 && drawn.work.tiles[2] > 0);
+}
