@@ -1,5 +1,5 @@
 #version 460
-// Pass `convolution`, third part: the box along y, and the page's border of one texel.
+// Pass `convolution`, last part: the box along y, and the page's border of one texel.
 // Reads: one page, filtered along x. Writes: it into the basis.
 
 #include "frame.glsl"

@@ -38,8 +38,8 @@ use crate::water::settings::{ShadowFilter, Shadows};
 const SPAN_BLOCK: u32 = 128;
 /// Bytes of the span.
 const SPAN: u64 = 16;
-/// One page, filtered along one axis: every device stores and samples it.
-const ACROSS: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
+/// One page, whole and filtered along one axis: every device stores and samples it.
+const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
 /// Read by what shades, and by the vertices of spray.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
@@ -56,7 +56,7 @@ pub struct Convolution {
     /// over whole blocks of its texels; its size may change from frame to frame.
     pub texels: u32,
     /// Bits of a number: 8 (default) or 16, in which the picture is the same but for a few thousandths.
-    /// The images take 2·`terms`·`bits`/8 + 8 bytes a texel.
+    /// The images take 2·`terms`·`bits`/8 + 16 bytes a texel.
     pub bits: u32,
 }
 
@@ -206,10 +206,12 @@ fn linear(shadow: &Shadow, nearer: f32) -> [f32; 4] {
 /// The pass.
 pub struct Convolving {
     find: Pipeline,
+    make: Pipeline,
     across: Pipeline,
     down: Pipeline,
     span: Buffer,
-    page: Image,
+    /// One page, and it filtered along x.
+    page: [Image; 2],
     basis: Image,
     pages: u32,
 }
@@ -225,7 +227,8 @@ impl Convolving {
         let copied = vk::ImageUsageFlags::TRANSFER_SRC;
         Ok(Self {
             find: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_SPAN_COMP, &[])?,
-            across: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_COMP, &[])?,
+            make: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_COMP, &[])?,
+            across: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_ACROSS_COMP, &[])?,
             down: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_DOWN_COMP, &[])?,
             span: Buffer::new(
                 gpu,
@@ -236,7 +239,10 @@ impl Convolving {
                     | vk::BufferUsageFlags::TRANSFER_DST,
                 MemoryLocation::GpuOnly,
             )?,
-            page: image("convolution/page", one, ACROSS, vk::ImageUsageFlags::empty())?,
+            page: [
+                image("convolution/page", one, PAGE, vk::ImageUsageFlags::empty())?,
+                image("convolution/across", one, PAGE, vk::ImageUsageFlags::empty())?,
+            ],
             basis: image("convolution", convolution.extent(), convolution.format(), copied)?,
             pages: convolution.terms / 2,
         })
@@ -277,31 +283,40 @@ impl Convolving {
             &[buffer(span, COMPUTE_READ_WRITE, UNIFORM)],
         );
 
-        let resources =
-            [(0, r.uniforms), (1, map), (2, self.span()), (3, Resource::storage(&self.page))];
-        let across = r.descriptors.set(gpu, &self.across, &resources)?;
-        let page = Resource::Sampled(self.page.view, gpu.samplers.nearest);
-        let resources = [(0, r.uniforms), (1, page), (2, Resource::storage(&self.basis))];
-        let down = r.descriptors.set(gpu, &self.down, &resources)?;
+        let [page, across] = &self.page;
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        let set = |pipeline, resources: &[(u32, Resource)]| {
+            r.descriptors.set(gpu, pipeline, resources)
+        };
+        let stored = Resource::storage;
+        let made =
+            set(&self.make, &[(0, r.uniforms), (1, map), (2, self.span()), (3, stored(page))])?;
+        let moved =
+            set(&self.across, &[(0, r.uniforms), (1, sampled(page)), (2, stored(across))])?;
+        let kept =
+            set(&self.down, &[(0, r.uniforms), (1, sampled(across)), (2, stored(&self.basis))])?;
         let (_, size) = convolution.size(extent);
         let bordered = vk::Extent2D { width: size.width + 2, height: size.height + 2 };
-        for page in 0..self.pages as i32 {
-            let begin = access::image(&self.page, COMPUTE_SAMPLED.discarded(), COMPUTE_WRITE);
+        let bind = |pipeline: &Pipeline, set| {
+            pipeline.bind(gpu, cmd);
+            bind_set(gpu, cmd, pipeline, set);
+        };
+        let begin = |image| access::image(image, COMPUTE_SAMPLED.discarded(), COMPUTE_WRITE);
+        let end = |image| access::image(image, COMPUTE_WRITE, COMPUTE_SAMPLED);
+        for index in 0..self.pages as i32 {
+            gpu.barriers(cmd, &[begin(page)], &[]);
+            bind(&self.make, made);
+            self.make.push(gpu, cmd, &index);
+            r.dispatch_over(size, self.make.local_size);
+            gpu.barriers(cmd, &[end(page), begin(across)], &[]);
+            bind(&self.across, moved);
+            r.dispatch_over(size, self.across.local_size);
             // Pages are apart, but a validation layer knows of whole images alone.
             let next = access::image(&self.basis, COMPUTE_WRITE, COMPUTE_WRITE);
-            gpu.barriers(cmd, &[begin, next][..if page > 0 { 2 } else { 1 }], &[]);
-            for (pipeline, set, over) in
-                [(&self.across, across, size), (&self.down, down, bordered)]
-            {
-                pipeline.bind(gpu, cmd);
-                bind_set(gpu, cmd, pipeline, set);
-                pipeline.push(gpu, cmd, &page);
-                r.dispatch_over(over, pipeline.local_size);
-                if set == across {
-                    let made = access::image(&self.page, COMPUTE_WRITE, COMPUTE_SAMPLED);
-                    gpu.barriers(cmd, &[made], &[]);
-                }
-            }
+            gpu.barriers(cmd, &[end(across), next], &[]);
+            bind(&self.down, kept);
+            self.down.push(gpu, cmd, &index);
+            r.dispatch_over(bordered, self.down.local_size);
         }
         gpu.barriers(cmd, &[access::image(&self.basis, COMPUTE_WRITE, AFTER)], &[]);
         r.end(scope);
@@ -316,7 +331,7 @@ impl Convolving {
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.basis.size + self.page.size, self.span.size)
+        (self.basis.size + self.page.iter().map(|image| image.size).sum::<u64>(), self.span.size)
     }
 }
 

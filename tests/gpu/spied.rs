@@ -5,7 +5,7 @@ use std::mem;
 
 use ash::vk;
 use whitewater::headless::{Background, Headless};
-use whitewater::water::{Gate, Shading, Smoothing, Splat};
+use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
 use whitewater::{Config, Error, Frame, Recorded, Slot};
 
 use crate::support::compare;
@@ -83,6 +83,14 @@ fn record_only_records() {
     for (name, config) in configs {
         watched(name, &mut Rig::new(&gpu, &config), &water(size));
     }
+    // All that takes descriptor sets at once.
+    let convolution = Convolution { terms: 16, texels: 32, bits: 8 };
+    let shadow = Some(Shadows::Convolution(convolution));
+    let config =
+        Config { shadow, cast: Some(16), foam: true, spray: true, sheets: 2, ..config(size) };
+    let (mut rig, mut shot) = (Rig::new(&gpu, &config), water(size));
+    let _shade = crate::contract::sunny(&rig, &mut shot);
+    watched("in the sun", &mut rig, &shot);
 }
 
 /// Drivers that count their pools' sets must have enough for every chunk.

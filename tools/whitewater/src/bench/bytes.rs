@@ -38,14 +38,14 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
         // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.
         "caustics" => (4 * 4 + 4 + 16 + 12 + 4 + 4) * texels,
-        // The map in for its span and for each page; a page of half floats out and in, and into the basis.
+        // The map in for its span and for each page; a page of half floats out and in twice, and into the basis.
         "convolution" => match drawn.config.shadow {
             Some(Shadows::Convolution(Convolution { terms, texels, bits })) => {
                 let texels = u64::from(texels).pow(2);
                 // The stand-in scene's map.
                 let map = 4 * 2048_u64.pow(2);
                 let pages = u64::from(terms / 2);
-                map + pages * (map + texels * (16 + u64::from(bits / 2)))
+                map + pages * (map + texels * (32 + u64::from(bits / 2)))
             }
             _ => 0,
         },
