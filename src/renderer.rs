@@ -186,8 +186,7 @@ impl Renderer {
 
         let scene_depth =
             Resource::SampledIn(frame.scene_depth.view, gpu.samplers.nearest, depth_layout);
-        let uniforms =
-            Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64);
+        let uniforms = Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64);
         let from = (self.light.as_ref(), self.convolving.as_ref());
         let mut r = Recording {
             gpu,

@@ -206,7 +206,9 @@ impl Offer {
             let (vk::Extent2D { width, height }, most) =
                 (convolution.extent(), self.limits.max_image_dimension2_d);
             if width.max(height) > most {
-                let why = format!("an image of {width}x{height}, over the device's {most}: fewer texels or terms");
+                let why = format!(
+                    "an image of {width}x{height}, over the device's {most}: fewer texels or terms"
+                );
                 return Err(Error::bad("Config.shadow", why));
             }
         }

@@ -141,12 +141,7 @@ impl Convolved {
         let reach = (0.5 * settings.width / edge as f32).max(0.5);
         Some(Self {
             linear: linear(shadow, shadow.nearer(&frame.settings.light)),
-            basis: [
-                size.width as f32,
-                size.height as f32,
-                edge as f32,
-                convolution.page() as f32,
-            ],
+            basis: [size.width as f32, size.height as f32, edge as f32, convolution.page() as f32],
             filter: [reach, settings.scale, settings.offset * ramp, ramp],
             weight,
         })
@@ -285,14 +280,12 @@ impl Convolving {
 
         let [page, across] = &self.page;
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
-        let set = |pipeline, resources: &[(u32, Resource)]| {
-            r.descriptors.set(gpu, pipeline, resources)
-        };
+        let set =
+            |pipeline, resources: &[(u32, Resource)]| r.descriptors.set(gpu, pipeline, resources);
         let stored = Resource::storage;
         let made =
             set(&self.make, &[(0, r.uniforms), (1, map), (2, self.span()), (3, stored(page))])?;
-        let moved =
-            set(&self.across, &[(0, r.uniforms), (1, sampled(page)), (2, stored(across))])?;
+        let moved = set(&self.across, &[(0, r.uniforms), (1, sampled(page)), (2, stored(across))])?;
         let kept =
             set(&self.down, &[(0, r.uniforms), (1, sampled(across)), (2, stored(&self.basis))])?;
         let (_, size) = convolution.size(extent);

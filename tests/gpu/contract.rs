@@ -794,7 +794,11 @@ fn what_a_device_lacks_is_named() {
         (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
         (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
         (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
-        (whitewater::Offer { basis: [true, false], ..offer }, convolving(16), "R16G16B16A16_SFLOAT"),
+        (
+            whitewater::Offer { basis: [true, false], ..offer },
+            convolving(16),
+            "R16G16B16A16_SFLOAT",
+        ),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];

@@ -255,7 +255,8 @@ impl Convolved<'_> {
         // Four products and sums a row, two roundings of the point.
         let row = |v: f64, row: glam::DVec4| {
             let length = row.truncate().length();
-            let e = length * (by + 2.0 * U * p.length()) + 4.0 * U * (length * p.length() + row.w.abs());
+            let e = length * (by + 2.0 * U * p.length())
+                + 4.0 * U * (length * p.length() + row.w.abs());
             Rounded { v, e }
         };
         let w = row(clip.w, rows.w_axis);
