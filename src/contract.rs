@@ -104,8 +104,8 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
-    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`]; `None`
-    /// (default): it is everywhere.
+    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`], and how the
+    /// map is filtered; `None` (default): it is everywhere.
     pub shadow: Option<Shadows>,
     /// Water and foam cast shadows and caustics on the scene and foam on itself: the passes `light`,
     /// `caustics` and `lit`, with maps of so many texels a side over [`Sun::region`], a multiple of
