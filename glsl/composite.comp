@@ -10,6 +10,7 @@
 #include "sheets.glsl"
 #include "surface.glsl"
 #include "beside.glsl"
+#include "convolution.glsl"
 #include "sunlight.glsl"
 #include "shade.glsl"
 

@@ -17,6 +17,7 @@ pub fn frame(
     check_settings(&frame.settings.water, &frame.settings.light)?;
     frame.settings.foam.check()?;
     frame.settings.spray.check()?;
+    frame.settings.shadow.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
     if part.width > most.width || part.height > most.height {
         return Err(Error::bad(
@@ -144,7 +145,7 @@ fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
     match (config.shadow, &frame.sun.shadow) {
         (Some(_), None) => return bad("Frame.sun.shadow", "none, but Config.shadow asks for it"),
         (None, Some(_)) => return bad("Frame.sun.shadow", "given, but Config.shadow is None"),
-        (Some(Shadows::Map), Some(shadow)) => {
+        (Some(Shadows::Map | Shadows::Convolution(_)), Some(shadow)) => {
             let clip = &shadow.view_projection;
             if !clip.is_finite() || clip.determinant().abs() < 1e-30 {
                 return bad("Frame.sun.shadow.view_projection", "not finite, or singular");
@@ -196,6 +197,9 @@ pub fn config(config: &Config) -> Result<(), Error> {
     }
     if !(1..=2).contains(&config.sheets) {
         return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
+    }
+    if let Some(Shadows::Convolution(convolution)) = config.shadow {
+        convolution.check()?;
     }
     if let Some(edge) = config.cast
         && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))

@@ -150,7 +150,7 @@ impl Composite {
         // Where there are none they are not read: any buffer will do.
         let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
         let foam = layers.foam.unwrap_or([layers.thickness; 2]);
-        let [shadow, light_thickness] = r.sunlight.resources();
+        let [shadow, light_thickness, basis, span] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(layers.smoothed.view, nearest)),
@@ -170,6 +170,8 @@ impl Composite {
             (15, Resource::Sampled(layers.spray.unwrap_or(layers.thickness).view, nearest)),
             shadow,
             light_thickness,
+            basis,
+            span,
         ];
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();

@@ -10,8 +10,8 @@ use gpu_allocator::vulkan::Allocator;
 use crate::error::Error;
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
-    FoamLook, FoamSettings, Ladder, Rule, Shading, Shadows, Smoothing, Splat, SprayLook,
-    WaterSettings,
+    FoamLook, FoamSettings, Ladder, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat,
+    SprayLook, WaterSettings,
 };
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
@@ -106,8 +106,8 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
-    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`]; `None`
-    /// (default): it is everywhere.
+    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`], and how the
+    /// map is filtered; `None` (default): it is everywhere.
     pub shadow: Option<Shadows>,
     /// Water and foam cast shadows and caustics on the scene and foam on itself: the passes `light`,
     /// `caustics` and `lit`, with maps of so many texels a side over [`Sun::region`], a multiple of
@@ -355,8 +355,9 @@ pub struct Sun {
 /// The host's shadows, only sampled.
 #[derive(Clone, Copy, Debug)]
 pub struct Shadow {
-    /// [`Shadows::Map`]: depth as the light sees the scene. [`Shadows::Mask`]: one channel that
-    /// covers the view, 1 where the sun shines on the fluid, 0 where not. Its `rect` is the part that is meant.
+    /// [`Shadows::Map`], [`Shadows::Convolution`]: depth as the light sees the scene, of any size.
+    /// [`Shadows::Mask`]: one channel that covers the view, 1 where the sun shines on the fluid, 0 where
+    /// not. Its `rect` is the part that is meant.
     pub image: HostImage,
     /// World to the clip space of the map, standard or reversed depth (mask: not read).
     pub view_projection: Mat4,
@@ -439,6 +440,8 @@ pub struct Settings {
     pub foam: FoamLook,
     /// Drops too small for the particles.
     pub spray: SprayLook,
+    /// Filter of the host's shadow map, with [`Shadows::Convolution`].
+    pub shadow: ShadowFilter,
     /// Light on it.
     pub light: Light,
     /// How many of the composite's layers are drawn, for a look at each; default all.

@@ -59,6 +59,10 @@ pub struct FrameUniforms {
     pub shade: [f32; 4],
     pub lit_color: [f32; 4],
     pub lit_origin: [f32; 4],
+    pub shadow_linear: [f32; 4],
+    pub shadow_basis: [f32; 4],
+    pub shadow_filter: [f32; 4],
+    pub shadow_weight: [[f32; 4]; 4],
 }
 
 shader::assert_layout!(
@@ -104,6 +108,10 @@ shader::assert_layout!(
         shade,
         lit_color,
         lit_origin,
+        shadow_linear,
+        shadow_basis,
+        shadow_filter,
+        shadow_weight,
     }
 );
 
@@ -238,6 +246,7 @@ impl FrameUniforms {
         let shadow = frame.sun.shadow.as_ref();
         let region = frame.sun.region.unwrap_or(Region { center: [0.0; 3], radius: 1.0 });
         let edge = config.cast.unwrap_or(1) as f32;
+        let convolved = crate::light::Convolved::new(frame, config).unwrap_or_default();
         let lit = frame.scene_color.rect;
         let [depth_at, color_at, target_at] =
             [frame.scene_depth.rect, scene_color, frame.output.rect]
@@ -322,6 +331,10 @@ impl FrameUniforms {
             shade: shade(light, look),
             lit_color: ratio(lit),
             lit_origin: [lit.offset.x as f32, lit.offset.y as f32, 0.0, 0.0],
+            shadow_linear: convolved.linear,
+            shadow_basis: convolved.basis,
+            shadow_filter: convolved.filter,
+            shadow_weight: convolved.weight,
         }
     }
 }

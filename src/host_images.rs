@@ -2,11 +2,11 @@
 
 use ash::vk;
 
-use crate::contract::{Frame, HostImage};
+use crate::contract::{Frame, HostImage, Shadow};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, Access, COPY_READ, FRAGMENT_SAMPLED};
 use crate::gpu::descriptors::Resource;
-use crate::light::{Light, Sunlight};
+use crate::light::{Convolving, Light, Sunlight};
 
 /// Layout in which the scene's depth is sampled.
 pub fn depth_layout(image: &HostImage) -> vk::ImageLayout {
@@ -36,6 +36,8 @@ pub struct Uses {
     pub scene: Access,
     /// The scene is read by `lit` first.
     pub lit: bool,
+    /// The shadow map is read by `convolution` alone.
+    pub convolved: bool,
 }
 
 impl Uses {
@@ -55,18 +57,33 @@ impl Uses {
 }
 
 /// How a shadow map or mask is used here.
-fn shadow_use(image: &HostImage) -> Access {
-    let sampled = access::COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(access::VERTEX_SAMPLED);
+fn shadow_use(image: &HostImage, convolved: bool) -> Access {
+    let shading = FRAGMENT_SAMPLED.and(access::VERTEX_SAMPLED);
+    let sampled = access::COMPUTE_SAMPLED;
+    let sampled = if convolved { sampled } else { sampled.and(shading) };
     Access { layout: depth_layout(image), ..sampled }
 }
 
-/// What tells where the sun does not come; the scene's depth stands in for what is not read.
-pub fn sunlight(frame: &Frame<'_>, light: Option<&Light>, gpu: &Gpu, depth: Resource) -> Sunlight {
-    let shadow = frame.sun.shadow.map_or(depth, |shadow| {
-        let layout = depth_layout(&shadow.image);
-        Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
-    });
-    Sunlight { shadow, thickness: light.map_or(depth, |light| light.thickness(gpu)) }
+/// The host's shadow map or mask.
+pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
+    let layout = depth_layout(&shadow.image);
+    Resource::SampledIn(shadow.image.view, gpu.samplers.nearest, layout)
+}
+
+/// What tells where the sun does not come; the scene's depth and the frame's numbers stand in for what
+/// is not read.
+pub fn sunlight(
+    frame: &Frame<'_>,
+    (light, convolving): (Option<&Light>, Option<&Convolving>),
+    gpu: &Gpu,
+    (depth, uniforms): (Resource, Resource),
+) -> Sunlight {
+    let map = frame.sun.shadow.as_ref().filter(|_| convolving.is_none());
+    Sunlight {
+        shadow: map.map_or(depth, |shadow| shadow_map(shadow, gpu)),
+        thickness: light.map_or(depth, |light| light.thickness(gpu)),
+        convolved: convolving.map_or([depth, uniforms], |convolving| convolving.resources(gpu)),
+    }
 }
 
 /// The one barrier of each host image on its way in.
@@ -79,7 +96,7 @@ pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
         all.push(barrier(&frame.scene_color, uses.scene_first()));
     }
     let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
-    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
+    all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
     all
 }
 
@@ -93,6 +110,6 @@ pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
         all.push(barrier(&frame.scene_color, uses.scene_first()));
     }
     let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
-    all.extend(shadow.map(|image| barrier(image, shadow_use(image))));
+    all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
     all
 }

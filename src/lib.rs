@@ -36,7 +36,7 @@
 //! | `particles.velocities` | 3×f32, world space, with `Config.foam` or `Config.spray` | as above | as above |
 //! | `particles.ids` | u32 that follow the particles, likewise | as above | as above |
 //! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]) | as above | as above |
-//! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
+//! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, of any size from frame to frame, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |
 //! | `camera` | view and projection: perspective, standard or reversed, finite or infinite, off-axis, looking down −z or +z | | |
 //!
@@ -92,6 +92,7 @@
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
+//! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
@@ -122,8 +123,9 @@
 //!   the thesis' foam is flat.
 //! - Spray is water that turns into droplets as its density falls, laid over the picture; the thesis
 //!   adds a sprite a particle ([`water::SprayLook::SOURCE`]).
-//! - Shadows: percentage-closer filtering of the host's map, or its mask; convolution shadow maps, which
-//!   the thesis takes, are still to come. Water and foam cast coloured shadows and caustics, which the
+//! - Shadows: percentage-closer filtering of the host's map, or its mask, or convolution shadow maps, which
+//!   the thesis takes; these span no more depth than there is in the map, and are damped so that few terms
+//!   keep the light's height ([`Shadows::Convolution`](water::Shadows)). Water and foam cast coloured shadows and caustics, which the
 //!   thesis leaves to the future. What share of the scene's light is the sun's is taken from level ground.
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 

@@ -20,8 +20,8 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::requirements::Offer;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
-use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, sunlight};
-use crate::light::{Light, Output};
+use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
+use crate::light::{Convolving, Light, Output, convolution};
 use crate::water::{Recording, Water, buffers_of};
 
 /// What one frame in flight owns.
@@ -49,6 +49,7 @@ pub struct Renderer {
     water: Water,
     composite: Composite,
     light: Option<Light>,
+    convolving: Option<Convolving>,
     environment: Environment,
     /// Copy of the scene's colour, when it is the output itself.
     scene_copy: Option<Image>,
@@ -90,6 +91,7 @@ impl Renderer {
             water: parts.water,
             composite: parts.composite,
             light: parts.light,
+            convolving: parts.convolving,
             environment: parts.environment,
             scene_copy: parts.scene_copy,
         })
@@ -178,22 +180,30 @@ impl Renderer {
             output: self.composite.output_use(),
             scene: self.composite.scene_use(),
             lit: self.light.is_some(),
+            convolved: self.convolving.is_some(),
         };
         gpu.barriers(cmd, &acquire(frame, &uses), &[]);
 
         let scene_depth =
             Resource::SampledIn(frame.scene_depth.view, gpu.samplers.nearest, depth_layout);
+        let uniforms = Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64);
+        let from = (self.light.as_ref(), self.convolving.as_ref());
         let mut r = Recording {
             gpu,
             cmd,
             descriptors: &slot.descriptors,
             timer: &mut slot.timer,
             extent: frame.output.rect.extent,
-            uniforms: Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64),
+            uniforms,
             scene_depth,
-            sunlight: sunlight(frame, self.light.as_ref(), gpu, scene_depth),
+            sunlight: sunlight(frame, from, gpu, (scene_depth, uniforms)),
             read_back,
         };
+        if let (Some(convolving), Some(shadow), Some(convolution)) =
+            (&self.convolving, &frame.sun.shadow, convolution(&self.config))
+        {
+            convolving.record(&mut r, &convolution, shadow, shadow_map(shadow, gpu))?;
+        }
         self.water.record(&mut r, &frame.particles, self.light.as_ref())?;
         let scene_color = match (&self.scene_copy, &self.light) {
             (_, Some(light)) => {
@@ -236,6 +246,7 @@ impl Renderer {
             layers: if self.config.keep_layers {
                 let mut layers = self.water.kept(frame.output.rect.extent, FRAGMENT_SAMPLED);
                 layers.extend(self.light.iter().flat_map(Light::layers));
+                layers.extend(self.convolving.as_ref().map(Convolving::layer));
                 layers
             } else {
                 Vec::new()
@@ -320,7 +331,7 @@ impl Renderer {
         self.check_config(config)?;
         let new = self.make_parts(config);
         self.gpu.bury();
-        let (water, composite, light, scene_copy, environment, descriptors) = new?;
+        let (water, composite, (light, convolving), scene_copy, environment, descriptors) = new?;
         let new_environment = environment.is_some();
         self.config = *config;
         self.whole = true;
@@ -328,6 +339,7 @@ impl Renderer {
         retired.retire(std::mem::replace(&mut self.water, water));
         retired.retire(std::mem::replace(&mut self.composite, composite));
         retired.retire(std::mem::replace(&mut self.light, light));
+        retired.retire(std::mem::replace(&mut self.convolving, convolving));
         retired.retire(std::mem::replace(&mut self.scene_copy, scene_copy));
         if let Some(new) = environment {
             retired.retire(std::mem::replace(&mut self.environment, new));
@@ -344,7 +356,14 @@ impl Renderer {
         &self,
         config: &Config,
     ) -> Result<
-        (Water, Composite, Option<Light>, Option<Image>, Option<Environment>, Vec<Descriptors>),
+        (
+            Water,
+            Composite,
+            (Option<Light>, Option<Convolving>),
+            Option<Image>,
+            Option<Environment>,
+            Vec<Descriptors>,
+        ),
         Error,
     > {
         let gpu = &*self.gpu;
@@ -352,7 +371,7 @@ impl Renderer {
         Ok((
             Water::new(gpu, config)?,
             Composite::new(gpu, config)?,
-            Parts::light(gpu, config)?,
+            (Parts::light(gpu, config)?, Parts::convolving(gpu, config)?),
             Parts::scene_copy(gpu, config)?,
             if same_environment { None } else { Some(Environment::new(gpu, config)?) },
             (0..gpu.slots)
@@ -369,7 +388,9 @@ impl Renderer {
     /// Device memory in use.
     pub fn memory(&self) -> MemoryUse {
         let mut memory = self.water.memory();
-        if let Some((images, buffers)) = self.light.as_ref().map(Light::memory) {
+        let light = self.light.as_ref().map(Light::memory);
+        let convolving = self.convolving.as_ref().map(Convolving::memory);
+        for (images, buffers) in light.into_iter().chain(convolving) {
             memory.images += images;
             memory.buffers += buffers;
         }
@@ -426,6 +447,7 @@ struct Parts {
     water: Water,
     composite: Composite,
     light: Option<Light>,
+    convolving: Option<Convolving>,
     environment: Environment,
     scene_copy: Option<Image>,
 }
@@ -436,6 +458,7 @@ impl Parts {
             water: Water::new(gpu, config)?,
             composite: Composite::new(gpu, config)?,
             light: Self::light(gpu, config)?,
+            convolving: Self::convolving(gpu, config)?,
             environment: Environment::new(gpu, config)?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
@@ -443,6 +466,10 @@ impl Parts {
 
     fn light(gpu: &Gpu, config: &Config) -> Result<Option<Light>, Error> {
         config.cast.map(|edge| Light::new(gpu, config, edge)).transpose()
+    }
+
+    fn convolving(gpu: &Gpu, config: &Config) -> Result<Option<Convolving>, Error> {
+        convolution(config).map(|convolution| Convolving::new(gpu, &convolution)).transpose()
     }
 
     fn scene_copy(gpu: &Gpu, config: &Config) -> Result<Option<Image>, Error> {
@@ -475,7 +502,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        94 + 24 * crate::water::chunks(&gpu.limits, config).1
+        98 + 24 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

@@ -14,6 +14,8 @@ mod classify;
 mod composite;
 #[path = "gpu/contract.rs"]
 mod contract;
+#[path = "gpu/convolution.rs"]
+mod convolution;
 #[path = "gpu/depth.rs"]
 mod depth;
 #[path = "gpu/environment.rs"]

@@ -43,6 +43,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shade;         // light in shade over that in the sun; foam's extinction of sunlight
     vec4 lit_color;     // as scene_color and its origin, of what `lit` reads
     vec4 lit_origin;
+    vec4 shadow_linear; // depth z of the shadow map -> (x z + y) / (z z + w), even away from the light
+    vec4 shadow_basis;  // its Fourier basis: size in texels, the map's texels a texel, edge of a page
+    vec4 shadow_filter; // half the box in texels, scale, offset, ramp
+    vec4 shadow_weight[4]; // of the terms
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -3,6 +3,7 @@
 // Reads: scene colour and depth, the light's maps. Writes: lit scene, all of it.
 
 #include "frame.glsl"
+#include "convolution.glsl"
 #include "sunlight.glsl"
 #include "lit.glsl"
 

@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "random.glsl"
+#include "convolution.glsl"
 #include "sunlight.glsl"
 #include "spray.glsl"
 

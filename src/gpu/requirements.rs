@@ -70,6 +70,9 @@ pub struct Offer {
     /// R32_SFLOAT and R32G32_SFLOAT can be blended colour attachments, and the latter a storage image,
     /// written without its format being known: foam.
     pub foam_floats: bool,
+    /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT can be storage images, written without their format being
+    /// known, and are sampled linearly: filtered shadow maps of 8 and of 16 bits.
+    pub basis: [bool; 2],
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
     /// The output format can be a storage image, written without its format being known.
@@ -129,6 +132,9 @@ impl Offer {
                 && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
             foam_floats: offers(vk::Format::R32_SFLOAT, blended)
                 && offers(vk::Format::R32G32_SFLOAT, blended | stored),
+            basis: [vk::Format::R8G8B8A8_SNORM, vk::Format::R16G16B16A16_SFLOAT].map(|format| {
+                offers(format, stored | vk::FormatFeatureFlags2::SAMPLED_IMAGE_FILTER_LINEAR)
+            }),
             output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
             output_storage: offers(output_format, stored),
             limits: properties.limits,
@@ -189,6 +195,22 @@ impl Offer {
                 "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),
                 "Config.foam needs it; leave it off",
             );
+        }
+        if let Some(convolution) = crate::light::convolution(config) {
+            if !self.basis[usize::from(convolution.bits == 16)] {
+                return missing(
+                    format!("storage use and linear filtering of {:?}", convolution.format()),
+                    "Shadows::Convolution needs it; choose other bits, or Shadows::Map",
+                );
+            }
+            let (vk::Extent2D { width, height }, most) =
+                (convolution.extent(), self.limits.max_image_dimension2_d);
+            if width.max(height) > most {
+                let why = format!(
+                    "an image of {width}x{height}, over the device's {most}: fewer texels or terms"
+                );
+                return Err(Error::bad("Config.shadow", why));
+            }
         }
         match config.smoothing {
             Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {

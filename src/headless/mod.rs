@@ -441,7 +441,7 @@ impl Headless {
     }
 
     /// Where water and foam cast shadows and caustics, with [`Config::cast`]. Shadows of the scene on
-    /// them, with [`Shadows::Map`], come from the scene's own map.
+    /// them, with [`Shadows::Map`] or [`Shadows::Convolution`], come from the scene's own map.
     pub fn region(&mut self, region: Region) {
         self.region = Some(region);
     }
@@ -532,7 +532,8 @@ impl Headless {
                 (Background::Scene, None) => this.draw_scene(cmd, camera)?,
                 _ => {}
             }
-            let shadowed = this.renderer.config().shadow == Some(Shadows::Map);
+            let maps = |kind| matches!(kind, Shadows::Map | Shadows::Convolution(_));
+            let shadowed = this.renderer.config().shadow.is_some_and(maps);
             let stage = this.scene.as_ref().filter(|_| shadowed);
             let sun = Sun {
                 shadow: stage.map(|stage| stage.renderer.shadow(settings.water.spacing)),

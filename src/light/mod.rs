@@ -1,9 +1,11 @@
 //! What water and foam do to the sunlight: shadows in the water's colours, shadows of foam, caustics
 //! (the thesis' future work). A pass a file: [`maps`] splats all particles as the sun sees them,
 //! [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
-//! highlights read the maps themselves (glsl/include/sunlight.glsl).
+//! highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
+//! shadow map.
 
 mod caustics;
+mod convolution;
 mod lit;
 mod maps;
 
@@ -19,17 +21,19 @@ use crate::gpu::retire::RetireList;
 use crate::water::settings::Shadows;
 use crate::water::{Recording, SphereList};
 use caustics::Caustics;
+pub use convolution::{Convolution, Convolved, Convolving, convolution};
 use lit::Lit;
 use maps::Maps;
 
 /// Specialisation constants of glsl/include/sunlight.glsl.
-pub fn constants(config: &Config) -> [(u32, u32); 2] {
-    let shadow = match config.shadow {
-        None => 0,
-        Some(Shadows::Mask) => 1,
-        Some(Shadows::Map) => 2,
+pub fn constants(config: &Config) -> [(u32, u32); 3] {
+    let (shadow, terms) = match config.shadow {
+        None => (0, 2),
+        Some(Shadows::Mask) => (1, 2),
+        Some(Shadows::Map) => (2, 2),
+        Some(Shadows::Convolution(convolution)) => (3, convolution.terms),
     };
-    [(11, shadow), (12, u32::from(config.cast.is_some()))]
+    [(11, shadow), (12, u32::from(config.cast.is_some())), (13, terms)]
 }
 
 /// What of the sun's light reaches a point, for every shader that asks.
@@ -39,12 +43,15 @@ pub struct Sunlight {
     pub shadow: Resource,
     /// Ours; anything where there is none.
     pub thickness: Resource,
+    /// Basis of a filtered shadow map, and its span; any image and buffer where there is none.
+    pub convolved: [Resource; 2],
 }
 
 impl Sunlight {
     /// As glsl/include/sunlight.glsl binds it.
-    pub fn resources(&self) -> [(u32, Resource); 2] {
-        [(16, self.shadow), (17, self.thickness)]
+    pub fn resources(&self) -> [(u32, Resource); 4] {
+        let [basis, span] = self.convolved;
+        [(16, self.shadow), (17, self.thickness), (18, basis), (19, span)]
     }
 }
 

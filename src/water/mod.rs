@@ -36,8 +36,8 @@ pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, Rule, Shading, Shadows,
-    Smoothing, Splat, SprayLook, WaterSettings,
+    Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, Rule, Shading,
+    ShadowFilter, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
 };
 
 /// What every pass records with.

@@ -29,6 +29,43 @@ pub enum Shadows {
     Mask,
     /// A depth map as the light sees the scene, with percentage-closer filtering.
     Map,
+    /// The same map, filtered before it is compared: shadows as soft as one likes, at one cost. The pass
+    /// `convolution` (convolution shadow maps, which the thesis takes).
+    Convolution(Convolution),
+}
+
+pub use crate::light::Convolution;
+
+/// Filter of the host's shadow map with [`Shadows::Convolution`] (Annen et al. 2007).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadowFilter {
+    /// Width of the box that the map is filtered by in texels of the map, [0, 256], default 3: the
+    /// footprint of [`Shadows::Map`]. Texels of our images are the least there is.
+    pub width: f32,
+    /// Damping α of the series' terms, [0, 2], default 1. Without, light and shade ring by a twentieth;
+    /// with more of it shadows begin later behind what casts them.
+    pub damping: f32,
+    /// Parts of the rise by which the comparison is moved away from the light, [0, 1]. Default 1: what
+    /// touches its occluder is in the sun; 0: half in its shade, where it begins earlier.
+    pub offset: f32,
+    /// Factor about one half that makes the comparison steeper, [1, 4], default 1.25; it takes from the
+    /// soft edge as much. Over 1.04 it clips what is left of the ringing.
+    pub scale: f32,
+}
+
+impl Default for ShadowFilter {
+    fn default() -> Self {
+        Self { width: 3.0, damping: 1.0, offset: 1.0, scale: 1.25 }
+    }
+}
+
+impl ShadowFilter {
+    pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
+        range("Settings.shadow.width", self.width, 0.0, 256.0)?;
+        range("Settings.shadow.damping", self.damping, 0.0, 2.0)?;
+        range("Settings.shadow.offset", self.offset, 0.0, 1.0)?;
+        range("Settings.shadow.scale", self.scale, 1.0, 4.0)
+    }
 }
 
 /// How far the composite goes: each holds those before it (the source's debug views).

@@ -152,7 +152,7 @@ impl Spray {
         ];
         gpu.barriers(cmd, &to, &[]);
         let area = r.extent.into();
-        let [shadow, thickness] = r.sunlight.resources();
+        let [shadow, thickness, basis, span] = r.sunlight.resources();
         self.target.begin(gpu, cmd, area, [0.0; 4]);
         for index in 0..if particles.densities.is_some() { list.chunks } else { 0 } {
             let resources = [
@@ -162,6 +162,8 @@ impl Spray {
                 (3, Resource::Sampled(depth.view, gpu.samplers.nearest)),
                 shadow,
                 thickness,
+                basis,
+                span,
             ];
             r.descriptors.bind(gpu, cmd, &self.draw, &resources)?;
             let arguments = list.chunk(index).arguments + cull::SPRAY;

@@ -2,7 +2,7 @@
 //! kind of host image.
 
 use ash::vk;
-use whitewater::water::{Gate, Rule, Shading, Shadows, Smoothing, Splat};
+use whitewater::water::{Convolution, Gate, Rule, Shading, Shadows, Smoothing, Splat};
 use whitewater::{
     Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Region, Renderer,
     Settings, Shadow, Slot, Stream,
@@ -23,14 +23,14 @@ fn water(size: vk::Extent2D, lens: Lens) -> Shot {
 
 /// The sun's way as a rig's configuration asks for it, by the depth of a scene. It lies before the
 /// water: a shot is in the shade where the map says so.
-fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
+pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
     let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
     shot.sun.region = rig.config.cast.map(|_| Region { center, radius: 4.0 });
     let kind = rig.config.shadow?;
     let (color, depth) = rig.scene(shot);
     let image = match kind {
         Shadows::Mask => color,
-        Shadows::Map => depth,
+        Shadows::Map | Shadows::Convolution(_) => depth,
     };
     let view_projection = shot.camera.projection * shot.camera.view;
     shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
@@ -193,6 +193,10 @@ fn resize_gives_what_a_new_renderer_gives() {
     }
 }
 
+fn convolved(terms: u32, bits: u32) -> Option<Shadows> {
+    Some(Shadows::Convolution(Convolution { terms, texels: 48, bits }))
+}
+
 /// Every part of the configuration changes while frames of the old one are in flight.
 #[test]
 fn reconfigure_gives_what_a_new_renderer_gives() {
@@ -218,6 +222,9 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { cast: Some(64), shadow: Some(Shadows::Map), foam: true, spray: true, ..base },
         Config { cast: Some(64), composite: Some(Shading::Compute), sheets: 2, ..base },
         Config { shadow: Some(Shadows::Mask), extent: extent(50, 40), ..base },
+        Config { shadow: convolved(4, 8), spray: true, foam: true, ..base },
+        Config { shadow: convolved(16, 16), cast: Some(32), ..base },
+        Config { shadow: convolved(8, 8), composite: Some(Shading::Compute), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -531,6 +538,10 @@ fn spoils() -> Vec<Spoil> {
             g.frame.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
         }),
         ("shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = Some(shadow(&g.frame))),
+        ("box", "Settings.shadow.width", |g| g.settings.shadow.width = -1.0),
+        ("damping", "Settings.shadow.damping", |g| g.settings.shadow.damping = f32::NAN),
+        ("offset", "Settings.shadow.offset", |g| g.settings.shadow.offset = 1.5),
+        ("scale", "Settings.shadow.scale", |g| g.settings.shadow.scale = 0.5),
     ]
 }
 
@@ -566,11 +577,17 @@ fn sunny_spoils() -> Vec<Spoil> {
 
 #[test]
 fn bad_frames_in_the_sun_are_errors_before_any_command() {
+    for kind in [Shadows::Map, Shadows::Convolution(Convolution::default())] {
+        bad_frames_in_the_sun(kind);
+    }
+}
+
+fn bad_frames_in_the_sun(kind: Shadows) {
     let mut gpu = Gpu::own();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);
-    let config = Config { shadow: Some(Shadows::Map), cast: Some(16), ..config(size) };
+    let config = Config { shadow: Some(kind), cast: Some(16), ..config(size) };
     let mut rig = Rig::with_slots(&gpu, &config, 1);
     let mut shot = water(size, Lens::Standard);
     shot.sun.region = Some(Region { center: [0.0; 3], radius: 4.0 });
@@ -682,6 +699,8 @@ fn the_output_as_scene_needs_in_place() {
 #[test]
 fn bad_configurations_are_errors() {
     let gpu = Gpu::shared();
+    let of_texels =
+        |texels| Some(Shadows::Convolution(Convolution { texels, ..Convolution::default() }));
     let size = extent(32, 16);
     let good = config(size);
     let most = gpu.limits().max_image_dimension2_d;
@@ -702,6 +721,10 @@ fn bad_configurations_are_errors() {
         ("Config.cast", Config { cast: Some(0), ..good }),
         ("Config.cast", Config { cast: Some(24), ..good }),
         ("Config.cast", Config { cast: Some(4112), ..good }),
+        ("Config.shadow", Config { shadow: convolved(5, 8), ..good }),
+        ("Config.shadow", Config { shadow: convolved(8, 12), ..good }),
+        ("Config.shadow", Config { shadow: of_texels(15), ..good }),
+        ("Config.shadow", Config { shadow: of_texels(4097), ..good }),
         ("Config.environment_size", Config { environment_size: 8, ..good }),
         ("Config.environment_size", Config { environment_size: 100, ..good }),
         ("Config.environment_size", Config { environment_size: 4096, ..good }),
@@ -754,6 +777,7 @@ fn what_a_device_lacks_is_named() {
     offer.check(&config).expect("this device will do");
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
     let foam = Config { foam: true, ..config };
+    let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
     let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
     let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
     let drawn = Config { composite: Some(Shading::Raster), ..config };
@@ -769,6 +793,12 @@ fn what_a_device_lacks_is_named() {
         (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
         (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
         (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
+        (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
+        (
+            whitewater::Offer { basis: [true, false], ..offer },
+            convolving(16),
+            "R16G16B16A16_SFLOAT",
+        ),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
@@ -784,6 +814,12 @@ fn what_a_device_lacks_is_named() {
     unblended.check(&config).expect("the compute paths need no blending");
     let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
     unfoamed.check(&raster).expect("water needs nothing of foam's");
+    let other = whitewater::Offer { basis: [true, false], ..offer };
+    other.check(&convolving(8)).expect("eight bits are there");
+    let mut small = offer;
+    small.limits.max_image_dimension2_d = 99;
+    let shown = Config { extent: extent(32, 16), ..convolving(8) };
+    assert!(matches!(small.check(&shown), Err(Error::BadInput { field: "Config.shadow", .. })));
     // Foam's chunks are 64 particles at least.
     let mut narrow = offer;
     narrow.limits.max_storage_buffer_range = (1 << 20) + 256;

@@ -17,9 +17,9 @@ use crate::support::rounded::{Rounded, exact, off};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::U;
 
-const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
+pub const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 
-fn casting(texels: u32) -> Config {
+pub fn casting(texels: u32) -> Config {
     Config { cast: Some(texels), foam: true, ..config(SIZE) }
 }
 
@@ -281,7 +281,7 @@ fn grounded(lens: Lens, height: f64) -> Foamy {
 
 /// The scene's point in a pixel, and metres that it may be off: by the depth's quotient, whose
 /// divisor is a difference, and by the way to the world.
-fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
+pub fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
     let view = shot.view(SIZE);
     let back = view.view.inverse();
     let p = back.transform_point3(view.ray(x, y) * depth);
@@ -395,13 +395,13 @@ const SAMPLED: Access = Access::new(
 );
 
 /// A host's shadows, as a mask or as a map.
-fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
+pub fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
     let size = extent(texels.width as u32, texels.height as u32);
     let bytes = bytemuck::cast_slice(&texels.data);
     let sampled = vk::ImageUsageFlags::SAMPLED;
     match kind {
         Shadows::Mask => rig.stub.uploaded(vk::Format::R32_SFLOAT, size, sampled, bytes, SAMPLED),
-        Shadows::Map => {
+        Shadows::Map | Shadows::Convolution(_) => {
             let usage = sampled | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
             rig.stub.uploaded(vk::Format::D32_SFLOAT, size, usage, bytes, DEPTH)
         }
@@ -409,7 +409,7 @@ fn shadows(rig: &Rig<'_>, kind: Shadows, texels: &Image<f32>) -> Texture {
 }
 
 /// A wall of foam that nothing shows through, of one colour in the sun.
-fn wall(lens: Lens) -> Foamy {
+pub fn wall(lens: Lens) -> Foamy {
     let block = scenes::block(3, 0.1, [44, 30, 3], [-2.2, -1.5, 2.0]);
     let mut case = water(Shot::new(SIZE, lens, 0.0656, &block));
     case.amounts.fill([1.0, 0.0]);
@@ -424,7 +424,7 @@ fn wall(lens: Lens) -> Foamy {
 
 /// The mean of the frontmost foam's nine depths a radius apart that lie on the surface of a pixel, and how
 /// far off that makes a point; none where rounding decides which those are.
-fn mean_depth(case: &Foamy, foam: &Image<f32>, (x, y): (usize, usize)) -> Option<(f64, f64)> {
+pub fn mean_depth(case: &Foamy, foam: &Image<f32>, (x, y): (usize, usize)) -> Option<(f64, f64)> {
     let (view, shot) = (case.shot.view(SIZE), &case.shot);
     let here = f64::from(foam.at(x, y));
     let step = f64::from(shot.settings.water.radius()) / (view.c_x() * here);
@@ -454,7 +454,7 @@ fn mean_depth(case: &Foamy, foam: &Image<f32>, (x, y): (usize, usize)) -> Option
 }
 
 /// Opaque foam is as light as the sun on it; what part of the pixels is neither lit nor dark.
-fn check_foam(
+pub fn check_foam(
     name: &str,
     case: &Foamy,
     drawn: &Drawn,
@@ -534,7 +534,7 @@ fn foam_is_in_the_shade_of_a_mask() {
 }
 
 /// Views of a light: parallel and not, standard depth and reversed.
-fn light_views(sun: Vec3, at: Vec3) -> [(&'static str, Mat4, bool); 4] {
+pub fn light_views(sun: Vec3, at: Vec3) -> [(&'static str, Mat4, bool); 4] {
     let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
     let fov = 0.25_f32;
     [
@@ -654,7 +654,7 @@ fn the_lit_scene_is_past_the_scene() {
             Shadows::Mask => {
                 exact(f64::from(texels.at((2 * x + 1) * 8 / 194, (2 * y + 1) * 8 / 122)))
             }
-            Shadows::Map => map.past(p, by),
+            Shadows::Map | Shadows::Convolution(_) => map.past(p, by),
         };
         check_lit(&format!("lit-{kind:?}-{name}"), &case, &config, &drawn, &past);
     }

@@ -752,6 +752,7 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         lit_spray: None,
         light_front: None,
         light_thickness: None,
+        shadow_basis: None,
         caustics: None,
         work: Work::default(),
     };

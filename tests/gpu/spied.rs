@@ -5,7 +5,7 @@ use std::mem;
 
 use ash::vk;
 use whitewater::headless::{Background, Headless};
-use whitewater::water::{Gate, Shading, Smoothing, Splat};
+use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
 use whitewater::{Config, Error, Frame, Particles, Recorded, Slot};
 
 use crate::foam::Foamy;
@@ -111,6 +111,16 @@ fn record_only_records_with_foam_spray_and_light() {
         let streams = case.streams(&rig);
         watched(name, &mut rig, &case.shot, streams.particles());
     }
+    // All that takes descriptor sets at once.
+    let convolution = Convolution { terms: 16, texels: 32, bits: 8 };
+    let shadow = Some(Shadows::Convolution(convolution));
+    let size = extent(48, 32);
+    let config =
+        Config { shadow, cast: Some(16), foam: true, spray: true, sheets: 2, ..config(size) };
+    let (mut rig, mut shot) = (Rig::new(&gpu, &config), water(size));
+    let _shade = crate::contract::sunny(&rig, &mut shot);
+    let cloud = rig.particles(&shot);
+    watched("in the sun", &mut rig, &shot, cloud.particles());
 }
 
 /// Drivers that count their pools' sets must have enough for every chunk.

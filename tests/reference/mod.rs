@@ -15,6 +15,7 @@ use std::ops::Range;
 
 pub mod classify;
 pub mod composite;
+pub mod convolution;
 pub mod cull;
 pub mod depth;
 pub mod environment;

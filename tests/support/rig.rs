@@ -217,6 +217,8 @@ pub struct Drawn {
     pub light_thickness: Option<Image<[f32; 4]>>,
     /// As above.
     pub caustics: Option<Image<f32>>,
+    /// The host's shadow map as a Fourier basis, all pages.
+    pub shadow_basis: Option<Image<[f32; 4]>>,
     pub work: Work,
 }
 
@@ -465,6 +467,7 @@ impl<'g> Rig<'g> {
             light_front: None,
             light_thickness: None,
             caustics: None,
+            shadow_basis: None,
             work: Work::default(),
         };
         if let Some(counts) = &recorded.counts {
@@ -523,6 +526,10 @@ impl<'g> Rig<'g> {
                 "light.thickness" => {
                     let bytes = self.bytes(layer, whole);
                     drawn.light_thickness = Some(picture(layer.format, layer.extent, &bytes));
+                }
+                "light.shadow" => {
+                    let bytes = self.bytes(layer, whole);
+                    drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
                 }
                 "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
                 "foam.thickness" => foam.thickness = self.pairs(layer, whole),
@@ -683,6 +690,11 @@ fn depth_bytes(format: vk::Format, depth: &[f32]) -> Vec<u8> {
 fn picture(format: vk::Format, extent: vk::Extent2D, bytes: &[u8]) -> Image<[f32; 4]> {
     let data: Vec<[f32; 4]> = match host::texel_size(format) {
         16 => bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect(),
+        4 => {
+            assert_eq!(format, vk::Format::R8G8B8A8_SNORM);
+            let part = |v: u8| (f32::from(v.cast_signed()) / 127.0).max(-1.0);
+            bytes.chunks_exact(4).map(|c| [c[0], c[1], c[2], c[3]].map(part)).collect()
+        }
         _ => bytes
             .chunks_exact(8)
             .map(|c| {

@@ -49,7 +49,9 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
     settings.water.spacing = SPACING;
     settings.foam = FoamLook::of_spacing(SPACING);
-    settings_file.unwrap_or_default().apply(&mut settings).map_err(Failure::input)?;
+    let file = settings_file.unwrap_or_default();
+    file.apply(&mut settings).map_err(Failure::input)?;
+    let shadows = file.shadows().map_err(Failure::input)?;
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,
         None => viewpoint(args.camera.fov),
@@ -59,7 +61,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
-    let look = Look { camera, settings, environment, scene, foam, region, fps: None };
+    let look = Look { camera, settings, environment, scene, foam, shadows, region, fps: None };
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut progress = Progress::new(1);
     session.frame(0, "waterfall", &particles)?;

@@ -330,7 +330,8 @@ fn look(
         }
     });
     let region = bounds.region();
-    Ok(Look { camera, settings, environment, scene, foam, region, fps })
+    let shadows = file.shadows().map_err(Failure::input)?;
+    Ok(Look { camera, settings, environment, scene, foam, shadows, region, fps })
 }
 
 /// Four digits are enough to read.

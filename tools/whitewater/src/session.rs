@@ -27,6 +27,8 @@ pub struct Look {
     pub scene: Scene,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
+    /// How the scene's shadow map is filtered.
+    pub shadows: Shadows,
     /// Where water and foam cast shadows.
     pub region: Region,
     /// Frames a second by which foam comes and goes; none: each frame for itself.
@@ -160,7 +162,7 @@ impl<'a> Session<'a> {
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = args.spray == SprayArg::Auto;
-        config.shadow = (args.shadows != ShadowArg::None).then_some(Shadows::Map);
+        config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
         config.cast = (args.shadows == ShadowArg::All).then(|| light_texels(width));
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use serde::Deserialize;
 use whitewater::Settings;
-use whitewater::water::settings::{Amplitude, Fresnel, Medium, WaterSettings};
+use whitewater::water::settings::{
+    Amplitude, Convolution, Fresnel, Medium, Shadows, WaterSettings,
+};
 
 use crate::failure::{Failure, Outcome};
 
@@ -15,6 +17,7 @@ pub struct SettingsFile {
     pub water: WaterTable,
     pub foam: FoamTable,
     pub spray: SprayTable,
+    pub shadow: ShadowTable,
     pub light: LightTable,
 }
 
@@ -66,6 +69,20 @@ pub struct SprayTable {
     shutter: Option<f32>,
     color: Option<[f32; 3]>,
     additive: Option<bool>,
+}
+
+/// Table `[shadow]`: of the scene's shadow map. The first four choose the passes.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ShadowTable {
+    filter: Option<String>,
+    terms: Option<u32>,
+    texels: Option<u32>,
+    bits: Option<u32>,
+    width: Option<f32>,
+    damping: Option<f32>,
+    offset: Option<f32>,
+    scale: Option<f32>,
 }
 
 /// Table `[light]`.
@@ -123,7 +140,25 @@ impl SettingsFile {
         })?;
         // Found out now, not when the first frame is drawn.
         file.apply(&mut Settings::default())?;
+        file.shadows()?;
         Ok(file)
+    }
+
+    /// How the scene's shadow map is filtered.
+    pub fn shadows(&self) -> Result<Shadows, String> {
+        let table = &self.shadow;
+        let Convolution { terms, texels, bits } = Convolution::default();
+        match table.filter.as_deref() {
+            None | Some("pcf") => Ok(Shadows::Map),
+            Some("convolution") => Ok(Shadows::Convolution(Convolution {
+                terms: table.terms.unwrap_or(terms),
+                texels: table.texels.unwrap_or(texels),
+                bits: table.bits.unwrap_or(bits),
+            })),
+            Some(other) => {
+                Err(format!("shadow.filter: expected pcf or convolution, found '{other}'"))
+            }
+        }
     }
 
     /// Puts what the file says over settings.
@@ -175,6 +210,11 @@ impl SettingsFile {
         set(&mut spray.shutter, table.shutter);
         spray.color = table.color.unwrap_or(spray.color);
         spray.additive = table.additive.unwrap_or(spray.additive);
+        let (shadow, table) = (&mut settings.shadow, &self.shadow);
+        set(&mut shadow.width, table.width);
+        set(&mut shadow.damping, table.damping);
+        set(&mut shadow.offset, table.offset);
+        set(&mut shadow.scale, table.scale);
         let light = &mut settings.light;
         light.direction = self.light.direction.unwrap_or(light.direction);
         light.color = self.light.color.unwrap_or(light.color);
@@ -275,6 +315,13 @@ pub fn to_toml(settings: &Settings) -> String {
         ("spread", spray.spread),
         ("shutter", spray.shutter),
     ];
+    let shadow = &settings.shadow;
+    let of_shadow = [
+        ("width", shadow.width),
+        ("damping", shadow.damping),
+        ("offset", shadow.offset),
+        ("scale", shadow.scale),
+    ];
     let lines = |numbers: &[(&str, f32)]| -> String {
         numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect()
     };
@@ -282,6 +329,7 @@ pub fn to_toml(settings: &Settings) -> String {
         "[water]\n{}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
          [foam]\n{}back_color = {:?}\nfront_color = {:?}\n\n\
          [spray]\n{}droplets = {}\ndensities = {:?}\ncolor = {:?}\nadditive = {}\n\n\
+         [shadow]\n{}\n\
          [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\nshade = {:?}\n",
         lines(&numbers),
         lines(&of_foam),
@@ -292,6 +340,7 @@ pub fn to_toml(settings: &Settings) -> String {
         spray.densities,
         spray.color,
         spray.additive,
+        lines(&of_shadow),
         light.direction,
         light.color,
         light.ambient,
@@ -324,6 +373,15 @@ mod tests {
     }
 
     #[test]
+    fn shadows_are_filtered_as_asked() {
+        let of = |text: &str| SettingsFile::parse(text).unwrap().shadows().unwrap();
+        assert_eq!(of("[shadow]\nwidth = 5.0"), Shadows::Map);
+        let convolution = Convolution { terms: 8, ..Convolution::default() };
+        let text = "[shadow]\nfilter = 'convolution'\nterms = 8";
+        assert_eq!(of(text), Shadows::Convolution(convolution));
+    }
+
+    #[test]
     fn settings_go_out_and_come_back() {
         let mut settings = Settings::default();
         settings.water.medium = Medium::source(0.02);
@@ -332,6 +390,7 @@ mod tests {
         settings.foam.veil = 0.25;
         settings.foam.front_color = [0.1, 0.2, 0.3];
         settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
+        settings.shadow.width = 7.5;
         settings.light.irradiance = [1.0, 2.0, 3.0];
         let mut back = Settings::default();
         SettingsFile::parse(&to_toml(&settings)).unwrap().apply(&mut back).unwrap();
@@ -347,6 +406,7 @@ mod tests {
             ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk, source"),
             ("[water]\nmedium = {absorption=[1.0,1.0,1.0], scatter=[0.0,0.0,0.0]}", "scatter"),
             ("[water]\namplitude = 'loud'", "volume or source"),
+            ("[shadow]\nfilter = 'soft'", "pcf or convolution"),
             ("[water", "line 1"),
         ] {
             let message = SettingsFile::parse(text).unwrap_err();

@@ -1,6 +1,8 @@
 //! Bytes that each pass has to move at least, from what was drawn: every input read once and every
 //! output written once, at the sizes they have. Caches may save reads, no pass can save these.
 
+use whitewater::water::{Convolution, Shadows};
+
 use super::Drawn;
 
 /// Bytes of a pass by its stem; none for passes that are not known here.
@@ -36,6 +38,17 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
         // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.
         "caustics" => (4 * 4 + 4 + 16 + 12 + 4 + 4) * texels,
+        // The map in for its span and for each page; a page of half floats out and in twice, and into the basis.
+        "convolution" => match drawn.config.shadow {
+            Some(Shadows::Convolution(Convolution { terms, texels, bits })) => {
+                let texels = u64::from(texels).pow(2);
+                // The stand-in scene's map.
+                let map = 4 * 2048_u64.pow(2);
+                let pages = u64::from(terms / 2);
+                map + pages * (map + texels * (32 + u64::from(bits / 2)))
+            }
+            _ => 0,
+        },
         // Scene colour and depth in, lit scene out, in, and to the output. The maps are not counted.
         "lit" => (8 + 4 + 8 + 8 + 8) * full,
         // Depth in, scene depth of covered pixels in, two surfaces and the plan out.

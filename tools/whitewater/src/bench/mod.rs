@@ -9,8 +9,11 @@ mod report;
 use clap::{Args, ValueEnum};
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
+use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
-use whitewater::water::{FoamLook, FoamSettings, Gate, Rule, Shading, Smoothing, Splat};
+use whitewater::water::{
+    Convolution, FoamLook, FoamSettings, Gate, Rule, Shading, Shadows, Smoothing, Splat,
+};
 use whitewater::{Camera, Config, Region, Settings};
 
 use crate::bounds::Bounds;
@@ -80,6 +83,10 @@ pub enum Path {
     Spray,
     /// With shadows and caustics of the water, maps of 512 texels a side
     Light,
+    /// Shadows of a plate over the pool, by percentage-closer filtering of its map of 2048 texels
+    Pcf,
+    /// The same shadows by the map's Fourier basis, of as many texels as the library takes by itself
+    Convolution,
     /// Composite: a render pass over the tiles
     RasterComposite,
     /// Composite: a compute shader over the tiles
@@ -119,6 +126,10 @@ impl Path {
             Self::Foam => config.foam = true,
             Self::Spray => config.spray = true,
             Self::Light => config.cast = Some(512),
+            Self::Pcf => config.shadow = Some(Shadows::Map),
+            Self::Convolution => {
+                config.shadow = Some(Shadows::Convolution(Convolution::default()));
+            }
             Self::RasterComposite => config.composite = Some(Shading::Raster),
             Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,
@@ -209,6 +220,9 @@ fn sample(
     let camera = camera(extent);
     let mut settings = Settings::default();
     settings.water.spacing = pool.spacing;
+    if config.shadow.is_some() {
+        headless.scene(&plate(pool), false)?;
+    }
     let densities = config.spray.then(|| densities(pool));
     headless.particles(&pool.positions, densities.as_deref())?;
     if config.cast.is_some() {
@@ -223,7 +237,10 @@ fn sample(
     let mut totals = Vec::new();
     let mut calibration = Vec::new();
     for frame in 0..args.warmup + args.frames {
-        let background = Background::Color([0.4, 0.4, 0.4]);
+        let background = match config.shadow {
+            Some(_) => Background::Scene,
+            None => Background::Color([0.4, 0.4, 0.4]),
+        };
         calibration.push(calibrate::milliseconds());
         if path == Path::ReadBack {
             headless.render_with_read_back(&camera, &settings, &background)?;
@@ -274,6 +291,24 @@ fn densities(pool: &pool::Pool) -> Vec<f32> {
     heights.sort_unstable_by(f32::total_cmp);
     let high = heights[heights.len() * 39 / 40];
     pool.positions.iter().map(|p| if p[1] > high { 300.0 } else { 1000.0 }).collect()
+}
+
+/// A plate over half of the pool, as high over it as that is wide.
+fn plate(pool: &pool::Pool) -> Scene {
+    let Region { center: [x, y, z], radius: r } = region(pool);
+    let corner = |i: i32, j: i32| [x + 0.5 * r * i as f32, y + r, z + 0.5 * r * j as f32];
+    Scene {
+        meshes: vec![Mesh {
+            name: "plate".into(),
+            positions: vec![corner(-1, -1), corner(1, -1), corner(-1, 1), corner(1, 1)],
+            normals: vec![[0.0, 1.0, 0.0]; 4],
+            uvs: Vec::new(),
+            indices: vec![0, 2, 1, 1, 2, 3],
+            material: Material::default(),
+            transform: Mat4::IDENTITY,
+        }],
+        ..Scene::default()
+    }
 }
 
 /// The pool, seen from the sun.

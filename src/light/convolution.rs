@@ -1,0 +1,400 @@
+//! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which whoever
+//! asks for shadows rebuilds the comparison with its own depth (Annen, Mertens, Bekaert, Seidel, Kautz,
+//! *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.10).
+//!
+//! What differs, and why:
+//! - Depths are taken between the nearest and the farthest texel of the map, found on the GPU: any
+//!   projection will do, endless ones too, and the series rises as steeply as the scene lets it. Texels
+//!   where nothing is lie behind. The series turns back at the end of its period: both ends keep room.
+//! - Terms are damped by exp(−α((k − ½)/M)²), k − ½ in place of k: that is a Gaussian of the step, which
+//!   keeps its height with few terms too.
+//! - What is rebuilt is steeper by a factor about one half (clipped: it hides what rings on), and moved
+//!   by as much of its rise as it takes for what touches its occluder to be in the sun.
+//! - The map is averaged to the size of our images first, then over a box: no mips.
+//! - The basis lies side by side in one image, not in an array: where there is none any image stands in.
+//!
+//! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and
+//! sine of two terms a page, pages in two rows with a border of one texel each.
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use crate::contract::{Config, Frame, Layer, Shadow};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, COPY_WRITE,
+    FRAGMENT_SAMPLED, UNIFORM, VERTEX_SAMPLED, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Resource, bind_set};
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+use crate::water::Recording;
+use crate::water::settings::{ShadowFilter, Shadows};
+
+/// Texels a side that a group of the first part looks at.
+const SPAN_BLOCK: u32 = 128;
+/// Bytes of the span.
+const SPAN: u64 = 16;
+/// One page, whole and filtered along one axis: every device stores and samples it.
+const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
+
+/// Read by what shades, and by the vertices of spray.
+const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
+/// Last uses in a frame: those, or the host's copy of the layer.
+const BEFORE: Access = AFTER.and(COPY_READ);
+
+/// How the maps are made ([`Shadows::Convolution`]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Convolution {
+    /// Terms of the series: 4, 8 or 16 (default). Behind an occluder the shade is whole from 23, 9 or 4 % on
+    /// of the depths that the map spans.
+    pub terms: u32,
+    /// Texels a side that the images hold at most, 16 to 4096 (default 1024). A larger map is averaged
+    /// over whole blocks of its texels; its size may change from frame to frame.
+    pub texels: u32,
+    /// Bits of a number: 8 (default) or 16, in which the picture is the same but for a few thousandths.
+    /// The images take 2·`terms`·`bits`/8 + 16 bytes a texel.
+    pub bits: u32,
+}
+
+impl Default for Convolution {
+    fn default() -> Self {
+        Self { terms: 16, texels: 1024, bits: 8 }
+    }
+}
+
+impl Convolution {
+    /// What is wrong with it.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let Self { terms, texels, bits } = *self;
+        let bad = |why: String| Err(Error::bad("Config.shadow", why));
+        if ![4, 8, 16].contains(&terms) {
+            return bad(format!("{terms} terms of 4, 8, 16"));
+        }
+        if !(16..=4096).contains(&texels) {
+            return bad(format!("{texels} texels: 16 to 4096 expected"));
+        }
+        if ![8, 16].contains(&bits) {
+            return bad(format!("{bits} bits of 8, 16"));
+        }
+        Ok(())
+    }
+
+    /// Format of the basis.
+    pub(crate) fn format(&self) -> vk::Format {
+        match self.bits {
+            8 => vk::Format::R8G8B8A8_SNORM,
+            _ => vk::Format::R16G16B16A16_SFLOAT,
+        }
+    }
+
+    /// A page's texels a side.
+    fn page(&self) -> u32 {
+        self.texels + 2
+    }
+
+    /// Size of the image that holds all pages.
+    pub(crate) fn extent(&self) -> vk::Extent2D {
+        vk::Extent2D { width: self.terms / 4 * self.page(), height: 2 * self.page() }
+    }
+
+    /// The map's texels that one of ours covers along an axis, and how many ours are.
+    fn size(&self, map: vk::Extent2D) -> (u32, vk::Extent2D) {
+        let edge = map.width.max(map.height).div_ceil(self.texels).max(1);
+        let (width, height) = (map.width.div_ceil(edge), map.height.div_ceil(edge));
+        (edge, vk::Extent2D { width, height })
+    }
+}
+
+/// The configuration of the pass, where it is asked for.
+pub fn convolution(config: &Config) -> Option<Convolution> {
+    match config.shadow {
+        Some(Shadows::Convolution(convolution)) => Some(convolution),
+        _ => None,
+    }
+}
+
+/// Numbers of a frame, as glsl/include/frame.glsl has them.
+#[derive(Clone, Copy, Default)]
+pub struct Convolved {
+    pub linear: [f32; 4],
+    pub basis: [f32; 4],
+    pub filter: [f32; 4],
+    pub weight: [[f32; 4]; 4],
+}
+
+impl Convolved {
+    /// None where the configuration has no such pass.
+    pub fn new(frame: &Frame<'_>, config: &Config) -> Option<Self> {
+        let (convolution, shadow) = (convolution(config)?, frame.sun.shadow.as_ref()?);
+        let settings = &frame.settings.shadow;
+        let (edge, size) = convolution.size(shadow.image.rect.extent);
+        let ramp = ramp(convolution.terms, settings);
+        let mut weight = [[0.0; 4]; 4];
+        for (i, w) in weights(convolution.terms, settings).enumerate() {
+            weight[i / 4][i % 4] = settings.scale * w;
+        }
+        // A box narrower than a texel of ours is no box.
+        let reach = (0.5 * settings.width / edge as f32).max(0.5);
+        Some(Self {
+            linear: linear(shadow, shadow.nearer(&frame.settings.light)),
+            basis: [size.width as f32, size.height as f32, edge as f32, convolution.page() as f32],
+            filter: [reach, settings.scale, settings.offset * ramp, ramp],
+            weight,
+        })
+    }
+}
+
+/// 2 a_k / c_k, c_k = (2k − 1)π.
+fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + use<> {
+    let damping = settings.damping;
+    (0..terms).map(move |i| {
+        let half = i as f32 + 0.5;
+        let part = half / terms as f32;
+        (-damping * part * part).exp() / (std::f32::consts::PI * half)
+    })
+}
+
+/// From where on the series, made steeper, is 1; where it nowhere is, its first maximum.
+fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
+    const STEPS: u32 = 256;
+    // No maximum comes later, with the damping there may be.
+    let most = 0.85 / terms as f32;
+    let mut before = 0.0;
+    for step in 1..=STEPS {
+        let t = most * step as f32 / STEPS as f32;
+        let rise: f32 = weights(terms, settings)
+            .enumerate()
+            .map(|(i, w)| w * ((2 * i + 1) as f32 * std::f32::consts::PI * t).sin())
+            .sum();
+        if settings.scale * rise >= 0.5 || rise < before {
+            return t;
+        }
+        before = rise;
+    }
+    most
+}
+
+/// Device depth z to (a z + b) / (c z + d), even along the light: its depth by a perspective projection,
+/// z itself by a parallel one or by one whose depth goes by place too. It grows away from the light.
+fn linear(shadow: &Shadow, nearer: f32) -> [f32; 4] {
+    let clip = shadow.view_projection;
+    let (z, w) = (clip.row(2), clip.row(3));
+    let (towards, across) = (z.truncate(), w.truncate());
+    let even = [nearer, 0.0, 0.0, 1.0];
+    if across.length() <= 1.0e-7 * w.w.abs() {
+        return even;
+    }
+    // z/w = from + by/w.
+    let from = towards.dot(across) / across.length_squared();
+    let by = z.w - from * w.w;
+    let rest = (towards - from * across).length();
+    if rest > 1.0e-4 * towards.length() + 1.0e-6 * across.length() || by == 0.0 {
+        return even;
+    }
+    [0.0, by, 1.0, -from]
+}
+
+/// The pass.
+pub struct Convolving {
+    find: Pipeline,
+    make: Pipeline,
+    across: Pipeline,
+    down: Pipeline,
+    span: Buffer,
+    /// One page, and it filtered along x.
+    page: [Image; 2],
+    basis: Image,
+    pages: u32,
+}
+
+impl Convolving {
+    pub fn new(gpu: &Gpu, convolution: &Convolution) -> Result<Self, Error> {
+        let image = |name, extent, format, more| {
+            let usage = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::SAMPLED | more;
+            Image::new(gpu, &ImageDesc::new(name, extent, format, usage))
+        };
+        let texels = convolution.texels;
+        let one = vk::Extent2D { width: texels, height: texels };
+        let copied = vk::ImageUsageFlags::TRANSFER_SRC;
+        Ok(Self {
+            find: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_SPAN_COMP, &[])?,
+            make: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_COMP, &[])?,
+            across: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_ACROSS_COMP, &[])?,
+            down: Pipeline::compute(gpu, shader::LIGHT_CONVOLUTION_DOWN_COMP, &[])?,
+            span: Buffer::new(
+                gpu,
+                "convolution/span",
+                SPAN,
+                vk::BufferUsageFlags::STORAGE_BUFFER
+                    | vk::BufferUsageFlags::UNIFORM_BUFFER
+                    | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryLocation::GpuOnly,
+            )?,
+            page: [
+                image("convolution/page", one, PAGE, vk::ImageUsageFlags::empty())?,
+                image("convolution/across", one, PAGE, vk::ImageUsageFlags::empty())?,
+            ],
+            basis: image("convolution", convolution.extent(), convolution.format(), copied)?,
+            pages: convolution.terms / 2,
+        })
+    }
+
+    /// Basis and span, as glsl/include/sunlight.glsl reads them.
+    pub fn resources(&self, gpu: &Gpu) -> [Resource; 2] {
+        [Resource::Sampled(self.basis.view, gpu.samplers.linear), self.span()]
+    }
+
+    fn span(&self) -> Resource {
+        Resource::Buffer(self.span.handle, 0, SPAN)
+    }
+
+    /// `shadow`: the host's, which compute samples by `map`.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        convolution: &Convolution,
+        shadow: &Shadow,
+        map: Resource,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"convolution");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let span = self.span.handle;
+        let extent = shadow.image.rect.extent;
+        gpu.barriers(cmd, &[], &[buffer(span, UNIFORM, COPY_WRITE)]);
+        // SAFETY: outside a render pass; the frame before has read it (barrier).
+        unsafe { gpu.device.cmd_fill_buffer(cmd, span, 0, vk::WHOLE_SIZE, u32::MAX) };
+        gpu.barriers(cmd, &[], &[buffer(span, COPY_WRITE, COMPUTE_READ_WRITE)]);
+        let resources = [(0, r.uniforms), (1, map), (2, self.span())];
+        r.descriptors.bind(gpu, cmd, &self.find, &resources)?;
+        r.dispatch_over(extent, [SPAN_BLOCK, SPAN_BLOCK, 1]);
+        let before = BEFORE.discarded();
+        gpu.barriers(
+            cmd,
+            &[access::image(&self.basis, before, COMPUTE_WRITE)],
+            &[buffer(span, COMPUTE_READ_WRITE, UNIFORM)],
+        );
+
+        let [page, across] = &self.page;
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        let set =
+            |pipeline, resources: &[(u32, Resource)]| r.descriptors.set(gpu, pipeline, resources);
+        let stored = Resource::storage;
+        let made =
+            set(&self.make, &[(0, r.uniforms), (1, map), (2, self.span()), (3, stored(page))])?;
+        let moved = set(&self.across, &[(0, r.uniforms), (1, sampled(page)), (2, stored(across))])?;
+        let kept =
+            set(&self.down, &[(0, r.uniforms), (1, sampled(across)), (2, stored(&self.basis))])?;
+        let (_, size) = convolution.size(extent);
+        let bordered = vk::Extent2D { width: size.width + 2, height: size.height + 2 };
+        let bind = |pipeline: &Pipeline, set| {
+            pipeline.bind(gpu, cmd);
+            bind_set(gpu, cmd, pipeline, set);
+        };
+        let begin = |image| access::image(image, COMPUTE_SAMPLED.discarded(), COMPUTE_WRITE);
+        let end = |image| access::image(image, COMPUTE_WRITE, COMPUTE_SAMPLED);
+        for index in 0..self.pages as i32 {
+            gpu.barriers(cmd, &[begin(page)], &[]);
+            bind(&self.make, made);
+            self.make.push(gpu, cmd, &index);
+            r.dispatch_over(size, self.make.local_size);
+            gpu.barriers(cmd, &[end(page), begin(across)], &[]);
+            bind(&self.across, moved);
+            r.dispatch_over(size, self.across.local_size);
+            // Pages are apart, but a validation layer knows of whole images alone.
+            let next = access::image(&self.basis, COMPUTE_WRITE, COMPUTE_WRITE);
+            gpu.barriers(cmd, &[end(across), next], &[]);
+            bind(&self.down, kept);
+            self.down.push(gpu, cmd, &index);
+            r.dispatch_over(bordered, self.down.local_size);
+        }
+        gpu.barriers(cmd, &[access::image(&self.basis, COMPUTE_WRITE, AFTER)], &[]);
+        r.end(scope);
+        Ok(())
+    }
+
+    /// Layer for the host.
+    pub fn layer(&self) -> Layer {
+        let Image { handle: image, view, format, extent, .. } = self.basis;
+        Layer { name: "light.shadow", image, view, format, extent, access: AFTER }
+    }
+
+    /// Bytes of images and buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        (self.basis.size + self.page.iter().map(|image| image.size).sum::<u64>(), self.span.size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Mat4, Vec3};
+
+    use super::*;
+
+    fn rise(terms: u32, settings: &ShadowFilter, t: f32) -> f32 {
+        let wave = |i: usize| ((2 * i + 1) as f32 * std::f32::consts::PI * t).sin();
+        let sum: f32 = weights(terms, settings).enumerate().map(|(i, w)| w * wave(i)).sum();
+        0.5 + settings.scale * sum
+    }
+
+    /// Past the ramp the light is whole to the end of the period, by default; steeper is shorter.
+    #[test]
+    fn the_ramp_ends_where_the_light_is_whole() {
+        for terms in [4, 8, 16] {
+            let settings = ShadowFilter::default();
+            let ramp = super::ramp(terms, &settings);
+            assert!(ramp * (terms as f32) < 0.5, "{ramp} of {terms}");
+            let mut t = ramp;
+            while t < 1.0 - ramp {
+                assert!(rise(terms, &settings, t) > 0.9999, "{t} of {terms}");
+                t += 1.0e-3;
+            }
+            let steeper = ShadowFilter { scale: 3.0, ..settings };
+            assert!(super::ramp(terms, &steeper) < 0.5 * ramp);
+            // What is damped most still has its ends.
+            let soft = ShadowFilter { damping: 2.0, scale: 1.0, ..settings };
+            let ramp = super::ramp(terms, &soft);
+            assert!(4.0 * ramp < 1.0 && rise(terms, &soft, ramp) > 0.99, "{ramp} of {terms}");
+        }
+    }
+
+    /// Depths of points along a light's axis are even for every projection.
+    #[test]
+    fn depths_are_even_away_from_the_light() {
+        let view = Mat4::look_at_rh(Vec3::new(3.0, 8.0, 2.0), Vec3::ZERO, Vec3::Y);
+        let axis = Vec3::new(3.0, 8.0, 2.0).normalize();
+        for (projection, nearer) in [
+            (Mat4::orthographic_rh(-4.0, 3.0, -2.0, 5.0, 1.0, 20.0), 1.0),
+            (Mat4::orthographic_rh(-4.0, 3.0, -2.0, 5.0, 20.0, 1.0), -1.0),
+            (Mat4::perspective_rh(0.5, 1.2, 1.0, 20.0), 1.0),
+            (Mat4::perspective_rh(0.5, 1.2, 20.0, 1.0), -1.0),
+            (Mat4::perspective_infinite_reverse_rh(0.5, 1.2, 0.5), -1.0),
+            (Mat4::perspective_infinite_rh(0.5, 1.2, 0.5), 1.0),
+        ] {
+            let view_projection = projection * view;
+            let image = crate::contract::HostImage {
+                image: vk::Image::null(),
+                view: vk::ImageView::null(),
+                format: vk::Format::UNDEFINED,
+                aspect: vk::ImageAspectFlags::DEPTH,
+                extent: vk::Extent2D::default(),
+                rect: vk::Rect2D::default(),
+                before: access::NOTHING,
+                after: access::NOTHING,
+            };
+            let shadow = Shadow { image, view_projection, bias: 0.0 };
+            let [a, b, c, d] = linear(&shadow, nearer);
+            let at = |along: f32| {
+                let z = view_projection.project_point3(-along * axis).z;
+                (a * z + b) / (c * z + d)
+            };
+            let (near, middle, far) = (at(-2.0), at(0.0), at(2.0));
+            assert!(near < middle && middle < far, "{projection}");
+            let uneven = (far - middle) / (middle - near) - 1.0;
+            assert!(uneven.abs() < 1.0e-3, "{uneven} of {projection}");
+        }
+    }
+}

@@ -1,0 +1,384 @@
+//! Pass `convolution`: the basis against the twin, the picture against what the basis says, and what a
+//! comparison of depths must be whatever way it is filtered.
+
+use std::sync::OnceLock;
+
+use ash::vk;
+use glam::{DVec3, Mat4, Vec3};
+use whitewater::water::{Convolution, Shading, ShadowFilter, Shadows};
+use whitewater::{Config, Region, Shadow};
+
+use crate::foam::Foamy;
+use crate::light::{SIZE, casting, check_foam, light_views, shadows, wall};
+use crate::reference::Image;
+use crate::reference::convolution::{Convolved, Filter, Pages};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::Texture;
+use crate::support::rig::{Drawn, Rig, extent};
+use crate::support::scenes::{self, Lens, Random};
+
+/// Without light of ours.
+fn convolving(convolution: Convolution) -> Config {
+    let shadow = Some(Shadows::Convolution(convolution));
+    Config { cast: None, shadow, thickness_level: 0, ..casting(16) }
+}
+
+fn filter(convolution: Convolution, settings: &ShadowFilter) -> Filter {
+    let Convolution { terms, texels, bits } = convolution;
+    Filter {
+        terms: terms as usize,
+        texels: texels as usize,
+        bits: bits as usize,
+        width: f64::from(settings.width),
+        damping: f64::from(settings.damping),
+        offset: f64::from(settings.offset),
+        scale: f64::from(settings.scale),
+    }
+}
+
+/// A wall of foam with the sun behind the eye's shoulder; where the light looks, and the way to it.
+fn lit_wall() -> (Foamy, Vec3, Vec3) {
+    let mut case = wall(Lens::Standard);
+    let [at, from] = [[0.1, 0.1, 2.0], [0.5, 0.7, 0.5]]
+        .map(|p| Vec3::from(scenes::world(&case.shot.camera, &[p])[0]));
+    let sun = (from - at).normalize();
+    case.shot.settings.light.direction = sun.to_array();
+    (case, at, sun)
+}
+
+/// A shot's shadow map, of which a part is meant.
+struct Map {
+    part: Image<f32>,
+    view_projection: Mat4,
+    bias: f32,
+    reversed: bool,
+    _image: Texture,
+}
+
+impl Map {
+    /// All of the texels but a frame of them, which is another depth.
+    fn new(
+        rig: &Rig<'_>,
+        case: &mut Foamy,
+        part: Image<f32>,
+        (view_projection, reversed): (Mat4, bool),
+        bias: f32,
+    ) -> Self {
+        let (w, h) = (part.width, part.height);
+        let whole = Image::from_fn(w + 3, h + 5, |x, y| {
+            if (1..=w).contains(&x) && (2..h + 2).contains(&y) {
+                part.at(x - 1, y - 2)
+            } else {
+                0.4
+            }
+        });
+        let image = shadows(rig, Shadows::Map, &whole);
+        let mut host = image.host_image();
+        host.rect.offset = vk::Offset2D { x: 1, y: 2 };
+        host.rect.extent = extent(w as u32, h as u32);
+        case.shot.sun.shadow = Some(Shadow { image: host, view_projection, bias });
+        Self { part, view_projection, bias, reversed, _image: image }
+    }
+
+    fn twin(&self, case: &Foamy, convolution: Convolution) -> Convolved<'_> {
+        Convolved {
+            depth: &self.part,
+            view_projection: self.view_projection.as_dmat4(),
+            bias: f64::from(self.bias),
+            sun: Vec3::from(case.shot.settings.light.direction).as_dvec3(),
+            reversed: self.reversed,
+            filter: filter(convolution, &case.shot.settings.shadow),
+            found: OnceLock::new(),
+        }
+    }
+}
+
+fn pages(drawn: &Drawn) -> &Pages {
+    drawn.shadow_basis.as_ref().expect("a basis")
+}
+
+/// The basis with its border is the twin's; by how much of the bound it is off at most.
+fn check_basis(name: &str, twin: &Convolved<'_>, pages: &Pages) -> f64 {
+    let (_, [width, height]) = twin.size();
+    let mut worst = 0.0_f64;
+    for k in 1..=twin.filter.terms {
+        let (expected, bound) = (twin.basis(k), twin.basis_error(k));
+        let [left, top] = twin.corner((k - 1) / 2);
+        for (x, y) in (0..height + 2).flat_map(|y| (0..width + 2).map(move |x| (x, y))) {
+            let found = pages.at(left + x - 1, top + y - 1);
+            for i in 0..2 {
+                let found = f64::from(found[2 * ((k - 1) % 2) + i]);
+                let expected = expected.clamped(x as isize - 1, y as isize - 1)[i];
+                let error = (found - expected).abs();
+                assert!(
+                    error <= bound,
+                    "{name}: term {k} at ({x}, {y}), {i}: {found}, not {expected} by {bound}"
+                );
+                worst = worst.max(error / bound);
+            }
+        }
+    }
+    worst
+}
+
+/// Blocks of shade and of sun, texels about the wall itself, and some with nothing there.
+fn blocks(width: usize, height: usize, [before, behind]: [f32; 2], open: f32) -> Image<f32> {
+    let mut random = Random(4);
+    let (low, high) = (before.min(behind), before.max(behind));
+    let mut texels = Image::new(width, height, open);
+    for (i, texel) in texels.data.iter_mut().enumerate() {
+        *texel = match (i % width / 6 + i / width / 5) % 4 {
+            0 => before,
+            1 => behind,
+            2 => open,
+            _ => random.between(low, high),
+        };
+    }
+    texels
+}
+
+#[test]
+fn the_basis_is_the_twins_and_foam_is_in_its_shade() {
+    let gpu = Gpu::shared();
+    let bits_between = gpu.limits().sub_texel_precision_bits;
+    let ways = [(4, 64, 8), (8, 64, 16), (16, 16, 8), (16, 64, 16)];
+    for (i, (terms, texels, bits)) in ways.into_iter().enumerate() {
+        let convolution = Convolution { terms, texels, bits };
+        let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
+        let (mut case, at, sun) = lit_wall();
+        for (j, (name, view_projection, reversed)) in light_views(sun, at).into_iter().enumerate() {
+            let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
+            let ends = [depth(0.6), depth(-0.6)];
+            let open = if reversed { 0.0 } else { 1.0 };
+            case.shot.settings.shadow = ShadowFilter {
+                width: [0.0, 3.0, 7.5, 4.0][(i + j) % 4],
+                damping: [1.0, 0.0, 2.0, 0.5][j],
+                offset: [1.0, 0.25, 0.0, 0.75][(i + 2 * j) % 4],
+                scale: [1.0, 1.25, 2.0, 4.0][(i + j) % 4],
+            };
+            let bias = [0.0, 0.15][j % 2];
+            let part = blocks(21, 33 + j, ends, open);
+            let map = Map::new(&rig, &mut case, part, (view_projection, reversed), bias);
+            let drawn = case.draw(&mut rig);
+            let twin = map.twin(&case, convolution);
+            let name = format!("convolved-{terms}-{bits}-{name}");
+            let worst = check_basis(&name, &twin, pages(&drawn));
+            assert!(worst > 0.1, "{name}: idle bounds, {worst}");
+            check_foam(&name, &case, &drawn, |p, by, _| {
+                [twin.past(pages(&drawn), p, by, bits_between); 3]
+            });
+        }
+    }
+}
+
+/// The sun's share at each pixel with foam, and where in the map and how far along the light it is.
+fn shares(case: &Foamy, map: &Map, drawn: &Drawn) -> Vec<([f64; 2], f64, f64)> {
+    let foam = drawn.foam.as_ref().expect("foam");
+    let convolution = Convolution::default();
+    let twin = map.twin(case, convolution);
+    let white = f64::from(case.shot.settings.foam.front_color[0]);
+    let mut shares = Vec::new();
+    for (i, color) in drawn.output.data.iter().enumerate() {
+        let at = (i % drawn.output.width, i / drawn.output.width);
+        if f64::from(foam.depth.data[i]) >= 1e9 || foam.thickness.data[i][1] < 1e-3 {
+            continue;
+        }
+        let Some((depth, _)) = crate::light::mean_depth(case, &foam.depth, at) else { continue };
+        let (p, by): (DVec3, f64) = crate::light::seen(&case.shot, depth, at);
+        let Some((uv, z, false)) = twin.seen(p, by) else { continue };
+        let size = [map.part.width, map.part.height];
+        let place = [0, 1].map(|i| uv[i].v * size[i] as f64);
+        // Red is all the sun's.
+        shares.push((place, z.v, f64::from(color[0]) / white));
+    }
+    shares
+}
+
+/// A half-plane before the wall, another behind it: a share of one half at the edge of the box, as much
+/// lit as of it is past the edge, all of it on one side, none on the other.
+#[test]
+fn an_edge_is_half_lit_and_the_light_grows_across_it() {
+    let gpu = Gpu::shared();
+    for (terms, bits, width) in [(16, 8, 9.0_f32), (16, 16, 3.0), (8, 8, 9.0), (4, 16, 5.0)] {
+        let convolution = Convolution { terms, texels: 128, bits };
+        let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
+        let (mut case, at, sun) = lit_wall();
+        let (_, view_projection, reversed) = light_views(sun, at)[0];
+        let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
+        for scale in [1.0, 1.25_f32] {
+            case.shot.settings.shadow = ShadowFilter { width, scale, ..ShadowFilter::default() };
+            let edge = 52;
+            let part = Image::from_fn(101, 23, |x, _| depth(if x < edge { 2.5 } else { -2.5 }));
+            let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
+            let drawn = case.draw(&mut rig);
+            let twin = map.twin(&case, convolution);
+            // What rings well past the ramp, where the wall is; a basis a rounding off, of sines and of
+            // what is kept.
+            let ramp = 1.5 * twin.ramp();
+            let steps = (0..2000).map(|i| ramp + (1.0 - 2.0 * ramp) * f64::from(i) / 2000.0);
+            let whole = 0.5 + 0.5 * f64::from(scale);
+            let rings = steps.map(|t| (twin.filter.step(t) - whole).abs()).fold(0.0, f64::max);
+            let rounding: f64 = (1..=twin.filter.terms)
+                .map(|k| {
+                    let own = twin.basis_error(k) + 2.0_f64.powi(-11);
+                    f64::from(scale) * 2.0 * 2.0 / std::f64::consts::PI / (2 * k - 1) as f64 * own
+                })
+                .sum();
+            let bits_between = gpu.limits().sub_texel_precision_bits;
+            let bound = rings + rounding + 2.0 * 2.0_f64.powi(-(bits_between as i32));
+            let mut shares: Vec<_> = shares(&case, &map, &drawn)
+                .into_iter()
+                .map(|(at, _, s)| (at[0] - 52.0, s))
+                .collect();
+            shares.sort_by(|a, b| a.0.total_cmp(&b.0));
+            assert!(shares.len() > 2000 && bound < 0.2, "{} shares, {bound}", shares.len());
+            let mut seen = [0; 3];
+            let half = 0.5 * f64::from(width);
+            for &(x, s) in &shares {
+                // Of an odd number of texels, and between them linear: as much as of the box is past.
+                let past = (x / f64::from(width)).clamp(-0.5, 0.5);
+                let lit = 0.5 + f64::from(scale) * past;
+                let off = (s - lit.clamp(0.0, 1.0)).abs();
+                assert!(
+                    off <= bound,
+                    "{terms} {bits} {width} {scale}: {s} at {x}, not {lit} by {bound}"
+                );
+                seen[if x.abs() < half { 1 } else { usize::from(x > 0.0) * 2 }] += 1;
+            }
+            // The light grows, but for the bounds of two.
+            let mut most = 0.0_f64;
+            for &(_, s) in &shares {
+                assert!(s >= most - 2.0 * bound, "{s} after {most}");
+                most = most.max(s);
+            }
+            assert!(seen.iter().all(|n| *n > 30), "{seen:?}");
+        }
+    }
+}
+
+/// Unfiltered, where all texels about a point agree and none of them is as near to it as the ramp is
+/// long, it is what a comparison says.
+#[test]
+fn away_from_edges_and_contacts_it_is_a_hard_comparison() {
+    let gpu = Gpu::shared();
+    let convolution = Convolution { terms: 16, texels: 64, bits: 16 };
+    let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
+    let (mut case, at, sun) = lit_wall();
+    case.shot.settings.shadow.width = 0.0;
+    for (name, view_projection, reversed) in light_views(sun, at) {
+        let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
+        let open = if reversed { 0.0 } else { 1.0 };
+        let part = blocks(29, 31, [depth(1.5), depth(-1.5)], open);
+        let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
+        let drawn = case.draw(&mut rig);
+        let twin = map.twin(&case, convolution);
+        let mut seen = [0; 2];
+        for (place, z, s) in shares(&case, &map, &drawn) {
+            let base = place.map(|v| (v - 0.5).floor() as isize);
+            let about: Vec<_> = (-1..3)
+                .flat_map(|j| (-1..3).map(move |i| (i, j)))
+                .map(|(i, j)| map.part.clamped(base[0] + i, base[1] + j))
+                .map(|texel| twin.behind(texel, z))
+                .collect();
+            // Twice the ramp: it begins with the offset.
+            let far = 2.1 * twin.ramp();
+            let verdict = if about.iter().all(|t| *t > 0.0) {
+                1
+            } else if about.iter().all(|t| *t < -far) {
+                0
+            } else {
+                continue;
+            };
+            seen[verdict] += 1;
+            assert!((s - verdict as f64).abs() < 0.01, "{name}: {s} at {place:?}, not {verdict}");
+        }
+        assert!(seen.iter().all(|n| *n > 100), "{name}: {seen:?}");
+    }
+}
+
+/// A reversed map of the same depths, and one of half the depth's range, shade the same.
+#[test]
+fn the_convention_does_not_show() {
+    let gpu = Gpu::shared();
+    let convolution = Convolution { terms: 16, texels: 64, bits: 16 };
+    let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
+    let (mut case, at, sun) = lit_wall();
+    let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
+    let flat = |near, far| Mat4::orthographic_rh(-0.9, 0.9, -0.7, 0.7, near, far) * view;
+    let mut draw = |view_projection: Mat4, reversed| {
+        let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
+        let open = if reversed { 0.0 } else { 1.0 };
+        let part = Image::from_fn(40, 30, |x, y| match (x / 6 + y / 5) % 3 {
+            0 => open,
+            i => depth(0.9 * i as f32 - 1.3 + 0.01 * (x + y) as f32),
+        });
+        let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
+        let drawn = case.draw(&mut rig);
+        shares(&case, &map, &drawn)
+    };
+    let expected = draw(flat(1.0, 11.0), false);
+    assert!(expected.iter().filter(|s| (0.1..0.9).contains(&s.2)).count() > 300);
+    for (view_projection, reversed) in
+        [(flat(11.0, 1.0), true), (flat(-9.0, 11.0), false), (flat(2.0, 60.0), false)]
+    {
+        let found = draw(view_projection, reversed);
+        assert_eq!(found.len(), expected.len());
+        for (a, b) in found.iter().zip(&expected) {
+            // Half precision, of sixteen terms.
+            assert!((a.2 - b.2).abs() < 0.02, "{} not {} at {:?}", a.2, b.2, a.0);
+        }
+    }
+}
+
+/// Maps of any size from frame to frame, whatever was there before; nothing there: nothing in shade.
+#[test]
+fn maps_of_any_size_come_and_go() {
+    let gpu = Gpu::shared();
+    for (composite, terms) in [(Shading::Raster, 16), (Shading::Compute, 4)] {
+        let convolution = Convolution { terms, texels: 32, bits: 8 };
+        let mut case = Foamy::new(SIZE, Lens::Standard, 10.0);
+        let mut random = Random(12);
+        let n = case.shot.positions.len();
+        case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
+        let at = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
+        case.shot.sun.region = Some(Region { center: at.to_array(), radius: 6.0 });
+        let sun = Vec3::from(case.shot.settings.light.direction);
+        let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
+        let flat = Mat4::orthographic_rh(-4.0, 4.0, -4.0, 4.0, 1.0, 11.0) * view;
+        let config = Config {
+            cast: Some(32),
+            spray: true,
+            sheets: 2,
+            composite: Some(composite),
+            ..convolving(convolution)
+        };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut pictures = Vec::new();
+        for (w, h) in [(23, 17), (1, 1), (5, 90), (300, 200), (32, 32), (1, 33), (23, 17)] {
+            let part = Image::from_fn(w, h, |x, y| 0.2 + 0.6 * ((x * 7 + y * 3) % 5) as f32 / 4.0);
+            let map = Map::new(&rig, &mut case, part, (flat, false), 0.05);
+            let drawn = case.draw(&mut rig);
+            check_basis(&format!("size-{w}x{h}"), &map.twin(&case, convolution), pages(&drawn));
+            let mut fresh = Rig::lit(&gpu, &config, 1);
+            let map = Map::new(&fresh, &mut case, map.part, (flat, false), 0.05);
+            let expected = case.draw(&mut fresh);
+            compare::same_color(&format!("size-{w}x{h}"), &drawn.output, &expected.output);
+            drop(map);
+            pictures.push(drawn.output);
+        }
+        assert!(pictures[0] == pictures[6] && pictures[0] != pictures[1]);
+        // Nothing in the map, in both conventions.
+        let mut dark = Rig::lit(&gpu, &Config { shadow: None, ..config }, 1);
+        case.shot.sun.shadow = None;
+        let expected = case.draw(&mut dark);
+        for (reversed, open) in [(false, 1.0), (true, 0.0)] {
+            let (near, far) = if reversed { (11.0, 1.0) } else { (1.0, 11.0) };
+            let flat = Mat4::orthographic_rh(-4.0, 4.0, -4.0, 4.0, near, far) * view;
+            let part = Image::new(20, 20, open);
+            let _map = Map::new(&rig, &mut case, part, (flat, reversed), 0.05);
+            let drawn = case.draw(&mut rig);
+            compare::same_color("nothing there", &drawn.output, &expected.output);
+        }
+    }
+}
