@@ -43,6 +43,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shade;         // light in shade over that in the sun; foam's extinction of sunlight
     vec4 lit_color;     // as scene_color and its origin, of what `lit` reads
     vec4 lit_origin;
+    mat4 before;        // eye -> eye of the frame before, less the identity
+    vec4 before_lens;   // its P00 P11; its near plane; device depth of nothing in this frame
+    vec4 lens_change;   // P00 P11 P20 P21 less those of the frame before
+    vec4 motion;        // seconds since it per spacing; a spacing
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -70,6 +70,8 @@ pub struct Offer {
     /// R32_SFLOAT and R32G32_SFLOAT can be blended colour attachments, and the latter a storage image,
     /// written without its format being known: foam.
     pub foam_floats: bool,
+    /// R32G32_SFLOAT can be a storage image, written without its format being known: motion vectors.
+    pub motion_floats: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
     /// The output format can be a storage image, written without its format being known.
@@ -129,6 +131,7 @@ impl Offer {
                 && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
             foam_floats: offers(vk::Format::R32_SFLOAT, blended)
                 && offers(vk::Format::R32G32_SFLOAT, blended | stored),
+            motion_floats: offers(vk::Format::R32G32_SFLOAT, stored),
             output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
             output_storage: offers(output_format, stored),
             limits: properties.limits,
@@ -189,6 +192,21 @@ impl Offer {
                 "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),
                 "Config.foam needs it; leave it off",
             );
+        }
+        if !self.motion_floats && config.motion {
+            return missing(
+                "storage use of R32G32_SFLOAT".into(),
+                "Config.motion needs it; leave it off",
+            );
+        }
+        let sums = crate::water::motion::sum_bytes(config);
+        if config.motion && sums > u64::from(self.limits.max_storage_buffer_range) {
+            let why = format!(
+                "{}: with Config.motion it takes {sums} bytes of sums, more than the device binds \
+                 at once; choose a coarser one",
+                config.thickness_level
+            );
+            return Err(Error::bad("Config.thickness_level", why));
         }
         match config.smoothing {
             Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {

@@ -154,6 +154,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             particles: clouds[i].particles(),
             camera: shots[i].camera,
             sun: Default::default(),
+            previous: None,
             settings: &shots[i].settings,
         };
         // SAFETY: cmd is recording; both renderers' slot 0 was waited for.
