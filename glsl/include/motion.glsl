@@ -1,9 +1,6 @@
 // How far the surface in a texel has come since the frame before: sums over the particles near the
 // frontmost surface of the texel's pixels, and near the farthest of them where that is another.
-// Needs frame.glsl.
-
-// 2: two surfaces a texel. 1: texels are pixels.
-layout(constant_id = 0) const uint SURFACES = 2;
+// Needs frame.glsl and the push constant `level`: how many times the texels are halved.
 
 // Per texel the nearest and the farthest surface of its pixels; EMPTY where there is none, or no other.
 layout(set = 0, binding = 1, std430) buffer Fronts { vec2 fronts[]; };
@@ -15,14 +12,32 @@ layout(set = 0, binding = 2, std430) buffer Sums { uint sums[]; };
 const float MOTION_UNITS = 2097152.0;
 const float MOST_SPACINGS = 1000.0;
 
+int texel_edge() {
+    return 1 << push.level;
+}
+
+// Two, but where texels are pixels.
+uint surfaces() {
+    return push.level == 0u ? 1u : 2u;
+}
+
+ivec2 texel_extent() {
+    return (ivec2(frame.extent.xy) + (texel_edge() - 1)) >> int(push.level);
+}
+
+// Texel -> slope.
+vec4 texel_slope() {
+    return vec4(frame.slope.xy * float(texel_edge()), frame.slope.zw);
+}
+
 uint texel_index(ivec2 texel) {
-    return uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x);
+    return uint(texel.y * texel_extent().x + texel.x);
 }
 
 // Of a sum of a texel of one of the surfaces; i: 0 to 3.
 uint sum_index(uint texel, uint surface, uint i) {
-    uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
-    return 2u * (4u * (surface * texels + texel) + i);
+    ivec2 extent = texel_extent();
+    return 2u * (4u * (surface * uint(extent.x * extent.y) + texel) + i);
 }
 
 // How near a depth is to a surface's: wholly to a radius from it, and to three at all. The frontmost

@@ -84,7 +84,7 @@ uint classify(uint index, out vec4 sphere, out float share) {
     }
     // The thickness sprite is the wider one: its half-axis bounds both.
     float reach = radius * frame.particle.z / frame.particle.x;
-    if (!in_frustum(centre, reach) && reach < -1.0) {
+    if (!in_frustum(centre, reach)) {
         return NONE;
     }
     vec4 slopes;

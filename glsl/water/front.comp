@@ -37,7 +37,6 @@ bool can_show(vec4 sphere) {
         return true;
     }
     uint near = floatBitsToUint(max(-sphere.z - sphere.w, frame.depth.z));
-    if (push.columns > -7) { return true; }
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (near < cells[uint(y * push.columns + x)]) {

@@ -11,7 +11,6 @@
 #include "kernel.glsl"
 #include "random.glsl"
 #include "foam.glsl"
-#include "motion.glsl"
 
 layout(local_size_x = 64) in;
 // 1: what is foam of a particle is no water of it.
@@ -32,7 +31,10 @@ layout(push_constant, std430) uniform Push {
     uint density_stride;  // 0: no densities
     uint foam_word;
     uint foam_stride;     // 0: no foam
+    uint level;
 } push;
+
+#include "motion.glsl"
 
 // A particle's sprite, of its water or of its foam.
 struct Sprite {
@@ -93,7 +95,7 @@ Sprite sprite_of(uint index, bool foamy) {
     }
     velocity = mat3(frame.view) * velocity;
     s.moved = clamp(velocity * frame.motion.x, vec3(-MOST_SPACINGS), vec3(MOST_SPACINGS));
-    float least = LEAST_AXIS * depth * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
+    float least = LEAST_AXIS * depth * max(abs(texel_slope().x), abs(texel_slope().y));
     vec4 slopes;
     if (foamy) {
         vec3 e1;
@@ -113,7 +115,7 @@ Sprite sprite_of(uint index, bool foamy) {
         s.normal = vec3(0.0, 0.0, 1.0);
         slopes = vec4(s.centre.xy - axis, s.centre.xy + axis) / depth;
     }
-    s.box = pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
+    s.box = pixel_span(pixel_bounds(slopes, texel_slope()), vec2(texel_extent()));
     return s;
 }
 
@@ -137,7 +139,7 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     // Where the ray meets the sprite's plane.
-    vec3 w = vec3(ray_slope(vec2(texel) + 0.5, frame.thick_slope), -1.0);
+    vec3 w = vec3(ray_slope(vec2(texel) + 0.5, texel_slope()), -1.0);
     float q = dot(s.normal, w);
     float depth = dot(s.normal, s.centre) / q;
     vec3 off = w * depth - s.centre;
@@ -147,7 +149,7 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     float weight = s.share * thickness_kernel(rho2);
-    for (uint surface = 0u; surface < SURFACES; ++surface) {
+    for (uint surface = 0u; surface < surfaces(); ++surface) {
         float part = weight * (front[surface] < EMPTY ? near_surface(depth, front[surface]) : 0.0) * MOTION_UNITS;
         if (part >= 0.5) {
             add(sum_index(at, surface, 0u), int(round(part * s.moved.x)));

@@ -3,9 +3,13 @@
 // Reads: depth, foam depth. Writes: fronts, sums.
 
 #include "frame.glsl"
-#include "motion.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(push_constant, std430) uniform Push { uint level; } push;
+
+#include "motion.glsl"
+
 // 1: there may be foam; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 
@@ -14,15 +18,14 @@ layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, ivec2(frame.thick_extent.xy)))) {
+    if (any(greaterThanEqual(texel, texel_extent()))) {
         return;
     }
-    int edge = int(frame.thick_extent.z);
-    ivec2 last = min((texel + 1) * edge, ivec2(frame.extent.xy));
+    ivec2 last = min((texel + 1) * texel_edge(), ivec2(frame.extent.xy));
     float nearest = EMPTY;
     float farthest = 0.0;
-    for (int y = texel.y * edge; y < last.y; ++y) {
-        for (int x = texel.x * edge; x < last.x; ++x) {
+    for (int y = texel.y * texel_edge(); y < last.y; ++y) {
+        for (int x = texel.x * texel_edge(); x < last.x; ++x) {
             float z = texelFetch(depth, ivec2(x, y), 0).x;
             if (FOAM == 1u) {
                 z = min(z, texelFetch(foam_depth, ivec2(x, y), 0).x);
@@ -35,7 +38,7 @@ void main() {
     bool other = nearest < EMPTY && farthest - nearest > 3.0 * frame.particle.x;
     uint at = texel_index(texel);
     fronts[at] = vec2(nearest, other ? farthest : EMPTY);
-    for (uint surface = 0u; surface < SURFACES; ++surface) {
+    for (uint surface = 0u; surface < surfaces(); ++surface) {
         for (uint i = 0u; i < 4u; ++i) {
             sums[sum_index(at, surface, i)] = 0u;
             sums[sum_index(at, surface, i) + 1u] = 0u;

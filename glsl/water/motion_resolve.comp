@@ -6,9 +6,13 @@
 
 #include "frame.glsl"
 #include "level.glsl"
-#include "motion.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(push_constant, std430) uniform Push { uint level; } push;
+
+#include "motion.glsl"
+
 // 1: there may be foam; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 
@@ -39,7 +43,7 @@ vec4 texel_sums(ivec2 texel, float z, out float away) {
     vec2 front = fronts[at];
     vec4 found = vec4(0.0);
     away = 2.0 * EMPTY;
-    for (uint surface = 0u; surface < SURFACES; ++surface) {
+    for (uint surface = 0u; surface < surfaces(); ++surface) {
         float off = abs(front[surface] - z);
         float weight = sum_at(sum_index(at, surface, 3u));
         if (front[surface] < EMPTY && weight > 0.0 && off < away) {
@@ -54,11 +58,11 @@ vec4 texel_sums(ivec2 texel, float z, out float away) {
 // How far the surface at a depth has come, eye space, in spacings: of the four texels round the pixel
 // those on its surface, with bilinear weights; where there are none, of the sixteen that nearest in depth.
 vec3 moved_at(vec2 pixel, float z) {
-    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    vec2 h = pixel / float(texel_edge()) - 0.5;
     ivec2 base = ivec2(floor(h));
     vec2 f = h - vec2(base);
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    ivec2 last = texel_extent() - 1;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = base + ivec2(i & 1, i >> 1);

@@ -87,7 +87,7 @@ void main() {
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
-        tile_work[gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x] = max(most, 1u);
+        tile_work[gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x] = most;
     }
     if (gl_LocalInvocationIndex < 4u && tile_over[gl_LocalInvocationIndex] > 0u) {
         atomicAdd(over[gl_LocalInvocationIndex], tile_over[gl_LocalInvocationIndex]);

@@ -199,15 +199,6 @@ impl Offer {
                 "Config.motion needs it; leave it off",
             );
         }
-        let sums = crate::water::motion::sum_bytes(config);
-        if config.motion && sums > u64::from(self.limits.max_storage_buffer_range) {
-            let why = format!(
-                "{}: with Config.motion it takes {sums} bytes of sums, more than the device binds \
-                 at once; choose a coarser one",
-                config.thickness_level
-            );
-            return Err(Error::bad("Config.thickness_level", why));
-        }
         match config.smoothing {
             Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {
                 return missing("drawIndirectCount".into(), "Gate::DrawCount; choose another gate");

@@ -9,7 +9,7 @@ mod foam;
 mod front;
 mod gaps;
 mod level;
-pub(crate) mod motion;
+mod motion;
 mod reduce;
 pub mod settings;
 mod smooth;

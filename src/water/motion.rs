@@ -51,6 +51,7 @@ struct Push {
     density_stride: u32,
     foam_word: u32,
     foam_stride: u32,
+    level: u32,
 }
 shader::assert_layout!(
     shader::WATER_MOTION_COMP,
@@ -64,6 +65,7 @@ shader::assert_layout!(
         density_stride,
         foam_word,
         foam_stride,
+        level,
     }
 );
 
@@ -88,21 +90,33 @@ pub struct Motion {
 }
 
 /// Surfaces told apart in a texel: one where it is a pixel.
-fn surfaces(config: &Config) -> u32 {
-    if config.thickness_level == 0 { 1 } else { 2 }
+fn surfaces(level: u32) -> u32 {
+    if level == 0 { 1 } else { 2 }
+}
+
+fn texels(config: &Config, level: u32) -> u64 {
+    let size = reduced(config.extent, level);
+    u64::from(size.width) * u64::from(size.height)
 }
 
 /// Bytes of the sums: weight and weighted displacement in two words each.
-pub fn sum_bytes(config: &Config) -> u64 {
-    let size = reduced(config.extent, config.thickness_level);
-    32 * u64::from(surfaces(config)) * u64::from(size.width) * u64::from(size.height)
+fn sum_bytes(config: &Config, level: u32) -> u64 {
+    32 * u64::from(surfaces(level)) * texels(config, level)
+}
+
+/// The resolution: that of the thickness, or the finest below at which the device binds the sums at
+/// once.
+fn level(gpu: &Gpu, config: &Config) -> u32 {
+    let range = u64::from(gpu.limits.max_storage_buffer_range);
+    (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)
 }
 
 impl Motion {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let constants = [(0, surfaces(config)), (9, u32::from(config.foam))];
+        let constants = [(9, u32::from(config.foam))];
         let compute = |shader| Pipeline::compute(gpu, shader, &constants);
-        let (fronts, sums, image) = Self::sized(gpu, config)?;
+        let level = level(gpu, config);
+        let (fronts, sums, image) = Self::sized(gpu, config, level)?;
         Ok(Self {
             front: compute(shader::WATER_MOTION_FRONT_COMP)?,
             each: compute(shader::WATER_MOTION_COMP)?,
@@ -110,13 +124,11 @@ impl Motion {
             fronts,
             sums,
             image,
-            level: config.thickness_level,
+            level,
         })
     }
 
-    fn sized(gpu: &Gpu, config: &Config) -> Result<(Buffer, Buffer, Image), Error> {
-        let size = reduced(config.extent, config.thickness_level);
-        let texels = u64::from(size.width) * u64::from(size.height);
+    fn sized(gpu: &Gpu, config: &Config, level: u32) -> Result<(Buffer, Buffer, Image), Error> {
         let make = |name, bytes| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
             Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
@@ -127,8 +139,8 @@ impl Motion {
         let format = vk::Format::R32G32_SFLOAT;
         let image = ImageDesc::new("water/motion", config.extent, format, usage);
         Ok((
-            make("water/motion/fronts", 8 * texels)?,
-            make("water/motion/sums", sum_bytes(config))?,
+            make("water/motion/fronts", 8 * texels(config, level))?,
+            make("water/motion/sums", sum_bytes(config, level))?,
             Image::new(gpu, &image)?,
         ))
     }
@@ -139,7 +151,8 @@ impl Motion {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let (fronts, sums, image) = Self::sized(gpu, config)?;
+        self.level = level(gpu, config);
+        let (fronts, sums, image) = Self::sized(gpu, config, self.level)?;
         retired.retire(std::mem::replace(&mut self.fronts, fronts));
         retired.retire(std::mem::replace(&mut self.sums, sums));
         retired.retire(std::mem::replace(&mut self.image, image));
@@ -180,6 +193,7 @@ impl Motion {
         ];
         let front = [(3, sampled(from.depth)), (4, foam)];
         r.descriptors.bind(gpu, cmd, &self.front, &[&ours[..], &front].concat())?;
+        self.front.push(gpu, cmd, &self.level);
         r.dispatch_over(reduced(r.extent, self.level), self.front.local_size);
         // Particles without velocities are at rest: nothing to sum.
         if let Some(velocities) = &particles.velocities {
@@ -207,6 +221,7 @@ impl Motion {
             (8, Resource::storage(&self.image)),
         ];
         r.descriptors.bind(gpu, cmd, &self.resolve, &[&ours[..], &resolve].concat())?;
+        self.resolve.push(gpu, cmd, &self.level);
         r.dispatch_over(r.extent, self.resolve.local_size);
         let mut last = hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED);
         last.push(access::image(&self.image, COMPUTE_WRITE, AFTER));
@@ -263,6 +278,7 @@ impl Motion {
                 density_stride: densities.stride,
                 foam_word: foam.word,
                 foam_stride: foam.stride,
+                level: self.level,
             },
         );
         let groups = list.chunk_size.div_ceil(self.each.local_size[0]).min(MOST_GROUPS);

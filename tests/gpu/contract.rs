@@ -4,8 +4,8 @@
 use ash::vk;
 use whitewater::water::{Gate, Rule, Shading, Shadows, Smoothing, Splat};
 use whitewater::{
-    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Region, Renderer,
-    Settings, Shadow, Slot, Stream,
+    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Previous, Recorded, Region,
+    Renderer, Settings, Shadow, Slot, Stream,
 };
 
 use crate::reference::Image;
@@ -219,6 +219,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { cast: Some(64), shadow: Some(Shadows::Map), foam: true, spray: true, ..base },
         Config { cast: Some(64), composite: Some(Shading::Compute), sheets: 2, ..base },
         Config { shadow: Some(Shadows::Mask), extent: extent(50, 40), ..base },
+        Config { motion: true, ..base },
+        Config { motion: true, foam: true, thickness_level: 0, extent: extent(50, 40), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -532,6 +534,9 @@ fn spoils() -> Vec<Spoil> {
             g.frame.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
         }),
         ("shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = Some(shadow(&g.frame))),
+        ("previous", "Frame.previous", |g| {
+            g.frame.previous = Some(Previous { camera: g.frame.camera, dt: 0.1 });
+        }),
     ]
 }
 
@@ -755,6 +760,7 @@ fn what_a_device_lacks_is_named() {
     offer.check(&config).expect("this device will do");
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
     let foam = Config { foam: true, ..config };
+    let motion = Config { motion: true, ..config };
     let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
     let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
     let drawn = Config { composite: Some(Shading::Raster), ..config };
@@ -770,6 +776,7 @@ fn what_a_device_lacks_is_named() {
         (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
         (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
         (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
+        (whitewater::Offer { motion_floats: false, ..offer }, motion, "R32G32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
@@ -896,6 +903,24 @@ fn memory_is_as_documented() {
             let off = (found - said).abs();
             assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}: {found}, said {said}");
         }
+        // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
+        for (thickness_level, said) in [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)] {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let of = |motion| {
+                let size = extent(width, height);
+                let config =
+                    Config { motion, thickness_level, ..Config::new(size, format, count) };
+                // SAFETY: live handles.
+                let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+                let memory = renderer.memory();
+                // SAFETY: nothing was recorded.
+                unsafe { renderer.destroy() };
+                (memory.images + memory.buffers) as f64
+            };
+            let found = of(true) - of(false);
+            let off = (found - said * pixels).abs();
+            assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
+        }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
         // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
@@ -924,7 +949,7 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let config = Config { sheets: 2, foam: true, spray: true, ..config(size) };
+    let config = Config { sheets: 2, foam: true, spray: true, motion: true, ..config(size) };
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
@@ -947,6 +972,7 @@ fn timings_name_every_pass() {
             "tiles",
             "smooth",
             "split",
+            "motion",
             "scene",
             "composite",
         ];

@@ -213,13 +213,16 @@ fn strange_particles_move_as_the_twins() {
     let mut rig = Rig::new(&gpu, &moving(size));
     let points = scenes::cloud(31, 160, 2.0, 9.0);
     let mut case = Moving::new(size, Lens::Reversed, &points, 10.0);
+    // To the right, down and towards the eye: it was farther off.
+    let fast = |row: usize| case.shot.camera.view.row(row).truncate() * 1e9;
+    let fast = (fast(0) - fast(1) + fast(2)).to_array();
     let velocities = case.velocities.as_mut().expect("velocities");
     for (i, v) in velocities.iter_mut().enumerate() {
         match i % 8 {
             0 => *v = [f32::NAN, 0.0, 0.0],
             1 => *v = [0.0, f32::INFINITY, 0.0],
             2 => *v = [0.0, 0.0, -3e18],
-            3 => *v = [1e9, -1e9, 0.0],
+            3 => *v = fast,
             _ => {}
         }
     }
@@ -384,8 +387,9 @@ fn outlines_keep_both_sides() {
             // 60 degrees over 121 pixels.
             let expected = speed * 0.05 * 60.5 / 30.0_f32.to_radians().tan() / z;
             let off = (found[0] - expected).abs().max(found[1].abs());
-            // A surface is smoothed by a part of a radius.
-            wrong += usize::from(off > 0.1 * expected.abs());
+            // Where one looks between spheres the smoothed surface is nearer, by the falloff at most.
+            let slack = case.shot.falloff();
+            wrong += usize::from(off > slack / (z - slack) * expected.abs());
         }
         let name = format!("level {thickness_level}, foam {foam}");
         assert!(drops > 300 && pools > 3000, "{name}: {drops}, {pools}");

@@ -71,6 +71,7 @@ fn record_only_records() {
         ("compute composite", Config { composite: Some(Shading::Compute), ..base }),
         ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
         ("query", Config { smoothing: query, ..base }),
+        ("motion", Config { motion: true, ..base }),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));
@@ -90,7 +91,8 @@ fn record_only_records() {
 fn many_chunks_have_their_descriptor_sets() {
     let gpu = spied();
     let size = extent(48, 32);
-    let config = Config { max_stride: 1 << 16, max_particles: 1 << 16, ..config(size) };
+    let config =
+        Config { max_stride: 1 << 16, max_particles: 1 << 16, motion: true, ..config(size) };
     watched("many chunks", &mut Rig::new(&gpu, &config), &water(size));
 }
 

@@ -231,7 +231,9 @@ fn texels(
                         // The root 9u, the exponential 7 ulp, smoothstep 8u of one, products.
                         let low = share * shape[0] * (near[0] - 8.0 * U).max(0.0);
                         least = least.min(if sure { low * (1.0 - 48.0 * U) } else { 0.0 });
-                        let high = share * shape[1] * (near[1] + 8.0 * U).min(1.0);
+                        // Beyond its end it is nothing to the bit.
+                        let near = if near[1] > 0.0 { (near[1] + 8.0 * U).min(1.0) } else { 0.0 };
+                        let high = share * shape[1] * near;
                         most = most.max(high * (1.0 + 48.0 * U));
                     }
                     // Of a density a share is off by what smoothstep is.
