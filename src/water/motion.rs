@@ -170,8 +170,7 @@ impl Motion {
         let scope = r.begin(c"motion");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let (fronts, sums) = (self.fronts.handle, self.sums.handle);
-        let images: Vec<_> =
-            [from.depth, from.smoothed].into_iter().chain(from.foam).collect();
+        let images: Vec<_> = [from.depth, from.smoothed].into_iter().chain(from.foam).collect();
         let hand = |from, to| -> Vec<_> {
             images.iter().map(|image| access::image(image, from, to)).collect()
         };
@@ -208,8 +207,7 @@ impl Motion {
             let after = [buffer(sums, COMPUTE_READ_WRITE, COMPUTE_READ)];
             gpu.barriers(cmd, &[], &after);
         } else {
-            let after =
-                [fronts, sums].map(|handle| buffer(handle, COMPUTE_WRITE, COMPUTE_READ));
+            let after = [fronts, sums].map(|handle| buffer(handle, COMPUTE_WRITE, COMPUTE_READ));
             gpu.barriers(cmd, &[], &after);
         }
         let resolve = [

@@ -908,8 +908,7 @@ fn memory_is_as_documented() {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let of = |motion| {
                 let size = extent(width, height);
-                let config =
-                    Config { motion, thickness_level, ..Config::new(size, format, count) };
+                let config = Config { motion, thickness_level, ..Config::new(size, format, count) };
                 // SAFETY: live handles.
                 let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
                 let memory = renderer.memory();

@@ -407,7 +407,8 @@ fn the_order_of_particles_does_not_show() {
         let mut rig = Rig::new(&gpu, &make(16));
         let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 2.0]);
         let mut case = Moving::new(size, Lens::Infinite, &points, 30.0);
-        case.amounts = foam.then(|| (0..points.len()).map(|i| [(i % 4) as f32 / 3.0, 0.0]).collect());
+        case.amounts =
+            foam.then(|| (0..points.len()).map(|i| [(i % 4) as f32 / 3.0, 0.0]).collect());
         let first = case.draw(&mut rig);
         let order = Random(9).order(points.len());
         let mut mixed = case.clone();

@@ -6,11 +6,11 @@ use std::mem;
 use ash::vk;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Gate, Shading, Smoothing, Splat};
-use whitewater::{Config, Error, Frame, Recorded, Slot};
+use whitewater::{Config, Error, Frame, Particles, Recorded, Slot};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::rig::{Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens};
 use crate::support::{slow, spy};
 
@@ -28,7 +28,9 @@ fn water(size: vk::Extent2D) -> Shot {
 fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot) {
     let (color, depth) = rig.scene(shot);
     let cloud = rig.particles(shot);
-    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    let velocities = Some(stream(&cloud.positions, 0, 12));
+    let particles = Particles { velocities, ..cloud.particles() };
+    let frame = shot.frame(color.host_image(), depth.host_image(), particles);
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
         spy::reset();

@@ -202,7 +202,8 @@ fn texels(
         let inside = planes.iter().map(inside).fold(f64::INFINITY, f64::min) + 4.0 * radius;
         let reached = inside.min(-center.v.z - near * (1.0 + 8.0 * U));
         let slack = 4.0 * center.e + 16.0 * U * (center.v.length() + 4.0 * radius);
-        if !(reached > -slack) {
+        // What has no place has no distance either.
+        if reached.is_nan() || reached <= -slack {
             continue;
         }
         for (share, ellipses) in sprites_of(particle, view, &thick, settings) {
@@ -286,8 +287,8 @@ fn moved_at(
     let mut sum = Sum::default();
     let mut any = false;
     for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-        let weight = (if dx == 0 { 1.0 - f.x } else { f.x })
-            * (if dy == 0 { 1.0 - f.y } else { f.y });
+        let weight =
+            (if dx == 0 { 1.0 - f.x } else { f.x }) * (if dy == 0 { 1.0 - f.y } else { f.y });
         let texel = texels.checked(base_x + dx, base_y + dy);
         if let Some(texel) = texel.filter(|_| weight > 0.0) {
             let (away, there) = nearer(&texel, z)?;
@@ -382,9 +383,8 @@ pub fn motion(
     shown: &Shown<'_>,
 ) -> Image<Vector> {
     let foam_at = |x, y| shown.foam.map_or(1e10, |foam| foam.at(x, y));
-    let visible = Image::from_fn(view.width, view.height, |x, y| {
-        shown.depth.at(x, y).min(foam_at(x, y))
-    });
+    let visible =
+        Image::from_fn(view.width, view.height, |x, y| shown.depth.at(x, y).min(foam_at(x, y)));
     let texels = texels(particles, view, settings, &visible);
     let far = view.far().map_or(f64::INFINITY, |far| far * (1.0 - 1e-6));
     Image::from_fn(view.width, view.height, |x, y| {

@@ -4,8 +4,8 @@ use ash::vk;
 use whitewater::water::{Shading, Splat};
 use whitewater::{
     Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
-    Layer, Particles, Previous, Recorded, Renderer, Settings, Slot, SmoothingLevel, SmoothingLevels, Stream,
-    Sun,
+    Layer, Particles, Previous, Recorded, Renderer, Settings, Slot, SmoothingLevel,
+    SmoothingLevels, Stream, Sun,
 };
 
 use super::device::Gpu;
