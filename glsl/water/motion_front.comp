@@ -1,6 +1,6 @@
 #version 460
 // Pass `motion`, first part: the surfaces in each texel; its sums begin at nothing.
-// Reads: depth, foam depth. Writes: fronts, sums.
+// Reads: depth, foam depth and thickness. Writes: fronts, sums.
 
 #include "frame.glsl"
 
@@ -9,12 +9,9 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, std430) uniform Push { uint level; } push;
 
 #include "motion.glsl"
-
-// 1: there may be foam; else it is not read.
-layout(constant_id = 9) const uint FOAM = 0;
+#include "shown_foam.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
-layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -26,10 +23,7 @@ void main() {
     float farthest = 0.0;
     for (int y = texel.y * texel_edge(); y < last.y; ++y) {
         for (int x = texel.x * texel_edge(); x < last.x; ++x) {
-            float z = texelFetch(depth, ivec2(x, y), 0).x;
-            if (FOAM == 1u) {
-                z = min(z, texelFetch(foam_depth, ivec2(x, y), 0).x);
-            }
+            float z = min(texelFetch(depth, ivec2(x, y), 0).x, shown_foam(ivec2(x, y)));
             nearest = min(nearest, z);
             farthest = z < EMPTY ? max(farthest, z) : farthest;
         }

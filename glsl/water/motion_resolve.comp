@@ -2,7 +2,7 @@
 // Pass `motion`, last part: where what a pixel shows was in the frame before, in pixels from there to
 // here. Of water and foam by their own motion and the camera's, of the scene by the camera's alone.
 // All of it is differences: nothing that moved is nothing, and small motion is as exact as large.
-// Reads: fronts, sums, depth, foam depth, smoothed, levels, scene depth. Writes: motion.
+// Reads: fronts, sums, depth, foam depth and thickness, smoothed, levels, scene depth. Writes: motion.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -12,12 +12,9 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, std430) uniform Push { uint level; } push;
 
 #include "motion.glsl"
-
-// 1: there may be foam; else it is not read.
-layout(constant_id = 9) const uint FOAM = 0;
+#include "shown_foam.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
-layout(set = 0, binding = 4) uniform sampler2D foam_depth;
 layout(set = 0, binding = 5) uniform sampler2D smoothed;
 layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 // Of a format that shaders may only be told of by a feature: written without being told.
@@ -41,18 +38,20 @@ float sum_at(uint at) {
 vec4 texel_sums(ivec2 texel, float z, out float away) {
     uint at = texel_index(texel);
     vec2 front = fronts[at];
-    vec4 found = vec4(0.0);
     away = 2.0 * EMPTY;
+    uint nearer = 0u;
+    float weight = 0.0;
     for (uint surface = 0u; surface < surfaces(); ++surface) {
         float off = abs(front[surface] - z);
-        float weight = sum_at(sum_index(at, surface, 3u));
-        if (front[surface] < EMPTY && weight > 0.0 && off < away) {
-            away = off;
-            found = vec4(sum_at(sum_index(at, surface, 0u)), sum_at(sum_index(at, surface, 1u)),
-                         sum_at(sum_index(at, surface, 2u)), weight);
-        }
+        float there = front[surface] < EMPTY ? sum_at(sum_index(at, surface, 3u)) : 0.0;
+        bool better = there > 0.0 && off < away;
+        away = better ? off : away;
+        nearer = better ? surface : nearer;
+        weight = better ? there : weight;
     }
-    return found;
+    vec3 moved = vec3(sum_at(sum_index(at, nearer, 0u)), sum_at(sum_index(at, nearer, 1u)),
+                      sum_at(sum_index(at, nearer, 2u)));
+    return weight > 0.0 ? vec4(moved, weight) : vec4(0.0);
 }
 
 // How far the surface at a depth has come, eye space, in spacings: of the four texels round the pixel
@@ -64,7 +63,9 @@ vec3 moved_at(vec2 pixel, float z) {
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     ivec2 last = texel_extent() - 1;
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i) {
+    // Ends of loops, not branches: a CPU runs branches whole.
+    int texels = z < EMPTY ? 4 : 0;
+    for (int i = 0; i < texels; ++i) {
         ivec2 texel = base + ivec2(i & 1, i >> 1);
         if (all(greaterThanEqual(texel, ivec2(0))) && all(lessThanEqual(texel, last)) && w[i] > 0.0) {
             float away;
@@ -72,17 +73,14 @@ vec3 moved_at(vec2 pixel, float z) {
             sum += away <= frame.surface.w ? w[i] * there : vec4(0.0);
         }
     }
-    if (sum.w == 0.0) {
-        float least = 2.0 * EMPTY;
-        for (int i = 0; i < 16; ++i) {
-            ivec2 texel = clamp(base + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);
-            float away;
-            vec4 there = texel_sums(texel, z, away);
-            if (away < least) {
-                least = away;
-                sum = there;
-            }
-        }
+    texels = z < EMPTY && sum.w == 0.0 ? 16 : 0;
+    float least = 2.0 * EMPTY;
+    for (int i = 0; i < texels; ++i) {
+        ivec2 texel = clamp(base + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);
+        float away;
+        vec4 there = texel_sums(texel, z, away);
+        sum = away < least ? there : sum;
+        least = min(least, away);
     }
     return sum.w > 0.0 ? sum.xyz / sum.w : vec3(0.0);
 }
@@ -114,12 +112,11 @@ void main() {
     vec2 pixel = vec2(p) + 0.5;
     vec2 slope = ray_slope(pixel, frame.slope);
     float water = texelFetch(depth, p, 0).x;
-    float foam = FOAM == 1u ? texelFetch(foam_depth, p, 0).x : EMPTY;
+    float foam = shown_foam(p);
     float front = min(water, foam);
     float z = front;
-    vec3 moved = vec3(0.0);
+    vec3 moved = moved_at(pixel, front) * frame.motion.y;
     if (front < EMPTY) {
-        moved = moved_at(pixel, front) * frame.motion.y;
         z = foam < water ? foam : smoothed_at(pixel, water);
     } else {
         float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;

@@ -219,7 +219,7 @@ impl Water {
             let depth = &self.depth.image;
             let from = motion::Surfaces {
                 depth,
-                foam,
+                foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
                 smoothed: &self.smooth.a,
                 levels: self.level.resource(),
             };

@@ -10,7 +10,9 @@
 //! outlines keep both sides' motion; a pixel takes what lies on its own surface. Spray has none of its
 //! own: a pixel under droplets has the motion of what is behind them.
 //! RG32F: half floats are a fourteenth of a pixel off at a hundred and lose what is still.
-//! Reads: the counts of `cull`, the host's particles, depth, foam depth, smoothed surface, scene depth.
+//! Foam counts where it hides half of what is behind it.
+//! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface,
+//! scene depth.
 //! Writes: motion, RG32F, all of it.
 
 use ash::vk;
@@ -72,7 +74,8 @@ shader::assert_layout!(
 /// What it is made from, each as fragments sample it; they come back so.
 pub struct Surfaces<'a> {
     pub depth: &'a Image,
-    pub foam: Option<&'a Image>,
+    /// Its depth and its thickness.
+    pub foam: Option<[&'a Image; 2]>,
     pub smoothed: &'a Image,
     /// The resolutions of the smoothing.
     pub levels: Resource,
@@ -170,7 +173,10 @@ impl Motion {
         let scope = r.begin(c"motion");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let (fronts, sums) = (self.fronts.handle, self.sums.handle);
-        let images: Vec<_> = [from.depth, from.smoothed].into_iter().chain(from.foam).collect();
+        let images: Vec<_> = [from.depth, from.smoothed]
+            .into_iter()
+            .chain(from.foam.into_iter().flatten())
+            .collect();
         let hand = |from, to| -> Vec<_> {
             images.iter().map(|image| access::image(image, from, to)).collect()
         };
@@ -184,13 +190,13 @@ impl Motion {
         gpu.barriers(cmd, &first, &before);
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
         // Where there is none it is not read.
-        let foam = sampled(from.foam.unwrap_or(from.depth));
+        let [foam, foam_thickness] = from.foam.unwrap_or([from.depth; 2]).map(sampled);
         let ours = [
             (0, r.uniforms),
             (1, Resource::buffer(&self.fronts)),
             (2, Resource::buffer(&self.sums)),
         ];
-        let front = [(3, sampled(from.depth)), (4, foam)];
+        let front = [(3, sampled(from.depth)), (4, foam), (9, foam_thickness)];
         r.descriptors.bind(gpu, cmd, &self.front, &[&ours[..], &front].concat())?;
         self.front.push(gpu, cmd, &self.level);
         r.dispatch_over(reduced(r.extent, self.level), self.front.local_size);
@@ -217,6 +223,7 @@ impl Motion {
             (6, r.scene_depth),
             (7, from.levels),
             (8, Resource::storage(&self.image)),
+            (9, foam_thickness),
         ];
         r.descriptors.bind(gpu, cmd, &self.resolve, &[&ours[..], &resolve].concat())?;
         self.resolve.push(gpu, cmd, &self.level);

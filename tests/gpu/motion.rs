@@ -6,7 +6,7 @@ use glam::{DMat4, DVec2, DVec3, Mat4, Quat, Vec3};
 use whitewater::{Camera, Config, Error, Particles, Previous};
 
 use crate::reference::motion::{self, Particle, Settings, Shown, Vector};
-use crate::reference::{Image, View};
+use crate::reference::{Image, View, smoothstep};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
@@ -26,6 +26,8 @@ struct Moving {
     velocities: Option<Vec<[f32; 3]>>,
     /// Foam and age.
     amounts: Option<Vec<[f32; 2]>>,
+    /// What the noise in foam goes by.
+    ids: Option<Vec<u32>>,
 }
 
 impl Moving {
@@ -38,7 +40,7 @@ impl Moving {
         let velocities = points.iter().map(|_| [0; 3].map(|_| random.between(-most, most)));
         let velocities = Some(velocities.collect());
         shot.previous = Some(Previous { camera: elsewhere(&shot.camera), dt: 0.05 });
-        Self { shot, velocities, amounts: None }
+        Self { shot, velocities, amounts: None, ids: None }
     }
 
     fn dt(&self) -> f64 {
@@ -50,7 +52,9 @@ impl Moving {
         let cloud = rig.particles(&self.shot);
         let velocities = self.velocities.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let amounts = self.amounts.as_ref().map(|all| data(bytemuck::cast_slice(all)));
+        let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let particles = Particles {
+            ids: ids.as_ref().map(|data| stream(data, 0, 4)),
             velocities: velocities.as_ref().map(|data| stream(data, 0, 12)),
             foam: amounts.as_ref().map(|data| stream(data, 0, 8)),
             ..cloud.particles()
@@ -89,9 +93,10 @@ impl Moving {
             dt: self.dt(),
             level,
         };
+        let foam = shown_foam(shot, drawn, level);
         let shown = Shown {
             depth: &drawn.depth,
-            foam: drawn.foam.as_ref().map(|foam| &foam.depth),
+            foam: foam.as_ref(),
             surface: (&drawn.surface, drawn.levels.finer().texel[2] as usize),
             scene: &shot.scene_at(shot.size, 0),
         };
@@ -101,7 +106,7 @@ impl Moving {
     /// The vectors are the twin's; how many are of water or foam.
     fn check(&self, name: &str, drawn: &Drawn, level: u32) -> usize {
         agree(name, of(drawn), &self.twin(drawn, level));
-        shows(drawn).into_iter().filter(|shows| *shows).count()
+        drawn.depth.data.iter().filter(|z| **z < 1e9).count()
     }
 }
 
@@ -121,10 +126,19 @@ fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
     drawn.motion.as_ref().expect("a frame with motion")
 }
 
-/// Whether each pixel shows water or foam.
-fn shows(drawn: &Drawn) -> Vec<bool> {
-    let foam = |i: usize| drawn.foam.as_ref().is_some_and(|foam| foam.depth.data[i] < 1e9);
-    drawn.depth.data.iter().enumerate().map(|(i, z)| *z < 1e9 || foam(i)).collect()
+/// Depth of the foam where it hides half of what is behind it, as `composite` has it.
+fn shown_foam(shot: &Shot, drawn: &Drawn, level: u32) -> Option<Image<f32>> {
+    let foam = drawn.foam.as_ref()?;
+    let look = &shot.settings.foam;
+    let edge = f64::from(1_u32 << level);
+    Some(Image::from_fn(foam.depth.width, foam.depth.height, |x, y| {
+        let four = foam.thickness.bilinear((DVec2::new(x as f64, y as f64) + 0.5) / edge);
+        let at = |(x, y, w): (isize, isize, f64)| w * f64::from(foam.thickness.clamped(x, y)[0]);
+        let t: f64 = four.into_iter().map(at).sum();
+        let whole = smoothstep(0.0, f64::from(look.veil).max(1e-6), t);
+        let kept = (-f64::from(look.extinction) * t * whole).exp();
+        if kept <= 0.5 { foam.depth.at(x, y) } else { 1e10 }
+    }))
 }
 
 /// No vector is farther from the twin's than its bound; where rounding decides there are few.
@@ -370,8 +384,9 @@ fn outlines_keep_both_sides() {
         case.amounts = foam.then(|| (0..points.len()).map(amount).collect());
         case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.05 });
         let drawn = case.draw(&mut rig);
+        let shown = shown_foam(&case.shot, &drawn, thickness_level);
         let front = |i: usize| {
-            let foam = drawn.foam.as_ref().map_or(1e10, |foam| foam.depth.data[i]);
+            let foam = shown.as_ref().map_or(1e10, |foam| foam.data[i]);
             drawn.depth.data[i].min(foam)
         };
         let (mut drops, mut pools, mut wrong) = (0, 0, 0);
@@ -409,10 +424,12 @@ fn the_order_of_particles_does_not_show() {
         let mut case = Moving::new(size, Lens::Infinite, &points, 30.0);
         case.amounts =
             foam.then(|| (0..points.len()).map(|i| [(i % 4) as f32 / 3.0, 0.0]).collect());
+        case.ids = Some((0..points.len() as u32).collect());
         let first = case.draw(&mut rig);
         let order = Random(9).order(points.len());
         let mut mixed = case.clone();
         mixed.shot.positions = order.iter().map(|i| case.shot.positions[*i]).collect();
+        mixed.ids = Some(order.iter().map(|i| *i as u32).collect());
         let pick = |all: &Vec<[f32; 3]>| order.iter().map(|i| all[*i]).collect();
         mixed.velocities = case.velocities.as_ref().map(pick);
         mixed.amounts = case.amounts.as_ref().map(|all| order.iter().map(|i| all[*i]).collect());
