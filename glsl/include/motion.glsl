@@ -21,6 +21,11 @@ uint surfaces() {
     return push.level == 0u ? 1u : 2u;
 }
 
+// Of a texel with its fronts. As the end of a loop: a CPU runs branches whole.
+uint surfaces_of(vec2 front) {
+    return front.y < EMPTY ? 2u : 1u;
+}
+
 ivec2 texel_extent() {
     return (ivec2(frame.extent.xy) + (texel_edge() - 1)) >> int(push.level);
 }

@@ -149,7 +149,8 @@ void splat(ivec2 texel, Sprite s) {
         return;
     }
     float weight = s.share * thickness_kernel(rho2);
-    for (uint surface = 0u; surface < surfaces(); ++surface) {
+    uint count = surfaces_of(front);
+    for (uint surface = 0u; surface < count; ++surface) {
         float part = weight * (front[surface] < EMPTY ? near_surface(depth, front[surface]) : 0.0) * MOTION_UNITS;
         if (part >= 0.5) {
             add(sum_index(at, surface, 0u), int(round(part * s.moved.x)));
@@ -158,6 +159,24 @@ void splat(ivec2 texel, Sprite s) {
             add(sum_index(at, surface, 3u), int(round(part)));
         }
     }
+}
+
+// The part of its box in which it lies near a surface: of a deep body of water most particles have none.
+ivec4 near_surfaces(Sprite s) {
+    // The plane of a foam sprite is no farther from its centre than its half-axes.
+    float tilt = s.normal.z == 1.0 ? 0.0 : inversesqrt(dot(s.along, s.along)) + inversesqrt(dot(s.across, s.across));
+    float reach = 3.0 * frame.particle.x + 1.001 * tilt;
+    ivec4 part = ivec4(s.box.zw + 1, s.box.xy - 1);
+    for (int y = s.box.y; y <= s.box.w; ++y) {
+        for (int x = s.box.x; x <= s.box.z; ++x) {
+            vec2 front = fronts[texel_index(ivec2(x, y))];
+            vec2 off = abs(-s.centre.z - front);
+            if (min(off.x, off.y) <= reach) {
+                part = ivec4(min(part.xy, ivec2(x, y)), max(part.zw, ivec2(x, y)));
+            }
+        }
+    }
+    return part;
 }
 
 bool is_small(ivec4 box) {
@@ -173,6 +192,7 @@ void visit(uint index, bool foamy) {
         large[atomicAdd(large_count, 1u)] = uvec2(index, foamy ? 1u : 0u);
         return;
     }
+    s.box = near_surfaces(s);
     for (int y = s.box.y; y <= s.box.w; ++y) {
         for (int x = s.box.x; x <= s.box.z; ++x) {
             splat(ivec2(x, y), s);

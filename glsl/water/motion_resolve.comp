@@ -41,7 +41,8 @@ vec4 texel_sums(ivec2 texel, float z, out float away) {
     away = 2.0 * EMPTY;
     uint nearer = 0u;
     float weight = 0.0;
-    for (uint surface = 0u; surface < surfaces(); ++surface) {
+    uint count = surfaces_of(front);
+    for (uint surface = 0u; surface < count; ++surface) {
         float off = abs(front[surface] - z);
         float there = front[surface] < EMPTY ? sum_at(sum_index(at, surface, 3u)) : 0.0;
         bool better = there > 0.0 && off < away;
