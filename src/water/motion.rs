@@ -9,7 +9,7 @@
 //! resolution of the thickness, of the nearest and of the farthest surface in each texel, so that
 //! outlines keep both sides' motion; a pixel takes what lies on its own surface. Spray has none of its
 //! own: a pixel under droplets has the motion of what is behind them.
-//! RG32F: half floats are a fourteenth of a pixel off at a hundred and lose what is still.
+//! RG32F: half floats would be a thirty-second of a pixel off at a hundred, half a pixel at a thousand.
 //! Foam counts where it hides half of what is behind it.
 //! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface,
 //! scene depth.
