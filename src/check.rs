@@ -79,6 +79,7 @@ pub fn frame(
     }
     particles(&frame.particles, config, limits)?;
     sun(frame, config)?;
+    previous(frame, config)?;
     Lens::new(&frame.camera)
 }
 
@@ -138,6 +139,27 @@ fn particles(
         }
     }
     Ok(())
+}
+
+fn previous(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
+    let Some(previous) = &frame.previous else { return Ok(()) };
+    if !config.motion {
+        return Err(Error::bad("Frame.previous", "given, but Config.motion is false"));
+    }
+    let dt = previous.dt;
+    if !(dt.is_finite() && dt >= 0.0) {
+        return Err(Error::bad("Frame.previous.dt", format!("expected at least 0, found {dt}")));
+    }
+    match Lens::new(&previous.camera) {
+        Err(Error::BadInput { field: "Frame.camera.view", why }) => {
+            Err(Error::bad("Frame.previous.camera.view", why))
+        }
+        Err(Error::BadInput { why, .. }) => {
+            Err(Error::bad("Frame.previous.camera.projection", why))
+        }
+        Err(other) => Err(other),
+        Ok(_) => Ok(()),
+    }
 }
 
 fn sun(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {

@@ -114,6 +114,10 @@ pub struct Config {
     /// 16 from 16 to 4096. 36 bytes a texel, and a lit copy of the scene. `None` (default): they do
     /// not.
     pub cast: Option<u32>,
+    /// Motion vectors are made (default: not): the pass `motion` and the layer `motion`, of
+    /// [`Frame::previous`] and the particles' velocities. 12.5 bytes a pixel more (at other
+    /// [`thickness_level`](Self::thickness_level)s 48, 26, 12.5, 9.1).
+    pub motion: bool,
     /// Edge of the environment cube in texels, a power of two from 16 to 2048 (default 256).
     pub environment_size: u32,
     /// The output is the scene's colour image itself (default): it is copied before it is written
@@ -145,6 +149,7 @@ impl Config {
             spray: false,
             shadow: None,
             cast: None,
+            motion: false,
             environment_size: 256,
             in_place: true,
             keep_layers: false,
@@ -267,8 +272,9 @@ pub struct Particles {
     pub positions: Stream,
     /// SPH densities (f32); `None`: every particle has the rest density, none is spray.
     pub densities: Option<Stream>,
-    /// World velocities (3×f32, scene units a second), along which foam and spray are drawn; read
-    /// with [`Config::foam`] or [`Config::spray`] alone. `None`: at rest.
+    /// World velocities (3×f32, scene units a second), along which foam and spray are drawn, and for
+    /// motion vectors; read with [`Config::foam`], [`Config::spray`] or [`Config::motion`] alone.
+    /// `None`: at rest.
     pub velocities: Option<Stream>,
     /// Numbers that follow the particles from frame to frame (u32), for the noise in foam and the
     /// droplets of spray; read as the velocities. `None`: their place.
@@ -341,6 +347,24 @@ pub struct Camera {
     /// Eye to clip space, depth 0 to 1: perspective; finite or infinite, standard or reversed
     /// depth, off-axis allowed; looking down −z (right-handed) or +z.
     pub projection: Mat4,
+}
+
+/// The frame before, for motion vectors: the layer `motion`, two 32-bit floats a pixel, with
+/// [`Config::motion`].
+///
+/// Each vector is where what the pixel shows is now (the pixel's centre) less where it was in the
+/// frame before, in pixels of this frame, x to the right and y down: to reproject, look the frame
+/// before up at `uv − vector / size`. A surface point of water or foam was at its place less `dt`
+/// times the mean velocity of the particles round it; the scene stands still. Both projections are
+/// taken as they are given: jittered ones give jittered vectors. Of two frames of different sizes both
+/// count as of this one's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Previous {
+    /// Its camera; may be of another projection, near plane or depth convention.
+    pub camera: Camera,
+    /// Seconds from it to this one, [0, ∞). Particles count as no faster than a thousand spacings in
+    /// that time along each axis of the eye's.
+    pub dt: f32,
 }
 
 /// What is known of the sun's way to the fluid.
@@ -420,6 +444,8 @@ pub struct Frame<'a> {
     pub camera: Camera,
     /// The sun's way, with [`Config::shadow`] and [`Config::cast`].
     pub sun: Sun,
+    /// The frame before, with [`Config::motion`]; `None`, as for the first: nothing moved.
+    pub previous: Option<Previous>,
     /// Uniform settings.
     pub settings: &'a Settings,
 }
@@ -478,7 +504,8 @@ impl Default for Light {
 /// An intermediate image after a record; the host may read it until the next record.
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
-    /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`. With
+    /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`, `motion` for
+    /// `motion.X` and `motion.Y`. With
     /// [`Config::sheets`] of 2 there is `water.thickness.sheets`: of the front sheet, of the back
     /// sheet, of the window between them.
     pub name: &'static str,
@@ -499,7 +526,7 @@ pub struct Layer {
 /// What a record left behind.
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
-    /// The kept layers (none unless [`Config::keep_layers`]).
+    /// The kept layers: all of them with [`Config::keep_layers`], `motion` with [`Config::motion`].
     pub layers: Vec<Layer>,
     /// With [`Smoothing::Query`]: a buffer of that many `u32`, the samples still active in
     /// iterations 5, 10, …, for blocks that ran (0 for others; the last block is not counted).

@@ -3,7 +3,7 @@
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec4};
+use glam::{DMat4, Mat4, Vec4};
 
 use crate::contract::{Camera, Config, Frame, Light, Region, Settings};
 use crate::error::Error;
@@ -63,6 +63,10 @@ pub struct FrameUniforms {
     pub shadow_basis: [f32; 4],
     pub shadow_filter: [f32; 4],
     pub shadow_weight: [[f32; 4]; 4],
+    pub before: [[f32; 4]; 4],
+    pub before_lens: [f32; 4],
+    pub lens_change: [f32; 4],
+    pub motion: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -112,6 +116,10 @@ shader::assert_layout!(
         shadow_basis,
         shadow_filter,
         shadow_weight,
+        before,
+        before_lens,
+        lens_change,
+        motion,
     }
 );
 
@@ -190,6 +198,13 @@ impl Lens {
         Vec4::new(x, y, (self.p.z - 1.0) / self.p.x, (self.p.w - 1.0) / self.p.y)
     }
 
+    /// Device depth of nothing: of the far end.
+    pub fn nothing(&self) -> f32 {
+        // Eye depth of device depth 1: the near plane's where depth is reversed.
+        let eye = self.linear.0 / (1.0 + self.linear.1);
+        if eye > 0.0 && eye < 1.001 * self.near { 0.0 } else { 1.0 }
+    }
+
     /// Inward planes of the frustum in eye space (xyz·p + w ≥ 0 inside); a plane that is not
     /// there lets everything pass.
     fn planes(&self) -> [[f32; 4]; 6] {
@@ -258,6 +273,7 @@ impl FrameUniforms {
         let (medium_a, medium_b) = medium(&water.medium);
         let look = &frame.settings.foam;
         let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
+        let since = Since::new(lens, frame);
         Self {
             view: lens.view.to_cols_array_2d(),
             world: lens.view.inverse().to_cols_array_2d(),
@@ -335,7 +351,40 @@ impl FrameUniforms {
             shadow_basis: convolved.basis,
             shadow_filter: convolved.filter,
             shadow_weight: convolved.weight,
+            before: since.eye,
+            before_lens: [since.lens.p.x, since.lens.p.y, since.lens.near, lens.nothing()],
+            lens_change: since.lens_change,
+            motion: [since.dt / water.spacing, water.spacing, 0.0, 0.0],
         }
+    }
+}
+
+/// What has changed since the frame before.
+struct Since {
+    /// The lens of then.
+    lens: Lens,
+    /// From eye space to that of then, less the identity.
+    eye: [[f32; 4]; 4],
+    /// Of P₀₀, P₁₁, P₂₀, P₂₁.
+    lens_change: [f32; 4],
+    /// Seconds.
+    dt: f32,
+}
+
+impl Since {
+    /// Nothing, where no frame before is known. Its camera was checked.
+    fn new(lens: &Lens, frame: &Frame<'_>) -> Self {
+        let before = frame.previous.and_then(|p| Some((Lens::new(&p.camera).ok()?, p.dt)));
+        let (then, dt) = before.unwrap_or((*lens, 0.0));
+        // The same view has to give nothing, not what rounding leaves.
+        let eye = if then.view == lens.view {
+            Mat4::ZERO
+        } else {
+            let to_then = then.view.as_dmat4() * lens.view.as_dmat4().inverse();
+            (to_then - DMat4::IDENTITY).as_mat4()
+        };
+        let lens_change = (lens.p - then.p).to_array();
+        Self { lens: then, eye: eye.to_cols_array_2d(), lens_change, dt }
     }
 }
 

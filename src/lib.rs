@@ -33,12 +33,22 @@
 //! | `particles.densities` | f32; 0 marks a particle just emitted | as above | as above |
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, to cull by | storage buffer, aligned offset | as above |
-//! | `particles.velocities` | 3×f32, world space, with `Config.foam` or `Config.spray` | as above | as above |
+//! | `particles.velocities` | 3×f32, world space, with `Config.foam`, `Config.spray` or `Config.motion` | as above | as above |
 //! | `particles.ids` | u32 that follow the particles, likewise | as above | as above |
 //! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]) | as above | as above |
 //! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, of any size from frame to frame, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |
+//! | `previous` | with `Config.motion`: the camera of the frame before and the seconds since | | |
 //! | `camera` | view and projection: perspective, standard or reversed, finite or infinite, off-axis, looking down −z or +z | | |
+//!
+//! # Motion vectors
+//!
+//! With [`Config::motion`] each record leaves a [`Layer`] `motion` that covers the frame: where what a
+//! pixel shows is, less where it was in the frame before ([`Frame::previous`]), in pixels, y down. Of
+//! water and foam it is the surface's own motion, by the velocities of the particles near it, not that of
+//! what is seen through it; of the scene, which stands still for it, the camera's. An engine that has
+//! vectors of its own moving things takes ours where there is water: where `water.depth` or
+//! `foam.depth` is less than 1e10.
 //!
 //! # Promises
 //!
@@ -90,6 +100,7 @@
 //! | foam: depth, thickness, what water is before it (`foam`) | 5¼ w h | 4.6 MiB | 10.4 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
+//! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |

@@ -7,7 +7,7 @@ use gpu_allocator::MemoryLocation;
 
 use crate::check;
 use crate::composite::{Composite, Surroundings};
-use crate::contract::{Config, Frame, Host, HostImage, MemoryUse, Recorded, Slot};
+use crate::contract::{Config, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot};
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
 use crate::frame::{FrameUniforms, Lens};
@@ -243,14 +243,7 @@ impl Renderer {
         gpu.barriers(cmd, &release(frame, &uses), &buffers);
         gpu.end_label(cmd);
         let recorded = Recorded {
-            layers: if self.config.keep_layers {
-                let mut layers = self.water.kept(frame.output.rect.extent, FRAGMENT_SAMPLED);
-                layers.extend(self.light.iter().flat_map(Light::layers));
-                layers.extend(self.convolving.as_ref().map(Convolving::layer));
-                layers
-            } else {
-                Vec::new()
-            },
+            layers: kept(&self.config, &self.water, from, frame.output.rect.extent),
             active_samples: self.water.query_results(),
             counts: Some(self.water.counts()),
             levels: Some(self.water.levels()),
@@ -502,7 +495,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        98 + 24 * crate::water::chunks(&gpu.limits, config).1
+        98 + 25 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -523,6 +516,24 @@ impl SlotState {
         }
         self.descriptors.reset(gpu)
     }
+}
+
+/// The layers that a frame leaves to the host.
+/// The layers of a frame of this size.
+fn kept(
+    config: &Config,
+    water: &Water,
+    (light, convolving): (Option<&Light>, Option<&Convolving>),
+    size: vk::Extent2D,
+) -> Vec<Layer> {
+    let mut layers = Vec::new();
+    if config.keep_layers {
+        layers = water.kept(size, FRAGMENT_SAMPLED);
+        layers.extend(light.into_iter().flat_map(Light::layers));
+        layers.extend(convolving.map(Convolving::layer));
+    }
+    layers.extend(water.motion(size));
+    layers
 }
 
 /// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.

@@ -34,6 +34,8 @@ mod level;
 mod light;
 #[path = "gpu/limits.rs"]
 mod limits;
+#[path = "gpu/motion.rs"]
+mod motion;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/rect.rs"]

@@ -47,6 +47,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shadow_basis;  // its Fourier basis: size in texels, the map's texels a texel, edge of a page
     vec4 shadow_filter; // half the box in texels, scale, offset, ramp
     vec4 shadow_weight[4]; // of the terms
+    mat4 before;        // eye -> eye of the frame before, less the identity
+    vec4 before_lens;   // its P00 P11; its near plane; device depth of nothing in this frame
+    vec4 lens_change;   // P00 P11 P20 P21 less those of the frame before
+    vec4 motion;        // seconds since it per spacing; a spacing
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -73,6 +73,8 @@ pub struct Offer {
     /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT can be storage images, written without their format being
     /// known, and are sampled linearly: filtered shadow maps of 8 and of 16 bits.
     pub basis: [bool; 2],
+    /// R32G32_SFLOAT can be a storage image, written without its format being known: motion vectors.
+    pub motion_floats: bool,
     /// The output format can be a colour attachment.
     pub output_attachment: bool,
     /// The output format can be a storage image, written without its format being known.
@@ -135,6 +137,7 @@ impl Offer {
             basis: [vk::Format::R8G8B8A8_SNORM, vk::Format::R16G16B16A16_SFLOAT].map(|format| {
                 offers(format, stored | vk::FormatFeatureFlags2::SAMPLED_IMAGE_FILTER_LINEAR)
             }),
+            motion_floats: offers(vk::Format::R32G32_SFLOAT, stored),
             output_attachment: offers(output_format, vk::FormatFeatureFlags2::COLOR_ATTACHMENT),
             output_storage: offers(output_format, stored),
             limits: properties.limits,
@@ -211,6 +214,12 @@ impl Offer {
                 );
                 return Err(Error::bad("Config.shadow", why));
             }
+        }
+        if !self.motion_floats && config.motion {
+            return missing(
+                "storage use of R32G32_SFLOAT".into(),
+                "Config.motion needs it; leave it off",
+            );
         }
         match config.smoothing {
             Some(Smoothing::Query(Gate::DrawCount)) if !self.optional.draw_indirect_count => {

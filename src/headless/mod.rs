@@ -21,8 +21,8 @@ use transfer::staging;
 
 use crate::composite::way;
 use crate::contract::{
-    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Region,
-    Settings, Slot, Step, Stream, Sun,
+    Access, Camera, Config, Count, Frame, HostImage, Layer, ParticleCounts, Particles, Previous,
+    Region, Settings, Slot, Step, Stream, Sun,
 };
 use crate::environment::{EnvironmentSource, Equirectangular, Sky};
 use crate::error::{Error, VkContext};
@@ -47,13 +47,6 @@ pub const DEPTH_FORMAT: vk::Format = vk::Format::D32_SFLOAT;
 const COLOR_REST: Access = access::COLOR_ATTACHMENT;
 /// The scene's depth image between its own passes.
 const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
-
-/// Device depth of nothing: the end of the range that is farther away.
-fn depth_of_nothing(lens: &Lens) -> f32 {
-    // Eye depth of device depth 1: the near plane's where depth is reversed.
-    let eye = lens.linear.0 / (1.0 + lens.linear.1);
-    if eye > 0.0 && eye < 1.001 * lens.near { 0.0 } else { 1.0 }
-}
 
 /// What became of the particles of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -98,6 +91,7 @@ pub struct Headless {
     ids: Option<Buffer>,
     foam: Option<Foaming>,
     region: Option<Region>,
+    previous: Option<Previous>,
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
@@ -142,6 +136,7 @@ impl Headless {
             ids: None,
             foam: None,
             region: None,
+            previous: None,
             count: 0,
             layers: Vec::new(),
             counts: None,
@@ -379,8 +374,8 @@ impl Headless {
         Ok(())
     }
 
-    /// Uploads how the particles uploaded last move: their velocities, for foam and spray, and `ids`
-    /// that follow them from frame to frame, so that the noise in their foam and their droplets do.
+    /// Uploads how the particles uploaded last move: their velocities, for foam, spray and
+    /// motion vectors, and `ids` that follow them from frame to frame, so that the noise in their foam and their droplets do.
     ///
     /// # Errors
     /// Not as many as positions, no memory.
@@ -444,6 +439,11 @@ impl Headless {
     /// them, with [`Shadows::Map`] or [`Shadows::Convolution`], come from the scene's own map.
     pub fn region(&mut self, region: Region) {
         self.region = Some(region);
+    }
+
+    /// The frame before those that are drawn next, with [`Config::motion`].
+    pub fn previous(&mut self, previous: Option<Previous>) {
+        self.previous = previous;
     }
 
     /// Draws one frame and waits for it.
@@ -547,6 +547,7 @@ impl Headless {
                 particles,
                 camera: *camera,
                 sun,
+                previous: this.previous,
                 settings,
             };
             let mut parts = Parts {
@@ -580,7 +581,7 @@ impl Headless {
     }
 
     fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
-        let far = Lens::new(camera).map_or(1.0, |lens| depth_of_nothing(&lens));
+        let far = Lens::new(camera).map_or(1.0, |lens| lens.nothing());
         let range = |image: &Image| vk::ImageSubresourceRange {
             aspect_mask: crate::gpu::image::aspect_of(image.format),
             level_count: 1,

@@ -157,7 +157,8 @@ impl Headless {
     /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
     /// smoothing come at the finest resolution in use; `water.back` is the smoothed back sheet, and
     /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`, and
-    /// `foam.thickness.front`, what lies right behind the frontmost, of `foam.thickness`.
+    /// `foam.thickness.front`, what lies right behind the frontmost, of `foam.thickness`, and
+    /// `motion.X` and `motion.Y` of `motion`.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
@@ -166,6 +167,7 @@ impl Headless {
             "water.back" => "water.surface",
             "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
             "foam.thickness.front" => "foam.thickness",
+            "motion.X" | "motion.Y" => "motion",
             name => name,
         };
         let Some(layer) = self.layers.iter().find(|layer| layer.name == image).copied() else {
@@ -190,10 +192,10 @@ impl Headless {
             return Ok(Some(sheets.map(|sheets| sheets[channel])));
         }
         if layer.format == vk::Format::R32G32_SFLOAT {
-            let foam: Picture<[f32; 2]> =
+            let both: Picture<[f32; 2]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
-            let channel = usize::from(name.ends_with(".front"));
-            return Ok(Some(foam.map(|foam| foam[channel])));
+            let channel = usize::from(name.ends_with(".front") || name.ends_with(".Y"));
+            return Ok(Some(both.map(|both| both[channel])));
         }
         if layer.format == vk::Format::R32_UINT {
             let plan: Picture<u32> = self.read(layer.image, layer.format, area, layer.access)?;

@@ -9,6 +9,7 @@ mod foam;
 mod front;
 mod gaps;
 mod level;
+mod motion;
 mod reduce;
 pub mod settings;
 mod smooth;
@@ -118,6 +119,7 @@ pub(crate) struct Water {
     depth: depth::Depth,
     foam: Option<foam::Foam>,
     spray: Option<spray::Spray>,
+    motion: Option<motion::Motion>,
     reduce: reduce::Reduce,
     level: level::Level,
     sheets: Option<Sheets>,
@@ -135,6 +137,7 @@ impl Water {
             depth: depth::Depth::new(gpu, config)?,
             foam: config.foam.then(|| foam::Foam::new(gpu, config)).transpose()?,
             spray: config.spray.then(|| spray::Spray::new(gpu, config)).transpose()?,
+            motion: config.motion.then(|| motion::Motion::new(gpu, config)).transpose()?,
             reduce: reduce::Reduce::new(gpu, config)?,
             level: level::Level::new(gpu, config)?,
             sheets: (config.sheets > 1).then(|| Sheets::new(gpu, config)).transpose()?,
@@ -159,6 +162,9 @@ impl Water {
         }
         if let Some(spray) = &mut self.spray {
             spray.resize(gpu, config, retired)?;
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.resize(gpu, config, retired)?;
         }
         self.reduce.resize(gpu, config, retired)?;
         if let Some(Sheets { gaps, back }) = &mut self.sheets {
@@ -208,7 +214,18 @@ impl Water {
         }
         self.tiles.record(r, level)?;
         self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
-        self.split.record(r, tiles, level, gaps)
+        self.split.record(r, tiles, level, gaps)?;
+        if let Some(motion) = &self.motion {
+            let depth = &self.depth.image;
+            let from = motion::Surfaces {
+                depth,
+                foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
+                smoothed: &self.smooth.a,
+                levels: self.level.resource(),
+            };
+            motion.record(r, particles, &self.cull.list, &from)?;
+        }
+        Ok(())
     }
 
     /// What `composite` reads.
@@ -253,6 +270,11 @@ impl Water {
     /// Samples counted by the smoothing's queries, when it has them.
     pub fn query_results(&self) -> Option<(vk::Buffer, u32)> {
         self.smooth.query_results()
+    }
+
+    /// Motion vectors of a frame of a size.
+    pub fn motion(&self, frame: vk::Extent2D) -> Option<Layer> {
+        self.motion.as_ref().map(|motion| motion.layer(frame))
     }
 
     /// The layers of a frame of a size for the host, in the state `composite` left them in.
@@ -301,15 +323,18 @@ impl Water {
         let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
         let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
         let (spray, droplets) = self.spray.as_ref().map_or((0, 0), spray::Spray::memory);
+        let (motion, sums) = self.motion.as_ref().map_or((0, 0), motion::Motion::memory);
         MemoryUse {
             images: images.iter().map(|image| image.size).sum::<u64>()
                 + back
                 + sheets
                 + foam
-                + spray,
+                + spray
+                + motion,
             buffers: gaps
                 + sprites
                 + droplets
+                + sums
                 + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()

@@ -4,8 +4,8 @@
 use ash::vk;
 use whitewater::water::{Convolution, Gate, Rule, Shading, Shadows, Smoothing, Splat};
 use whitewater::{
-    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Recorded, Region, Renderer,
-    Settings, Shadow, Slot, Stream,
+    Access, Config, Count, Enabled, Error, Frame, HostImage, Packets, Previous, Recorded, Region,
+    Renderer, Settings, Shadow, Slot, Stream,
 };
 
 use crate::reference::Image;
@@ -154,6 +154,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             particles: clouds[i].particles(),
             camera: shots[i].camera,
             sun: Default::default(),
+            previous: None,
             settings: &shots[i].settings,
         };
         // SAFETY: cmd is recording; both renderers' slot 0 was waited for.
@@ -225,6 +226,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { shadow: convolved(4, 8), spray: true, foam: true, ..base },
         Config { shadow: convolved(16, 16), cast: Some(32), ..base },
         Config { shadow: convolved(8, 8), composite: Some(Shading::Compute), ..base },
+        Config { motion: true, ..base },
+        Config { motion: true, foam: true, thickness_level: 0, extent: extent(50, 40), ..base },
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
@@ -542,6 +545,9 @@ fn spoils() -> Vec<Spoil> {
         ("damping", "Settings.shadow.damping", |g| g.settings.shadow.damping = f32::NAN),
         ("offset", "Settings.shadow.offset", |g| g.settings.shadow.offset = 1.5),
         ("scale", "Settings.shadow.scale", |g| g.settings.shadow.scale = 0.5),
+        ("previous", "Frame.previous", |g| {
+            g.frame.previous = Some(Previous { camera: g.frame.camera, dt: 0.1 });
+        }),
     ]
 }
 
@@ -778,6 +784,7 @@ fn what_a_device_lacks_is_named() {
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
     let foam = Config { foam: true, ..config };
     let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
+    let motion = Config { motion: true, ..config };
     let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
     let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
     let drawn = Config { composite: Some(Shading::Raster), ..config };
@@ -799,6 +806,7 @@ fn what_a_device_lacks_is_named() {
             convolving(16),
             "R16G16B16A16_SFLOAT",
         ),
+        (whitewater::Offer { motion_floats: false, ..offer }, motion, "R32G32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
@@ -931,6 +939,23 @@ fn memory_is_as_documented() {
             let off = (found - said).abs();
             assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}: {found}, said {said}");
         }
+        // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
+        for (thickness_level, said) in [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)] {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let of = |motion| {
+                let size = extent(width, height);
+                let config = Config { motion, thickness_level, ..Config::new(size, format, count) };
+                // SAFETY: live handles.
+                let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+                let memory = renderer.memory();
+                // SAFETY: nothing was recorded.
+                unsafe { renderer.destroy() };
+                (memory.images + memory.buffers) as f64
+            };
+            let found = of(true) - of(false);
+            let off = (found - said * pixels).abs();
+            assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
+        }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
         // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
@@ -959,7 +984,7 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let config = Config { sheets: 2, foam: true, spray: true, ..config(size) };
+    let config = Config { sheets: 2, foam: true, spray: true, motion: true, ..config(size) };
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
@@ -982,6 +1007,7 @@ fn timings_name_every_pass() {
             "tiles",
             "smooth",
             "split",
+            "motion",
             "scene",
             "composite",
         ];

@@ -58,6 +58,7 @@ fn claimed(
             let bytes = 4 * stride as u32;
             let particles = Particles {
                 densities: Some(stream(&data, 4 * (start + density) as u64, bytes)),
+                velocities: Some(stream(&data, 4 * start as u64, bytes)),
                 packets: (!apart).then_some(Packets { buffer, offset: 512, count }),
                 before: HOST_WRITE,
                 after: HOST_WRITE,
@@ -99,7 +100,8 @@ fn offsets_are_multiples_of_the_devices_alignment() {
 fn bindings_are_no_longer_than_the_device_allows() {
     for splat in [Splat::Compute, Splat::Raster] {
         let (depth_splat, max_particles) = (Some(splat), 1024);
-        let config = Config { depth_splat, max_particles, max_stride: 64, ..exact(extent(96, 64)) };
+        let base = Config { motion: true, ..exact(extent(96, 64)) };
+        let config = Config { depth_splat, max_particles, max_stride: 64, ..base };
         for (range, alignment) in [(1 << 13, 256), (5000, 16)] {
             let claims = Claims {
                 offset_alignment: Some(alignment),

@@ -750,6 +750,7 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         foam: None,
         spray: None,
         lit_spray: None,
+        motion: None,
         light_front: None,
         light_thickness: None,
         shadow_basis: None,

@@ -12,7 +12,7 @@ use crate::foam::Foamy;
 use crate::light::{even, everything};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::rig::{Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens};
 use crate::support::{slow, spy};
 
@@ -81,6 +81,7 @@ fn record_only_records() {
         ("compute composite", Config { composite: Some(Shading::Compute), ..base }),
         ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
         ("query", Config { smoothing: query, ..base }),
+        ("motion", Config { motion: true, ..base }),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));
@@ -93,7 +94,8 @@ fn record_only_records() {
     for (name, config) in configs {
         let mut rig = Rig::new(&gpu, &config);
         let (shot, cloud) = (water(size), rig.particles(&water(size)));
-        watched(name, &mut rig, &shot, cloud.particles());
+        let velocities = Some(stream(&cloud.positions, 0, 12)); // any
+        watched(name, &mut rig, &shot, Particles { velocities, ..cloud.particles() });
     }
 }
 
@@ -128,7 +130,8 @@ fn record_only_records_with_foam_spray_and_light() {
 fn many_chunks_have_their_descriptor_sets() {
     let gpu = spied();
     let size = extent(48, 32);
-    let config = Config { max_stride: 1 << 16, max_particles: 1 << 16, ..config(size) };
+    let config =
+        Config { max_stride: 1 << 16, max_particles: 1 << 16, motion: true, ..config(size) };
     let mut rig = Rig::new(&gpu, &config);
     let (shot, cloud) = (water(size), rig.particles(&water(size)));
     watched("many chunks", &mut rig, &shot, cloud.particles());

@@ -497,7 +497,7 @@ pub(super) struct LooseHit {
 
 impl LooseEllipse {
     /// Those that rounding may make of a sprite, with the half-axis at rest in radii.
-    fn all(sprite: &Sprite, view: &View, settings: &Settings, half: f64) -> Vec<Self> {
+    pub(super) fn all(sprite: &Sprite, view: &View, settings: &Settings, half: f64) -> Vec<Self> {
         let center = Off::point(sprite.center, view);
         let axes = loose_axes(center, Off::direction(sprite.velocity), settings);
         let ellipse = |axes: LooseAxes| {

@@ -21,6 +21,7 @@ pub mod depth;
 pub mod environment;
 pub mod foam;
 pub mod light;
+pub mod motion;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;
@@ -188,12 +189,12 @@ impl View {
     }
 
     /// P00 and P11, with their signs.
-    fn focal(&self) -> DVec2 {
+    pub(crate) fn focal(&self) -> DVec2 {
         DVec2::new(self.projection.x_axis.x, self.projection.y_axis.y)
     }
 
     /// P20 and P21: the off-axis shift.
-    fn shift(&self) -> DVec2 {
+    pub(crate) fn shift(&self) -> DVec2 {
         DVec2::new(self.projection.z_axis.x, self.projection.z_axis.y)
     }
 

@@ -4,8 +4,8 @@ use ash::vk;
 use whitewater::water::{Shading, Splat};
 use whitewater::{
     Access, Camera, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage,
-    Layer, Particles, Recorded, Renderer, Settings, Slot, SmoothingLevel, SmoothingLevels, Stream,
-    Sun,
+    Layer, Particles, Previous, Recorded, Renderer, Settings, Slot, SmoothingLevel,
+    SmoothingLevels, Stream, Sun,
 };
 
 use super::device::Gpu;
@@ -47,6 +47,8 @@ pub struct Shot {
     pub camera: Camera,
     /// Where the sun does not come.
     pub sun: Sun,
+    /// The frame before.
+    pub previous: Option<Previous>,
     pub settings: Settings,
     pub positions: Vec<[f32; 3]>,
     pub densities: Option<Vec<f32>>,
@@ -68,6 +70,7 @@ impl Shot {
             positions: scenes::world(&camera, points),
             camera,
             sun: Sun::default(),
+            previous: None,
             settings: scenes::settings(radius),
             densities: None,
             color: Vec::new(),
@@ -95,6 +98,7 @@ impl Shot {
             particles,
             camera: self.camera,
             sun: self.sun,
+            previous: self.previous,
             settings: &self.settings,
         }
     }
@@ -210,6 +214,8 @@ pub struct Drawn {
     pub spray: Option<Image<f32>>,
     /// What of it the sun lights.
     pub lit_spray: Option<Image<f32>>,
+    /// With motion vectors.
+    pub motion: Option<Image<[f32; 2]>>,
     /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
     /// times where they lie; light over what comes without water.
     pub light_front: Option<Image<f32>>,
@@ -464,6 +470,7 @@ impl<'g> Rig<'g> {
             foam: None,
             spray: None,
             lit_spray: None,
+            motion: None,
             light_front: None,
             light_thickness: None,
             caustics: None,
@@ -522,6 +529,7 @@ impl<'g> Rig<'g> {
                     drawn.spray = Some(both.map(|s| s[0]));
                     drawn.lit_spray = Some(both.map(|s| s[1]));
                 }
+                "motion" => drawn.motion = Some(self.pairs(layer, whole)),
                 "light.front" => drawn.light_front = Some(self.floats(layer, whole)),
                 "light.thickness" => {
                     let bytes = self.bytes(layer, whole);

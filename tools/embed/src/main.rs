@@ -168,6 +168,7 @@ pub fn draw(
             particles,
             camera: Camera { view, projection },
             sun: Sun::default(),
+            previous: None,
             settings: &settings,
         };
 

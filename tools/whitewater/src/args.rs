@@ -74,8 +74,8 @@ pub struct RenderArgs {
     /// Particle radius of the solver, half the spacing at rest [default: estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
-    /// Frames a second of the sequence, by which foam comes and goes [default: found from positions and
-    /// velocities]
+    /// Frames a second of the sequence, by which foam comes and goes and the motion layer is made
+    /// [default: found from positions and velocities]
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
@@ -123,7 +123,9 @@ pub struct DrawArgs {
     /// Direction to the sun [default: of the sky -0.7,0.55,-0.35; of a file its brightest spot]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
-    /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene
+    /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene. motion.X and
+    /// motion.Y: pixels from where what a pixel shows was in the frame before, x to the right and y
+    /// down; of the first frame of a sequence 0, of the scene by the camera alone
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
     /// Brightness of the PNG in stops, on top of what fits the environment

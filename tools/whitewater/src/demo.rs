@@ -61,10 +61,11 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
-    let look = Look { camera, settings, environment, scene, foam, shadows, region, fps: None };
+    let look =
+        Look { camera, settings, environment, scene, foam, shadows, region, fps: None, rate: None };
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut progress = Progress::new(1);
-    session.frame(0, "waterfall", &particles)?;
+    session.frame(0, None, "waterfall", &particles)?;
     let paths: Vec<_> = session.paths(0).iter().map(|p| p.display().to_string()).collect();
     progress.advance(&format!(
         "{count} particles, {:.2} s, {}",

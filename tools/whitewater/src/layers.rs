@@ -8,7 +8,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 13] = [
+const GROUPS: [&str; 14] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -22,7 +22,11 @@ const GROUPS: [&str; 13] = [
     "foam.thickness.front",
     "spray",
     "scene",
+    MOTION,
 ];
+
+/// From where what a pixel shows was in the frame before, in pixels.
+pub const MOTION: &str = "motion";
 
 /// Understands `--layers`.
 pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
@@ -76,6 +80,18 @@ fn merged(picture: &Picture<f32>, width: usize, merge: Merge) -> Picture<f32> {
         merge.of((y * n..(y + 1) * n).flat_map(|y| row(y, x).iter().copied()), n * n)
     };
     let (width, height) = (picture.width / n, picture.height / n);
+    let data = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
+}
+
+/// Of each square of pixels that [`merged`] makes one, which is the nearest: of the first of a depth.
+fn nearest(depths: &Picture<f32>, width: usize) -> Picture<usize> {
+    let n = (depths.width / width).max(1);
+    let (width, height) = (depths.width / n, depths.height / n);
+    let pixel = |x: usize, y: usize| {
+        let all = (0..n * n).map(|i| (y * n + i / n) * depths.width + x * n + i % n);
+        all.min_by(|a, b| depths.data[*a].total_cmp(&depths.data[*b])).unwrap_or(0)
+    };
     let data = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     Picture { width, height, data: data.map(|(x, y)| pixel(x, y)).collect() }
 }
@@ -148,6 +164,24 @@ pub fn collect(
         let depth = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
         push("scene.Z", &depth, Merge::Nearest)?;
     }
+    if wanted.contains(&MOTION)
+        && let (Some(x), Some(y)) = (headless.layer("motion.X")?, headless.layer("motion.Y")?)
+    {
+        // A mean over an outline is no motion of anything: that of the nearest sample.
+        let mut depths = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
+        for name in ["water.depth", "foam.depth"] {
+            if let Some(layer) = headless.layer(name)? {
+                depths.data.iter_mut().zip(layer.data).for_each(|(z, other)| *z = z.min(other));
+            }
+        }
+        let samples = nearest(&depths, width);
+        // In pixels of the picture.
+        let scale = samples.width as f32 / x.width as f32;
+        for (name, picture) in [("motion.X", x), ("motion.Y", y)] {
+            let picture = samples.map(|i| picture.data[*i] * scale);
+            push(name, &picture, Merge::Mean)?;
+        }
+    }
     Ok(layers)
 }
 
@@ -177,9 +211,18 @@ mod tests {
     }
 
     #[test]
+    fn the_nearest_sample_is_found() {
+        let data = vec![1.0, 2.0, EMPTY, 4.0, 3.0, 0.5, 7.0, 4.0];
+        let picture = Picture { width: 4, height: 2, data };
+        assert_eq!(nearest(&picture, 2).data, [5, 3]);
+        assert_eq!(nearest(&picture, 4).data, [0, 1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
     fn layer_names_are_understood() {
         assert_eq!(wanted("all").unwrap().len(), GROUPS.len());
         assert_eq!(wanted("water.depth.Z, scene").unwrap(), ["water.depth", "scene"]);
+        assert_eq!(wanted("motion").unwrap(), [MOTION]);
         assert!(wanted("water").is_err() && wanted("").is_err());
         assert!(wanted("none").unwrap().is_empty());
     }

@@ -52,7 +52,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         return Ok(());
     }
     let mut probes = Probes::read(args, &all, &left)?;
-    let (sequence, settings) = (all.len() > 1, settings.unwrap_or_default());
+    let settings = settings.unwrap_or_default();
+    let sequence = Sequence { is: all.len() > 1, motion: session::has_motion(&checked) };
     let look = look(args, sequence, &mut probes, camera, settings, environment, &progress)?;
     let mut session = Session::new(&args.draw, checked, look)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
@@ -93,7 +94,8 @@ fn draw(
     if session.remembers() {
         remember(args, session, all, frame, particles.positions.len())?;
     }
-    session.frame(number, &frame.path.display().to_string(), &particles)?;
+    let before = all.iter().map(|f| f.number).filter(|n| *n < number).max();
+    session.frame(number, before, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
     Ok(format!(
         "frame {number}: {} particles, {:.2} s, {}",
@@ -227,9 +229,18 @@ const GUESSED_DENSITIES: [f32; 3] = [0.42, 0.5, 0.6];
 /// Where they can't be found.
 const DEFAULT_FPS: f32 = 30.0;
 
+/// What time is needed for.
+#[derive(Clone, Copy)]
+struct Sequence {
+    /// There is more than one frame.
+    is: bool,
+    /// Motion vectors are wanted.
+    motion: bool,
+}
+
 fn look(
     args: &RenderArgs,
-    sequence: bool,
+    sequence: Sequence,
     probes: &mut Probes,
     camera: Option<CameraFile>,
     file: SettingsFile,
@@ -317,8 +328,9 @@ fn look(
         ));
     }
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
-    let remembers = sequence && foam.is_some() && probes.frames.iter().any(moving);
-    let fps = remembers.then(|| match (args.fps, probes.fps) {
+    let remembers = sequence.is && foam.is_some() && probes.frames.iter().any(moving);
+    let vectors = sequence.is && sequence.motion;
+    let fps = (remembers || vectors).then(|| match (args.fps, probes.fps) {
         (Some(fps), _) => fps,
         (None, Some(fps)) => {
             progress.say(&format!("{} frames a second (found; --fps sets it)", round(fps)));
@@ -331,7 +343,9 @@ fn look(
     });
     let region = bounds.region();
     let shadows = file.shadows().map_err(Failure::input)?;
-    Ok(Look { camera, settings, environment, scene, foam, shadows, region, fps })
+    let rate = fps.filter(|_| vectors);
+    let fps = fps.filter(|_| remembers);
+    Ok(Look { camera, settings, environment, scene, foam, shadows, region, fps, rate })
 }
 
 /// Four digits are enough to read.

@@ -8,7 +8,7 @@ use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Head
 use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, Shadows, WaterSettings};
-use whitewater::{Config, Region, Settings};
+use whitewater::{Config, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, ShadowArg, SprayArg};
 use crate::camera::{CameraFile, Lens};
@@ -33,6 +33,8 @@ pub struct Look {
     pub region: Region,
     /// Frames a second by which foam comes and goes; none: each frame for itself.
     pub fps: Option<f32>,
+    /// Frames a second by which the motion layer is made; none: nothing moves.
+    pub rate: Option<f32>,
 }
 
 /// Numbers of the frames by which foam came and went.
@@ -47,6 +49,8 @@ pub struct Session<'a> {
     args: &'a DrawArgs,
     targets: Vec<Target>,
     wanted: Vec<&'static str>,
+    /// Motion vectors are made.
+    motion: bool,
     look: Look,
     /// The frame whose scene is on the device.
     staged: u64,
@@ -69,6 +73,12 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target>, Vec<&'sta
         Times::check(path, true)?;
     }
     Ok((targets, wanted))
+}
+
+/// Whether any picture will hold motion vectors.
+pub fn has_motion((targets, wanted): &(Vec<Target>, Vec<&'static str>)) -> bool {
+    let exr = |target: &Target| target.format == PictureFormat::Exr;
+    wanted.contains(&layers::MOTION) && targets.iter().any(exr)
 }
 
 /// The environment that is asked for; `sun`: of the sky, where nothing is said.
@@ -105,9 +115,11 @@ impl<'a> Session<'a> {
     /// Checks the outputs and opens the device.
     pub fn new(
         args: &'a DrawArgs,
-        (targets, wanted): (Vec<Target>, Vec<&'static str>),
+        checked: (Vec<Target>, Vec<&'static str>),
         look: Look,
     ) -> Outcome<Self> {
+        let motion = has_motion(&checked);
+        let (targets, wanted) = checked;
         for path in [&args.timings, &args.trace].into_iter().flatten() {
             output::probe(path)?;
         }
@@ -121,6 +133,7 @@ impl<'a> Session<'a> {
             args,
             targets,
             wanted,
+            motion,
             look,
             staged: 0,
             device,
@@ -164,6 +177,7 @@ impl<'a> Session<'a> {
         config.spray = args.spray == SprayArg::Auto;
         config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
         config.cast = (args.shadows == ShadowArg::All).then(|| light_texels(width));
+        config.motion = self.motion;
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
@@ -187,10 +201,26 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Draws one frame and writes its pictures.
-    pub fn frame(&mut self, number: u64, source: &str, particles: &Particles) -> Outcome<()> {
+    /// Draws one frame and writes its pictures; `before`: number of the one before it in the sequence.
+    pub fn frame(
+        &mut self,
+        number: u64,
+        before: Option<u64>,
+        source: &str,
+        particles: &Particles,
+    ) -> Outcome<()> {
         self.look.scene.frame = number;
         self.make_room(particles.positions.len())?;
+        let previous = match (before.filter(|_| self.motion), self.look.rate) {
+            (Some(before), Some(rate)) => {
+                let camera = self.look.camera.at_frame(before).camera(self.args.size)?;
+                Some(Previous { camera, dt: number.saturating_sub(before) as f32 / rate })
+            }
+            _ => None,
+        };
+        if let Some(headless) = &mut self.headless {
+            headless.previous(previous);
+        }
         self.timed(|this, times| this.frame_timed(number, source, particles, true, times))
     }
 

@@ -33,7 +33,6 @@ use crate::gpu::Gpu;
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::image::Image;
-use crate::headless::depth_of_nothing;
 use color::Color;
 use depth::Depth;
 use geometry::Geometry;
@@ -215,7 +214,7 @@ impl SceneRenderer {
         if frame.color.extent != frame.depth.extent {
             return Err(Error::bad("SceneFrame.depth", "not of the colour image's size"));
         }
-        let far = depth_of_nothing(&lens);
+        let far = lens.nothing();
         let uniforms =
             Uniforms::new(&self.surroundings, &self.shadow.sun, frame.camera, &lens, far);
         let bytes = bytemuck::bytes_of(&uniforms);

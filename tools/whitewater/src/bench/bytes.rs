@@ -34,6 +34,18 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "spray" => {
             4 * u64::from(drawn.particles) + (12 + 64) * u64::from(drawn.counts.spray) + 4 * full
         }
+        // Depth in, two depths a texel out and in, sums cleared, those seen added to and read; positions
+        // and velocities in; depth, scene depth and surface in, vectors out.
+        "motion" => {
+            let sums = if drawn.config.thickness_level == 0 { 32 } else { 64 };
+            let covered = drawn.covered / (full / thick).max(1);
+            (4 + 4 + 8) * full
+                + 4 * (full - drawn.covered)
+                + 4 * reduced
+                + (16 + sums) * thick
+                + 3 * 32 * covered
+                + 24 * u64::from(drawn.particles)
+        }
         // Positions in twice, both maps cleared.
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
         // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.

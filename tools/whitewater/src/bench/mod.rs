@@ -14,7 +14,7 @@ use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptio
 use whitewater::water::{
     Convolution, FoamLook, FoamSettings, Gate, Rule, Shading, Shadows, Smoothing, Splat,
 };
-use whitewater::{Camera, Config, Region, Settings};
+use whitewater::{Camera, Config, Previous, Region, Settings};
 
 use crate::bounds::Bounds;
 use crate::failure::Outcome;
@@ -81,6 +81,8 @@ pub enum Path {
     Foam,
     /// With spray: the highest fortieth of the particles is nothing else
     Spray,
+    /// With motion vectors
+    Motion,
     /// With shadows and caustics of the water, maps of 512 texels a side
     Light,
     /// Shadows of a plate over the pool, by percentage-closer filtering of its map of 2048 texels
@@ -125,6 +127,7 @@ impl Path {
             Self::OneSheet => config.sheets = 1,
             Self::Foam => config.foam = true,
             Self::Spray => config.spray = true,
+            Self::Motion => config.motion = true,
             Self::Light => config.cast = Some(512),
             Self::Pcf => config.shadow = Some(Shadows::Map),
             Self::Convolution => {
@@ -232,6 +235,11 @@ fn sample(
     if config.foam {
         settings.foam = FoamLook::of_spacing(pool.spacing);
         foaming = foam(headless, pool)?;
+    }
+    if config.motion {
+        let velocities: Vec<[f32; 3]> = pool.positions.iter().map(|p| [p[1], -p[0], 0.0]).collect();
+        headless.motion(&velocities, None)?;
+        headless.previous(Some(Previous { camera, dt: 1.0 / 60.0 }));
     }
     let mut samples: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut totals = Vec::new();

@@ -17,6 +17,8 @@ fn a_block_of_water_has_all_its_layers() {
         "B",
         "G",
         "R",
+        "motion.X",
+        "motion.Y",
         "scene.Z",
         "spray",
         "water.back.Z",
@@ -73,6 +75,7 @@ fn layers_can_be_chosen() {
     };
     assert_eq!(names("none"), 4);
     assert_eq!(names("water.depth.Z,scene"), 6);
+    assert_eq!(names("motion"), 6);
     folder.run("render a.ply -o a.exr --layers water").fails(2, &["water.depth", "'water'"]);
 }
 

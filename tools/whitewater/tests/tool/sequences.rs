@@ -1,5 +1,7 @@
 //! Many frames: names, ranges, reruns, bad frames.
 
+use whitewater::io::picture::{EMPTY, Layers};
+
 use super::support::{Folder, SMALL, block};
 
 fn sequence(folder: &Folder) {
@@ -93,6 +95,62 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
     folder.text("f_2.csv", "x,y\n1,2\n");
     folder.run(&format!("render f_*.csv -o d_%d.exr {common} --frames 4")).ok();
     assert!(foam("d_4.exr") < fourth);
+}
+
+/// A block that flies to the right and a little up, before a camera that rests or follows it.
+#[test]
+fn motion_is_what_moved_in_a_frame() {
+    let folder = Folder::new();
+    let (fps, speed) = (8.0_f32, [0.8_f32, 0.4]);
+    for frame in 1..=3_u8 {
+        let time = f32::from(frame) / fps;
+        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
+            let (x, y) = (x + speed[0] * time, y + speed[1] * time);
+            rows += &format!("{x},{y},{z},{},{},0,{i}\n", speed[0], speed[1]);
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    let keys = |frame: u8| {
+        let x = 0.1 + speed[0] * f32::from(frame) / fps;
+        format!("{{\"frame\":{frame},\"eye\":[{x},0.2,3],\"target\":[{x},0.2,0]}}")
+    };
+    let of = |k: &str| format!("{{\"fov_y_degrees\":40,\"keys\":[{k}]}}");
+    folder.text("rests.json", &of(&keys(2)));
+    folder.text("follows.json", &of(&[1, 2, 3].map(keys).join(",")));
+    for (camera, supersample) in [("rests", 1), ("rests", 2), ("follows", 2)] {
+        let common = format!(
+            "{SMALL} --layers motion,water.depth,scene --camera {camera}.json --foam none \
+             --supersample {supersample} --overwrite"
+        );
+        let run = folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok();
+        assert!(run.stderr().contains("8 frames a second (found"), "{}", run.stderr());
+        folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 3")).ok();
+        folder.run("compare a_3.exr b_3.exr").ok();
+        let first = folder.picture("a_1.exr");
+        let motion = |picture: &Layers, name| picture.channel(name).unwrap().to_vec();
+        assert!(motion(&first, "motion.X").iter().all(|x| *x == 0.0), "no frame before");
+        let picture = folder.picture("a_2.exr");
+        let depth = motion(&picture, "water.depth.Z");
+        let [x, y] = ["motion.X", "motion.Y"].map(|name| motion(&picture, name));
+        let mut seen = 0;
+        let scene = motion(&picture, "scene.Z");
+        // A pixel at an outline has the motion of what is nearest in it.
+        for (i, z) in depth.into_iter().enumerate().filter(|(i, z)| *z < scene[*i].min(EMPTY)) {
+            seen += 1;
+            // 64 rows are 40 degrees.
+            let pixels = 32.0 / 20.0_f32.to_radians().tan() / z / fps;
+            let along = if camera == "rests" { speed[0] } else { 0.0 };
+            let off = [x[i] - along * pixels, y[i] + speed[1] * pixels];
+            // The smoothed surface is no farther than a few radii from the frontmost.
+            assert!(off.iter().all(|off| off.abs() < 0.1 * 0.9 * pixels), "{camera}: {off:?}");
+        }
+        assert!(seen > 100, "{camera}: {seen} pixels");
+        // The ground stands still, and passes a camera that moves.
+        let ground = (96 * 60..96 * 64).filter(|i| scene[*i] < EMPTY);
+        let passes = ground.map(|i| x[i]).fold(0.0, f32::min);
+        assert_eq!(passes < -1.0, camera == "follows", "{camera}: {passes}");
+    }
 }
 
 #[test]

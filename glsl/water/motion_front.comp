@@ -1,0 +1,41 @@
+#version 460
+// Pass `motion`, first part: the surfaces in each texel; its sums begin at nothing.
+// Reads: depth, foam depth and thickness. Writes: fronts, sums.
+
+#include "frame.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(push_constant, std430) uniform Push { uint level; } push;
+
+#include "motion.glsl"
+#include "shown_foam.glsl"
+
+layout(set = 0, binding = 3) uniform sampler2D depth;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, texel_extent()))) {
+        return;
+    }
+    ivec2 last = min((texel + 1) * texel_edge(), ivec2(frame.extent.xy));
+    float nearest = EMPTY;
+    float farthest = 0.0;
+    for (int y = texel.y * texel_edge(); y < last.y; ++y) {
+        for (int x = texel.x * texel_edge(); x < last.x; ++x) {
+            float z = min(texelFetch(depth, ivec2(x, y), 0).x, shown_foam(ivec2(x, y)));
+            nearest = min(nearest, z);
+            farthest = z < EMPTY ? max(farthest, z) : farthest;
+        }
+    }
+    // What is near the first is near the second too, else.
+    bool other = nearest < EMPTY && farthest - nearest > 3.0 * frame.particle.x;
+    uint at = texel_index(texel);
+    fronts[at] = vec2(nearest, other ? farthest : EMPTY);
+    for (uint surface = 0u; surface < surfaces(); ++surface) {
+        for (uint i = 0u; i < 4u; ++i) {
+            sums[sum_index(at, surface, i)] = 0u;
+            sums[sum_index(at, surface, i) + 1u] = 0u;
+        }
+    }
+}

@@ -1,0 +1,138 @@
+#version 460
+// Pass `motion`, last part: where what a pixel shows was in the frame before, in pixels from there to
+// here. Of water and foam by their own motion and the camera's, of the scene by the camera's alone.
+// All of it is differences: nothing that moved is nothing, and small motion is as exact as large.
+// Reads: fronts, sums, depth, foam depth and thickness, smoothed, levels, scene depth. Writes: motion.
+
+#include "frame.glsl"
+#include "level.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(push_constant, std430) uniform Push { uint level; } push;
+
+#include "motion.glsl"
+#include "shown_foam.glsl"
+
+layout(set = 0, binding = 3) uniform sampler2D depth;
+layout(set = 0, binding = 5) uniform sampler2D smoothed;
+layout(set = 0, binding = 6) uniform sampler2D scene_depth;
+// Of a format that shaders may only be told of by a feature: written without being told.
+layout(set = 0, binding = 8) uniform writeonly image2D motion;
+
+// A 64-bit sum as it is rounded once.
+float sum_at(uint at) {
+    uint low = sums[at];
+    uint high = sums[at + 1u];
+    bool negative = (high & 0x80000000u) != 0u;
+    if (negative) {
+        low = ~low + 1u;
+        high = ~high + (low == 0u ? 1u : 0u);
+    }
+    float value = float(high) * 4294967296.0 + float(low);
+    return negative ? -value : value;
+}
+
+// Weight times displacement, and weight, of the surface of a texel that is nearer to a depth and has
+// any; how far it is from it.
+vec4 texel_sums(ivec2 texel, float z, out float away) {
+    uint at = texel_index(texel);
+    vec2 front = fronts[at];
+    away = 2.0 * EMPTY;
+    uint nearer = 0u;
+    float weight = 0.0;
+    uint count = surfaces_of(front);
+    for (uint surface = 0u; surface < count; ++surface) {
+        float off = abs(front[surface] - z);
+        float there = front[surface] < EMPTY ? sum_at(sum_index(at, surface, 3u)) : 0.0;
+        bool better = there > 0.0 && off < away;
+        away = better ? off : away;
+        nearer = better ? surface : nearer;
+        weight = better ? there : weight;
+    }
+    vec3 moved = vec3(sum_at(sum_index(at, nearer, 0u)), sum_at(sum_index(at, nearer, 1u)),
+                      sum_at(sum_index(at, nearer, 2u)));
+    return weight > 0.0 ? vec4(moved, weight) : vec4(0.0);
+}
+
+// How far the surface at a depth has come, eye space, in spacings: of the four texels round the pixel
+// those on its surface, with bilinear weights; where there are none, of the sixteen that nearest in depth.
+vec3 moved_at(vec2 pixel, float z) {
+    vec2 h = pixel / float(texel_edge()) - 0.5;
+    ivec2 base = ivec2(floor(h));
+    vec2 f = h - vec2(base);
+    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    ivec2 last = texel_extent() - 1;
+    vec4 sum = vec4(0.0);
+    // Ends of loops, not branches: a CPU runs branches whole.
+    int texels = z < EMPTY ? 4 : 0;
+    for (int i = 0; i < texels; ++i) {
+        ivec2 texel = base + ivec2(i & 1, i >> 1);
+        if (all(greaterThanEqual(texel, ivec2(0))) && all(lessThanEqual(texel, last)) && w[i] > 0.0) {
+            float away;
+            vec4 there = texel_sums(texel, z, away);
+            sum += away <= frame.surface.w ? w[i] * there : vec4(0.0);
+        }
+    }
+    texels = z < EMPTY && sum.w == 0.0 ? 16 : 0;
+    float least = 2.0 * EMPTY;
+    for (int i = 0; i < texels; ++i) {
+        ivec2 texel = clamp(base + ivec2(i & 3, i >> 2) - 1, ivec2(0), last);
+        float away;
+        vec4 there = texel_sums(texel, z, away);
+        sum = away < least ? there : sum;
+        least = min(least, away);
+    }
+    return sum.w > 0.0 ? sum.xyz / sum.w : vec3(0.0);
+}
+
+// Depth of the smoothed surface that a pixel's own depth lies on: the mean of the texels of it.
+float smoothed_at(vec2 pixel, float front) {
+    Level level = levels.level[finer_level()];
+    vec2 h = pixel / level.texel.z - 0.5;
+    ivec2 base = ivec2(floor(h));
+    vec2 f = h - vec2(base);
+    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    float sum = 0.0;
+    float all = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), level.rect.zw - 1);
+        float off = texelFetch(smoothed, level.rect.xy + texel, 0).x - front;
+        bool own = abs(off) <= frame.surface.w;
+        sum += own ? w[i] * off : 0.0;
+        all += own ? w[i] : 0.0;
+    }
+    return all > 0.0 ? front + sum / all : front;
+}
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(p, ivec2(frame.extent.xy)))) {
+        return;
+    }
+    vec2 pixel = vec2(p) + 0.5;
+    vec2 slope = ray_slope(pixel, frame.slope);
+    float water = texelFetch(depth, p, 0).x;
+    float foam = shown_foam(p);
+    float front = min(water, foam);
+    float z = front;
+    vec3 moved = moved_at(pixel, front) * frame.motion.y;
+    if (front < EMPTY) {
+        z = foam < water ? foam : smoothed_at(pixel, water);
+    } else {
+        float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;
+        float scene = eye_depth(device);
+        // Nothing there: reversed infinite depth at infinity is 1/0, or negative by rounding.
+        z = device == frame.before_lens.w || !(scene > 0.0 && scene < EMPTY) ? EMPTY : scene;
+    }
+    // Where it was in the eye space of the frame before, less where it is in this one's; of what is at
+    // infinity both as directions.
+    bool sky = z >= EMPTY;
+    vec3 here = vec3(slope, -1.0) * (sky ? 1.0 : z) - moved;
+    vec3 change = mat3(frame.before) * here - moved + (sky ? vec3(0.0) : frame.before[3].xyz);
+    // What was behind the eye was nowhere: as if just before it.
+    float before = max((sky ? 1.0 : z) - change.z, sky ? 1.0e-3 : frame.before_lens.z);
+    vec2 slope_change = (change.xy + slope * change.z) / before;
+    vec2 vector = slope * frame.lens_change.xy - frame.lens_change.zw - slope_change * frame.before_lens.xy;
+    imageStore(motion, p, vec4(0.5 * frame.extent.xy * vector, 0.0, 0.0));
+}

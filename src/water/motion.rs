@@ -1,0 +1,311 @@
+//! Pass `motion`: motion vectors, for motion blur, denoising and temporal anti-aliasing.
+//!
+//! Not in the sources. Of each pixel, in pixels of the frame (row 0 on top), from where what it shows
+//! was in the frame before to where it is in this one: of water and foam the surface's own motion and
+//! the camera's, of the rest the scene's by the camera alone, at its depth or, where nothing is, at
+//! infinity by rotation alone. The surface's motion is a mean of the velocities of the particles near
+//! it, within a radius behind the frontmost wholly and no farther than three, weighted as their
+//! thickness; it is not that of what is seen through the water. Sums are of integers at the
+//! resolution of the thickness, of the nearest and of the farthest surface in each texel, so that
+//! outlines keep both sides' motion; a pixel takes what lies on its own surface. Spray has none of its
+//! own: a pixel under droplets has the motion of what is behind them.
+//! RG32F: half floats would be a thirty-second of a pixel off at a hundred, half a pixel at a thousand.
+//! Foam counts where it hides half of what is behind it.
+//! Reads: the counts of `cull`, the host's particles, depth, foam depth and thickness, smoothed surface,
+//! scene depth.
+//! Writes: motion, RG32F, all of it.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::Recording;
+use super::cull::{SphereList, Window};
+use crate::contract::{Config, Layer, Particles, Stream};
+use crate::error::Error;
+use crate::frame::reduced;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+    FRAGMENT_SAMPLED, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+
+/// Workgroups over the particles at most; more particles share them.
+const MOST_GROUPS: u32 = 4096;
+
+/// How the host finds the layer.
+pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    position_word: u32,
+    position_stride: u32,
+    velocity_word: u32,
+    velocity_stride: u32,
+    density_word: u32,
+    density_stride: u32,
+    foam_word: u32,
+    foam_stride: u32,
+    level: u32,
+}
+shader::assert_layout!(
+    shader::WATER_MOTION_COMP,
+    "Push",
+    Push {
+        position_word,
+        position_stride,
+        velocity_word,
+        velocity_stride,
+        density_word,
+        density_stride,
+        foam_word,
+        foam_stride,
+        level,
+    }
+);
+
+/// What it is made from, each as fragments sample it; they come back so.
+pub struct Surfaces<'a> {
+    pub depth: &'a Image,
+    /// Its depth and its thickness.
+    pub foam: Option<[&'a Image; 2]>,
+    pub smoothed: &'a Image,
+    /// The resolutions of the smoothing.
+    pub levels: Resource,
+}
+
+/// The pass.
+pub struct Motion {
+    front: Pipeline,
+    each: Pipeline,
+    resolve: Pipeline,
+    fronts: Buffer,
+    sums: Buffer,
+    image: Image,
+    level: u32,
+}
+
+/// Surfaces told apart in a texel: one where it is a pixel.
+fn surfaces(level: u32) -> u32 {
+    if level == 0 { 1 } else { 2 }
+}
+
+fn texels(config: &Config, level: u32) -> u64 {
+    let size = reduced(config.extent, level);
+    u64::from(size.width) * u64::from(size.height)
+}
+
+/// Bytes of the sums: weight and weighted displacement in two words each.
+fn sum_bytes(config: &Config, level: u32) -> u64 {
+    32 * u64::from(surfaces(level)) * texels(config, level)
+}
+
+/// The resolution: that of the thickness, or the finest below at which the device binds the sums at
+/// once.
+fn level(gpu: &Gpu, config: &Config) -> u32 {
+    let range = u64::from(gpu.limits.max_storage_buffer_range);
+    (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)
+}
+
+impl Motion {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let constants = [(9, u32::from(config.foam))];
+        let compute = |shader| Pipeline::compute(gpu, shader, &constants);
+        let level = level(gpu, config);
+        let (fronts, sums, image) = Self::sized(gpu, config, level)?;
+        Ok(Self {
+            front: compute(shader::WATER_MOTION_FRONT_COMP)?,
+            each: compute(shader::WATER_MOTION_COMP)?,
+            resolve: compute(shader::WATER_MOTION_RESOLVE_COMP)?,
+            fronts,
+            sums,
+            image,
+            level,
+        })
+    }
+
+    fn sized(gpu: &Gpu, config: &Config, level: u32) -> Result<(Buffer, Buffer, Image), Error> {
+        let make = |name, bytes| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
+        };
+        let usage = vk::ImageUsageFlags::STORAGE
+            | vk::ImageUsageFlags::SAMPLED
+            | vk::ImageUsageFlags::TRANSFER_SRC;
+        let format = vk::Format::R32G32_SFLOAT;
+        let image = ImageDesc::new("water/motion", config.extent, format, usage);
+        Ok((
+            make("water/motion/fronts", 8 * texels(config, level))?,
+            make("water/motion/sums", sum_bytes(config, level))?,
+            Image::new(gpu, &image)?,
+        ))
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        self.level = level(gpu, config);
+        let (fronts, sums, image) = Self::sized(gpu, config, self.level)?;
+        retired.retire(std::mem::replace(&mut self.fronts, fronts));
+        retired.retire(std::mem::replace(&mut self.sums, sums));
+        retired.retire(std::mem::replace(&mut self.image, image));
+        Ok(())
+    }
+
+    /// `list`: of `cull`, for its counts.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: &Particles,
+        list: &SphereList,
+        from: &Surfaces<'_>,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"motion");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let (fronts, sums) = (self.fronts.handle, self.sums.handle);
+        let images: Vec<_> = [from.depth, from.smoothed]
+            .into_iter()
+            .chain(from.foam.into_iter().flatten())
+            .collect();
+        let hand = |from, to| -> Vec<_> {
+            images.iter().map(|image| access::image(image, from, to)).collect()
+        };
+        // In: what is read, and ours from the frame before.
+        let mut first = hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED);
+        first.push(access::image(&self.image, AFTER.and(COPY_READ).discarded(), COMPUTE_WRITE));
+        let before = [
+            buffer(fronts, COMPUTE_READ, COMPUTE_WRITE),
+            buffer(sums, COMPUTE_READ, COMPUTE_WRITE),
+        ];
+        gpu.barriers(cmd, &first, &before);
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        // Where there is none it is not read.
+        let [foam, foam_thickness] = from.foam.unwrap_or([from.depth; 2]).map(sampled);
+        let ours = [
+            (0, r.uniforms),
+            (1, Resource::buffer(&self.fronts)),
+            (2, Resource::buffer(&self.sums)),
+        ];
+        let front = [(3, sampled(from.depth)), (4, foam), (9, foam_thickness)];
+        r.descriptors.bind(gpu, cmd, &self.front, &[&ours[..], &front].concat())?;
+        self.front.push(gpu, cmd, &self.level);
+        r.dispatch_over(reduced(r.extent, self.level), self.front.local_size);
+        // Particles without velocities are at rest: nothing to sum.
+        if let Some(velocities) = &particles.velocities {
+            let between = [
+                buffer(fronts, COMPUTE_WRITE, COMPUTE_READ),
+                buffer(sums, COMPUTE_WRITE, COMPUTE_READ_WRITE),
+            ];
+            gpu.barriers(cmd, &[], &between);
+            for index in 0..list.chunks {
+                self.record_chunk(r, particles, velocities, list, index)?;
+            }
+            let after = [buffer(sums, COMPUTE_READ_WRITE, COMPUTE_READ)];
+            gpu.barriers(cmd, &[], &after);
+        } else {
+            let after = [fronts, sums].map(|handle| buffer(handle, COMPUTE_WRITE, COMPUTE_READ));
+            gpu.barriers(cmd, &[], &after);
+        }
+        let resolve = [
+            (3, sampled(from.depth)),
+            (4, foam),
+            (5, sampled(from.smoothed)),
+            (6, r.scene_depth),
+            (7, from.levels),
+            (8, Resource::storage(&self.image)),
+            (9, foam_thickness),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.resolve, &[&ours[..], &resolve].concat())?;
+        self.resolve.push(gpu, cmd, &self.level);
+        r.dispatch_over(r.extent, self.resolve.local_size);
+        let mut last = hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED);
+        last.push(access::image(&self.image, COMPUTE_WRITE, AFTER));
+        gpu.barriers(cmd, &last, &[]);
+        r.end(scope);
+        Ok(())
+    }
+
+    fn record_chunk(
+        &self,
+        r: &Recording<'_>,
+        particles: &Particles,
+        velocities: &Stream,
+        list: &SphereList,
+        index: u32,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let first = index * list.chunk_size;
+        // A stream that ends before the chunk has no particles in it: the count was clamped.
+        let bound =
+            [&particles.positions, velocities].map(|stream| Window::new(gpu, stream, first));
+        let [Some(positions), Some(velocities)] = bound else {
+            return Ok(());
+        };
+        let [Some(densities), Some(foam)] =
+            [&particles.densities, &particles.foam].map(|stream| positions.or(gpu, stream, first))
+        else {
+            return Ok(());
+        };
+        r.descriptors.bind(
+            gpu,
+            cmd,
+            &self.each,
+            &[
+                (0, r.uniforms),
+                (1, Resource::buffer(&self.fronts)),
+                (2, Resource::buffer(&self.sums)),
+                (3, list.chunk(index).counts),
+                (4, positions.resource),
+                (5, velocities.resource),
+                (6, densities.resource),
+                (7, foam.resource),
+            ],
+        )?;
+        self.each.push(
+            gpu,
+            cmd,
+            &Push {
+                position_word: positions.word,
+                position_stride: positions.stride,
+                velocity_word: velocities.word,
+                velocity_stride: velocities.stride,
+                density_word: densities.word,
+                density_stride: densities.stride,
+                foam_word: foam.word,
+                foam_stride: foam.stride,
+                level: self.level,
+            },
+        );
+        let groups = list.chunk_size.div_ceil(self.each.local_size[0]).min(MOST_GROUPS);
+        // SAFETY: outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+        Ok(())
+    }
+
+    /// The layer of a frame of a size.
+    pub fn layer(&self, frame: vk::Extent2D) -> Layer {
+        Layer {
+            name: "motion",
+            image: self.image.handle,
+            view: self.image.view,
+            format: self.image.format,
+            extent: frame,
+            access: AFTER,
+        }
+    }
+
+    /// Bytes of images and buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        (self.image.size, self.fronts.size + self.sums.size)
+    }
+}
