@@ -7,7 +7,7 @@ use whitewater::io::particles::{self, Particles};
 use whitewater::water::FoamLook;
 
 use crate::args::{RenderArgs, Up};
-use crate::bounds::Bounds;
+use crate::bounds::{self, Bounds};
 use crate::camera::CameraFile;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
@@ -201,7 +201,8 @@ impl Probes {
     }
 
     fn spacing(&self) -> Option<f32> {
-        self.frames.iter().find_map(|f| particles::estimate_spacing(&f.positions))
+        let each = |f: &Particles| particles::estimate_spacing(&bounds::together(&f.positions));
+        self.frames.iter().find_map(each)
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -285,7 +286,9 @@ fn look(
         Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds),
         Some(path) => stage::read(path)?,
         None => {
-            let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+            let frames: Vec<_> =
+                probes.frames.iter().map(|f| bounds::together(&f.positions)).collect();
+            let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
             let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
             let eye = view.inverse().transform_point3(Vec3::ZERO);
             match stage::basin_round(&frames, &bounds, spacing, eye) {
