@@ -11,6 +11,8 @@ use whitewater::io::picture::PictureError;
 /// Kind of a failure; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
+    /// Who read the standard output has gone: nothing is wrong, and nobody is there to be told.
+    Closed = 0,
     /// Pictures differ, or some frames of a sequence failed.
     Partly = 1,
     /// The command line asks for something that cannot be.
