@@ -42,7 +42,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         numbered && !args.draw.overwrite && checked.0.iter().all(|t| there(t.path(frame.number)))
     };
     let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
-    let mut progress = Progress::new(left.len());
+    let mut progress = Progress::new(left.len(), "frames");
     if !done.is_empty() {
         let count = done.len();
         progress
@@ -51,10 +51,13 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     if left.is_empty() {
         return Ok(());
     }
-    let mut probes = Probes::read(args, &all, &left)?;
+    let steps = progress.steps();
+    let mut probes = steps.during("reading", || Probes::read(args, &all, &left))?;
     let (sequence, settings) = (all.len() > 1, settings.unwrap_or_default());
-    let look = look(args, sequence, &mut probes, camera, settings, environment, &progress)?;
-    let mut session = Session::new(&args.draw, checked, look)?;
+    let look = steps.during("finding camera and light", || {
+        look(args, sequence, &mut probes, camera, settings, environment, &progress)
+    })?;
+    let mut session = Session::new(&args.draw, checked, look, steps)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
         match draw(args, &mut session, &all, frame, &progress) {
@@ -134,6 +137,14 @@ fn read(args: &RenderArgs, frame: &Frame) -> Outcome<Particles> {
     if args.up_axis == Up::Z {
         let Particles { positions, velocities, .. } = &mut particles;
         layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
+    }
+    let far = bounds::count_far(&particles.positions);
+    if far > 0 {
+        particles.warnings.push(format!(
+            "{far} of {} positions are absurdly far from the rest, or from the origin; camera, ground \
+             and light are found without them",
+            particles.positions.len()
+        ));
     }
     Ok(particles)
 }
