@@ -1,5 +1,6 @@
-//! glTF 2.0 with triangles, base colours and base-colour textures. Own, since the reader that
-//! there is panics on files with indices out of range; images are decoded by the `image` crate.
+//! glTF 2.0 with triangles, base colours and base-colour textures. Own, since the crate for it (gltf
+//! 1.4) panics on some damaged files, as on a component type that does not fit its use, and takes data
+//! that lie outside their buffer for none; images are decoded by the `image` crate.
 
 use std::collections::HashMap;
 use std::path::Path;
