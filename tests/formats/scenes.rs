@@ -16,11 +16,11 @@ const GLB: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]
     {"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":44}]}"#;
 
 /// The JSON with a triangle as its data.
-fn glb(json: &str) -> Vec<u8> {
+fn glb(json: &[u8]) -> Vec<u8> {
     let mut data = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
     data.extend([0, 0, 1, 0, 2, 0, 0, 0]);
     let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
-    for (kind, chunk) in [(b"JSON", json.as_bytes()), (b"BIN\0", &data)] {
+    for (kind, chunk) in [(b"JSON", json), (b"BIN\0", &data)] {
         bytes.extend((chunk.len() as u32).to_le_bytes());
         bytes.extend(kind);
         bytes.extend(chunk);
@@ -43,8 +43,10 @@ type Parse = fn(&[u8]) -> Result<Scene, String>;
 
 #[test]
 fn damaged_scenes() {
-    let samples: [(&str, Vec<u8>, Parse); 3] = [
-        ("glb", glb(GLB), Scene::parse_glb),
+    let samples: [(&str, Vec<u8>, Parse); 4] = [
+        ("glb", glb(GLB.as_bytes()), Scene::parse_glb),
+        // Damage to the text alone: its chunk keeps its length.
+        ("glb's text", GLB.into(), |text| Scene::parse_glb(&glb(text))),
         ("obj", OBJ.into(), Scene::parse_obj),
         ("json", JSON.into(), Scene::parse_json),
     ];
@@ -85,7 +87,7 @@ fn a_glb_that_doubles_itself_is_refused() {
     let (head, rest) = GLB.split_once("\"nodes\":[{\"mesh").unwrap();
     let (_, tail) = rest.split_once("\"meshes\"").unwrap();
     let json = format!("{head}\"nodes\":[{},{{\"mesh\":0}}],\"meshes\"{tail}", nodes.join(","));
-    let (result, peak) = allocation::peak(|| Scene::parse_glb(&glb(&json)));
+    let (result, peak) = allocation::peak(|| Scene::parse_glb(&glb(json.as_bytes())));
     let why = result.err().unwrap();
     assert!(why.contains("more than one parent"), "{why}");
     assert!(peak < 1 << 20, "{peak}");
