@@ -11,6 +11,9 @@ mod bad;
 mod data;
 #[path = "formats/samples.rs"]
 mod samples;
+#[cfg(feature = "headless")]
+#[path = "formats/scenes.rs"]
+mod scenes;
 #[path = "formats/sequences.rs"]
 mod sequences;
 #[path = "formats/spacings.rs"]

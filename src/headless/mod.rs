@@ -241,7 +241,7 @@ impl Headless {
     /// An equirectangular picture as environment: linear RGBA, row 0 up.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// A picture larger than the device's images may be, no memory, and what Vulkan reports.
     pub fn equirectangular(
         &mut self,
         extent: vk::Extent2D,
@@ -249,6 +249,13 @@ impl Headless {
         scale: f32,
         turn: f32,
     ) -> Result<(), Error> {
+        let most = self.gpu.limits.max_image_dimension2_d;
+        if extent.width > most || extent.height > most {
+            let found = format!("{}x{}", extent.width, extent.height);
+            let why =
+                format!("expected at most {most}x{most} texels on this device, found {found}");
+            return Err(Error::bad("Equirectangular.image.extent", why));
+        }
         let format = vk::Format::R32G32B32A32_SFLOAT;
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let image =

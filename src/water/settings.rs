@@ -120,9 +120,9 @@ pub enum Gate {
 /// Uniform settings of the layered water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaterSettings {
-    /// Rest spacing of the particles (twice the solver's particle radius), scene units, (0, ∞).
+    /// Rest spacing of the particles (twice the solver's particle radius), scene units, [1e-6, ∞).
     pub spacing: f32,
-    /// Rest density in the unit of the density stream, (0, ∞), default 1000.
+    /// Rest density in the unit of the density stream, [1e-6, ∞), default 1000.
     pub rest_density: f32,
     /// Below this fraction of the rest density a particle is spray: left out (with
     /// [`Config::spray`](crate::Config) [`SprayLook::densities`] count instead). [0, ∞), default

@@ -3,7 +3,7 @@
 //!
 //! The amplitude is such that a sprite's integral over its plane is the particle's volume (the
 //! source's unit is arbitrary): absorption is per metre, and the look does not depend on how many
-//! particles resolve the same water. At half resolution by default, upsampled by `composite` with
+//! particles resolve the same water. At a quarter of the resolution by default, upsampled by `composite` with
 //! the weights of the surface. Two ways: additive sprites, and fixed-point atomic sums, whose
 //! order is no matter.
 //! Where `gaps` has found two sheets a second image holds that of each, and of a window of a spacing

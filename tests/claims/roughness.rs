@@ -70,7 +70,7 @@ pub fn measure(
 }
 
 /// Eye-space ray through the centre of a pixel, of unit depth.
-fn ray(projection: &DMat4, image: &Picture<f32>, x: usize, y: usize) -> DVec3 {
+pub fn ray(projection: &DMat4, image: &Picture<f32>, x: usize, y: usize) -> DVec3 {
     let ndc = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
     let clip = DVec4::new(ndc(x, image.width), ndc(y, image.height), 0.5, 1.0);
     let eye = projection.inverse() * clip;

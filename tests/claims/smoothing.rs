@@ -4,9 +4,10 @@
 //! each time. See `docs/smoothing.md`.
 
 use ash::vk;
-use whitewater::headless::{Background, Device, DeviceOptions, Headless};
+use glam::{DVec3, Mat4};
+use whitewater::headless::{Background, Device, DeviceOptions, Headless, Picture};
 use whitewater::water::Rule;
-use whitewater::{Config, Error, Settings};
+use whitewater::{Camera, Config, Error, Settings};
 
 use super::bed::{self, Bed, SPACING};
 use super::roughness::{self, Estimate, Found, Window};
@@ -66,6 +67,22 @@ impl Row {
     fn near(name: &'static str, zoom: f32) -> Self {
         let coarsening = Config::new(SMALL.extent, vk::Format::UNDEFINED, 1).coarsening;
         Self { zoom, coarsening, ..Self::new(name, Rule::ConstantWidth) }
+    }
+}
+
+impl Row {
+    /// The projection, and the distance of the nearest view.
+    fn placing(&self, extent: vk::Extent2D) -> (Mat4, f32) {
+        let mut water = Settings::default().water;
+        water.spacing = SPACING;
+        let wanted = water.smoothing_width * water.radius();
+        let projection = bed::projection(self.field, extent);
+        // World size of a pixel per depth.
+        let texel = 2.0 * (1 << self.placed) as f32;
+        let pixel = texel / (extent.width as f32 * projection.x_axis.x);
+        // The distance at which that many are planned at the image's centre.
+        let near = wanted / (pixel * ((self.nearest - MORE - 0.5) / PER_VARIANCE).sqrt());
+        (projection, near)
     }
 }
 
@@ -164,14 +181,8 @@ fn measure(device: Device, row: &Row, effort: Effort) -> (Device, Measured) {
     let window = Window { x: within(x), y: within(y) };
     let mut settings = Settings::default();
     settings.water.spacing = SPACING;
-    let wanted = settings.water.smoothing_width * settings.water.radius();
     settings.water.smoothing_width = row.width;
-    let projection = bed::projection(row.field, effort.extent);
-    // World size of a pixel per depth.
-    let pixel =
-        |level: u32| 2.0 * (1 << level) as f32 / (effort.extent.width as f32 * projection.x_axis.x);
-    // The distance at which that many are planned at the image's centre.
-    let near = wanted / (pixel(row.placed) * ((row.nearest - MORE - 0.5) / PER_VARIANCE).sqrt());
+    let (projection, near) = row.placing(effort.extent);
     // A margin of six spacings all round, however the bed is turned.
     let side = 2.0 * (window.x.hypot(window.y) as f32 / SPACING + 6.0);
     let config = Config {
@@ -305,4 +316,88 @@ fn table() {
     assert!(claimed[0], "the claim");
     assert!(claimed[1] && claimed[2], "near views");
     assert!(!claimed[4] && !claimed[5], "the other rules pass: the measure is blind");
+}
+
+/// Waves on the bed of the picture: its heights in spacings.
+fn wave(x: f32, y: f32) -> f32 {
+    0.4 * (x / 2.3 + 0.4 * y).sin() + 0.3 * (0.35 * x - y / 1.9 + 1.0).sin()
+}
+
+/// The surface by light that grazes it, as a screen shows it.
+fn shaded(surface: &Picture<f32>, camera: &Camera) -> Vec<[u8; 3]> {
+    let (projection, world) = (camera.projection.as_dmat4(), camera.view.as_dmat4().inverse());
+    let at = |x: usize, y: usize| {
+        let (x, y) = (x.min(surface.width - 1), y.min(surface.height - 1));
+        let ray = roughness::ray(&projection, surface, x, y);
+        world.transform_point3(f64::from(*surface.at(x, y)) * ray)
+    };
+    let light = DVec3::new(-0.85, 0.4, 0.34).normalize();
+    let eye = world.w_axis.truncate();
+    let pixel = |x: usize, y: usize| {
+        let right = at(x + 1, y) - at(x.saturating_sub(1), y);
+        let down = at(x, y + 1) - at(x, y.saturating_sub(1));
+        let normal = down.cross(right).normalize_or_zero();
+        let half = (light + (eye - at(x, y)).normalize()).normalize();
+        let glint = 0.6 * normal.dot(half).max(0.0).powi(60);
+        let level = 0.06 + 0.85 * normal.dot(light).max(0.0);
+        let color = level * DVec3::new(0.25, 0.55, 0.75) + glint;
+        color.powf(1.0 / 2.2).to_array().map(|c| (255.0 * c.min(1.0)) as u8)
+    };
+    let rows = (0..surface.height).flat_map(|y| (0..surface.width).map(move |x| (x, y)));
+    rows.map(|(x, y)| pixel(x, y)).collect()
+}
+
+/// The picture of `docs/smoothing.md`, where `WHITEWATER_PICTURE` names a file for it: a wavy bed from 45°,
+/// below from eight times as far; the rules side by side.
+#[test]
+fn picture() {
+    let Some(path) = std::env::var_os("WHITEWATER_PICTURE") else { return };
+    const GAP: u32 = 8;
+    let rules = [Rule::Fixed(40), Rule::Source, Rule::ConstantWidth];
+    let times = [1.0, 8.0];
+    let mut device = device();
+    let mut all = image::RgbImage::new(0, 0);
+    for (column, rule) in rules.into_iter().enumerate() {
+        let row = Row { slant: 45.0, ..Row::new("picture", rule) };
+        let (projection, near) = row.placing(LARGE.extent);
+        let mut particles = Bed { side: 84.0, ..row.bed }.particles(1);
+        for p in &mut particles {
+            p[2] += SPACING * wave(p[0] / SPACING, p[1] / SPACING);
+        }
+        let mut settings = Settings::default();
+        settings.water.spacing = SPACING;
+        let config = Config {
+            smoothing_level: row.level,
+            rule,
+            coarsening: 0,
+            environment_size: 16,
+            ..Config::new(LARGE.extent, vk::Format::R16G16B16A16_SFLOAT, 1 << 16)
+        };
+        let mut headless = Headless::new(device, &config).unwrap();
+        headless.particles(&particles, None).unwrap();
+        for (line, times) in times.into_iter().enumerate() {
+            let camera = bed::camera(near * times, row.slant, projection);
+            headless.render(&camera, &settings, &Background::Color([0.0; 3])).unwrap();
+            let surface = headless.layer("water.surface").unwrap().unwrap();
+            let plan = headless.layer("water.iterations").unwrap().unwrap();
+            eprintln!("{rule:?}, {times}: {} planned", plan.at(plan.width / 2, plan.height / 2));
+            let (width, height) = (surface.width as u32, surface.height as u32);
+            let bytes = shaded(&surface, &camera).into_flattened();
+            let whole = image::RgbImage::from_raw(width, height, bytes).unwrap();
+            // The same patch at the same size.
+            let (w, h) = (width / times as u32, height / times as u32);
+            let patch = image::imageops::crop_imm(&whole, (width - w) / 2, (height - h) / 2, w, h);
+            let filter = image::imageops::FilterType::CatmullRom;
+            let tile = image::imageops::resize(&patch.to_image(), width, height, filter);
+            if all.width() == 0 {
+                let size = [(width, rules.len()), (height, 2)]
+                    .map(|(tile, count)| (tile + GAP) * count as u32 - GAP);
+                all = image::RgbImage::from_pixel(size[0], size[1], image::Rgb([255; 3]));
+            }
+            let place = [column as u32 * (width + GAP), line as u32 * (height + GAP)];
+            image::imageops::replace(&mut all, &tile, place[0].into(), place[1].into());
+        }
+        device = headless.finish().unwrap();
+    }
+    all.save(path).unwrap();
 }

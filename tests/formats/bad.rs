@@ -324,44 +324,51 @@ fn cut_off_files() {
     }
 }
 
-/// Seeded flips, cuts, doubled and removed parts over every sample. No seed of the clock: a failure repeats.
-#[test]
-fn mutations() {
+/// Numbers below a given one. No seed of the clock: a failure repeats.
+pub fn numbers() -> impl FnMut(usize) -> usize {
     let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut next = move |n: usize| {
+    move |n: usize| {
         // xorshift64*
         state ^= state >> 12;
         state ^= state << 25;
         state ^= state >> 27;
         (state.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % n.max(1)
-    };
+    }
+}
+
+/// A file with flips, cuts, doubled and removed parts.
+pub fn damaged(bytes: &[u8], next: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..1 + next(4) {
+        let (a, b) = (next(bytes.len()), next(bytes.len()));
+        match next(8) {
+            0 => bytes.truncate(a),
+            1 => drop(bytes.drain(a.min(b)..a.max(b))),
+            2 => {
+                let part = bytes[a.min(b)..a.max(b)].to_vec();
+                bytes.splice(a..a, part);
+            }
+            3 if a < bytes.len() => bytes[a] = [0, 0xff, 0x7f, b'9', b'-'][next(5)],
+            // Digits make counts that lie.
+            4 => {
+                if let Some(i) = bytes.iter().skip(a).position(u8::is_ascii_digit) {
+                    bytes.splice(a + i..=a + i, b"999999999999".iter().copied().take(1 + next(12)));
+                }
+            }
+            _ if a < bytes.len() => bytes[a] ^= 1 << next(8),
+            _ => {}
+        }
+    }
+    bytes
+}
+
+#[test]
+fn mutations() {
+    let mut next = numbers();
     let (mut cases, mut read) = (0, 0);
     for s in samples::all() {
         for _ in 0..16 {
-            let mut bytes = s.bytes.clone();
-            for _ in 0..1 + next(4) {
-                let (a, b) = (next(bytes.len()), next(bytes.len()));
-                match next(8) {
-                    0 => bytes.truncate(a),
-                    1 => drop(bytes.drain(a.min(b)..a.max(b))),
-                    2 => {
-                        let part = bytes[a.min(b)..a.max(b)].to_vec();
-                        bytes.splice(a..a, part);
-                    }
-                    3 if a < bytes.len() => bytes[a] = [0, 0xff, 0x7f, b'9', b'-'][next(5)],
-                    // Digits make counts that lie.
-                    4 => {
-                        if let Some(i) = bytes.iter().skip(a).position(u8::is_ascii_digit) {
-                            bytes.splice(
-                                a + i..=a + i,
-                                b"999999999999".iter().copied().take(1 + next(12)),
-                            );
-                        }
-                    }
-                    _ if a < bytes.len() => bytes[a] ^= 1 << next(8),
-                    _ => {}
-                }
-            }
+            let bytes = damaged(&s.bytes, &mut next);
             let hint = if next(8) == 0 { HINTS[next(HINTS.len())] } else { s.hint };
             cases += 1;
             read += usize::from(read_checked(&s.name, &bytes, hint).is_ok());

@@ -1,5 +1,6 @@
-//! glTF 2.0 with triangles, base colours and base-colour textures. Own, since the reader that
-//! there is panics on files with indices out of range; images are decoded by the `image` crate.
+//! glTF 2.0 with triangles, base colours and base-colour textures. Own, since the crate for it (gltf
+//! 1.4) panics on some damaged files, as on a component type that does not fit its use, and takes data
+//! that lie outside their buffer for none; images are decoded by the `image` crate.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -154,12 +155,12 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
     };
     let mut images = HashMap::new();
     let mut stack: Vec<_> = roots.into_iter().map(|node| (node, Mat4::IDENTITY, 0)).collect();
-    let (mut visited, mut triangles) = (0, 0);
+    let (mut visited, mut size) = (0, 0);
     while let Some((index, parent, depth)) = stack.pop() {
         visited += 1;
-        // A node graph that is no tree grows without end.
-        if depth > 256 || visited > MOST {
-            return Err("nodes are nested more than 256 deep, or are their own parents".into());
+        // A node graph that is no tree grows without end; in a tree each is met once.
+        if depth > 256 || visited > document.nodes.len() {
+            return Err("nodes are nested more than 256 deep, or have more than one parent".into());
         }
         let node = at(&document.nodes, index, "node")?;
         let transform = parent * node.transform();
@@ -173,9 +174,9 @@ pub fn parse(bytes: &[u8], folder: Option<&Path>) -> Result<Scene, String> {
             let name = node.name.clone().unwrap_or_else(|| format!("mesh {mesh}"));
             let mesh =
                 reader.mesh(primitive, &mut images).map_err(|why| format!("'{name}': {why}"))?;
-            triangles += mesh.indices.len() / 3;
-            if triangles > MOST {
-                return Err(format!("more than {MOST} triangles"));
+            size += mesh.positions.len() + mesh.indices.len() / 3;
+            if size > MOST {
+                return Err(format!("more than {MOST} vertices and triangles"));
             }
             scene.meshes.push(Mesh { name, transform, ..mesh });
         }
@@ -225,7 +226,8 @@ fn file(folder: Option<&Path>, uri: &str) -> Result<Vec<u8>, String> {
         let start: String = uri.chars().take(24).collect();
         return Err(format!("expected the plain name of a file, found '{start}'"));
     }
-    let path = folder.unwrap_or(Path::new("")).join(uri);
+    let folder = folder.ok_or_else(|| format!("expected all in one file, found '{uri}'"))?;
+    let path = folder.join(uri);
     std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
 }
 

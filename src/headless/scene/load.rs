@@ -54,6 +54,14 @@ impl Scene {
         super::gltf::parse(&bytes, path.parent()).map_err(|why| at(path, why))
     }
 
+    /// The same from memory, where no file lies beside it.
+    ///
+    /// # Errors
+    /// As [`load_glb`](Self::load_glb), and where it names other files.
+    pub fn parse_glb(bytes: &[u8]) -> Result<Self, String> {
+        super::gltf::parse(bytes, None)
+    }
+
     /// Reads all faces of a Wavefront file as one mesh of the default material.
     ///
     /// # Errors
@@ -61,7 +69,15 @@ impl Scene {
     pub fn load_obj(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
-        super::obj::parse(&bytes).map_err(|why| at(path, why))
+        Self::parse_obj(&bytes).map_err(|why| at(path, why))
+    }
+
+    /// The same from memory.
+    ///
+    /// # Errors
+    /// What was expected, what was found, and in which line.
+    pub fn parse_obj(bytes: &[u8]) -> Result<Self, String> {
+        super::obj::parse(bytes)
     }
 
     /// Reads the project's own format: boxes, cylinders and tubes (upright, or turned), spheres, a

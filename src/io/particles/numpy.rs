@@ -2,7 +2,10 @@
 //!
 //! An NPY file is `\x93NUMPY`, two bytes of version, the length of the header (`u16`, from version 2 `u32`, both
 //! little-endian), a header that is a Python dict `{'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }`,
-//! and the numbers. The header is three known keys, read here; the crates for it bring a whole Python parser.
+//! and the numbers. The header is three known keys, read here.
+//!
+//! Own, since the crate for it (npyz 0.9) brings a whole Python parser with big integers for these three keys,
+//! gives numbers only as the very type they are stored in, and does not hold the shape against the bytes there are.
 
 use std::io::{Cursor as IoCursor, Read};
 

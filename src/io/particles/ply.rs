@@ -3,6 +3,9 @@
 //! A header of lines (`ply`, `format`, `element name count`, `property type name`, `property list type type
 //! name`, `comment`, `obj_info`, `end_header`), then the elements in the order of the header, row after row.
 //! Elements before the vertices are passed over, what follows them is not read; lists are skipped.
+//!
+//! Own, since the crate for it (ply-rs-bw 4.0) keeps a map of names for each vertex where the properties are not
+//! known when it is compiled: 870 bytes for one that has 28 in the file.
 
 use super::bytes::{Cursor, parse_number, show};
 use super::columns::{AttributeType, Data, Table};

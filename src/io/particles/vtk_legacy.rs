@@ -5,6 +5,9 @@
 //! one list of `i32`, from 5.0 on `OFFSETS` and `CONNECTIVITY`. `POINT_DATA n` begins the attributes: `SCALARS`,
 //! `VECTORS` ..., or a `FIELD` of arrays. `METADATA` may stand after any array and ends with an empty line.
 //! The length of a section that is not known cannot be known, so reading ends there, with a warning.
+//!
+//! Own, since the crate for it (vtkio 0.6) refuses the cells of version 5.1, as VTK 9 and meshio write them
+//! (`OFFSETS vtktypeint64`).
 
 use super::bytes::{Cursor, ascii_values, show};
 use super::columns::{AttributeType, Data, Table};

@@ -5,6 +5,9 @@
 //! before it). Binary numbers begin with a header of `UInt32` or `UInt64`: uncompressed, the number of bytes;
 //! compressed, the number of blocks, their size, the size of a last smaller one (or 0), and the packed size of
 //! each. In base64 the header of compressed data is encoded apart, padding included.
+//!
+//! Own, since the crate for it (vtkio 0.6) reads ASCII, but none of these: raw appended data ends its XML parser,
+//! compressed data that is appended as base64 comes out short, and inline it is not decoded.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;

@@ -3,7 +3,7 @@
 use std::io::{self, Cursor, Write};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder, ImageFormat};
+use image::{ExtendedColorType, ImageEncoder, ImageError, ImageFormat, ImageReader};
 
 use super::{Encoding, Layers};
 
@@ -22,7 +22,7 @@ pub fn write(layers: &Layers, exposure: f32, to: impl Write) -> io::Result<()> {
     PngEncoder::new_with_quality(to, CompressionType::Default, FilterType::Adaptive)
         .write_image(&bytes, wide(layers.width)?, wide(layers.height)?, ExtendedColorType::Rgb8)
         .map_err(|error| match error {
-            image::ImageError::IoError(error) => error,
+            ImageError::IoError(error) => error,
             other => io::Error::other(other.to_string()),
         })
 }
@@ -34,8 +34,14 @@ fn dither(x: usize, y: usize, channel: usize) -> f32 {
 }
 
 pub fn read_png(bytes: &[u8]) -> Result<Layers, String> {
-    let image =
-        image::load_from_memory_with_format(bytes, ImageFormat::Png).map_err(|e| e.to_string())?;
+    let reader = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    let image = reader().decode().map_err(|error| match (error, reader().into_dimensions()) {
+        // The limit of the `image` crate.
+        (ImageError::Limits(_), Ok((width, height))) => format!(
+            "one of {width}x{height} pixels, which unpack to more than 512 MiB: make it smaller"
+        ),
+        (error, _) => error.to_string(),
+    })?;
     let image = image.into_rgba16();
     let mut layers = Layers::new(image.width() as usize, image.height() as usize);
     layers.encoding = Encoding::Srgb;
@@ -59,4 +65,36 @@ pub fn read_hdr(bytes: &[u8]) -> Result<Layers, String> {
         layers.push(name, width, height, data).map_err(|e| e.to_string())?;
     }
     Ok(layers)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)] // a test may
+
+    use super::*;
+
+    /// A PNG of a size that it says, and no more than a beginning of its pixels.
+    fn png(width: u32, height: u32) -> Vec<u8> {
+        let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+        let mut header = [width.to_be_bytes(), height.to_be_bytes()].concat();
+        header.extend([8, 2, 0, 0, 0]);
+        for (kind, data) in [(b"IHDR", &header[..]), (b"IDAT", &[0x78, 0x01][..])] {
+            let mut crc = flate2::Crc::new();
+            crc.update(kind);
+            crc.update(data);
+            bytes.extend((data.len() as u32).to_be_bytes());
+            bytes.extend(kind);
+            bytes.extend(data);
+            bytes.extend(crc.sum().to_be_bytes());
+        }
+        bytes
+    }
+
+    #[test]
+    fn a_png_that_is_too_large_says_so() {
+        let why = read_png(&png(20_000, 10_000)).unwrap_err();
+        assert!(why.contains("20000x10000") && why.contains("512 MiB"), "{why}");
+        let why = read_png(&png(200, 100)).unwrap_err();
+        assert!(!why.contains("200x100"), "{why}");
+    }
 }

@@ -14,7 +14,8 @@ Exit codes:
   2  the command line cannot be understood
   3  an input is missing, damaged or of no known format
   4  the device: no Vulkan, no such device, lost, out of memory, validation messages
-  5  the output cannot be written: no such folder, no permission, disk full
+  5  the output cannot be written: no such folder, no permission, disk full (a reader that goes
+     away, as head does, is no failure)
   130  broken off by Ctrl-C; no half-written file is left";
 
 const SIMULATE_HELP: &str = "\
@@ -159,10 +160,10 @@ pub struct DrawArgs {
     /// Iterations of the smoothing: source, constant-width, or fixed:N
     #[arg(long, default_value = "constant-width", value_parser = rule)]
     pub rule: Rule,
-    /// Write the time of each pass to a .csv or .json
+    /// Write the time of each pass to a .csv or .json; at Ctrl-C, of the frames until then
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
-    /// Write a trace for Perfetto or chrome://tracing (.json)
+    /// Write a trace for Perfetto or chrome://tracing (.json); at Ctrl-C, until then
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
     /// Part of the name of the device to draw on [default: a GPU if there is one]

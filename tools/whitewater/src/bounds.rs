@@ -10,17 +10,58 @@ pub struct Bounds {
     pub max: Vec3,
 }
 
+/// Coordinates from here on are no places in a scene: the determinant of a light's projection, one over the
+/// cube of its size, would vanish in single precision. (`cull` drops particles from 1e18 on.)
+const FAR: f32 = 1.0e12;
+/// How many interquartile ranges of the widest axis a particle may lie outside the quartiles. Water that is
+/// spread evenly ends at half of one, a splash at some; from a hundred away all the rest is a few pixels.
+const REACH: f32 = 100.0;
+/// Particles from which the quartiles are taken.
+const SAMPLES: usize = 65_536;
+
+/// Where particles belong to the rest; `None` where there are none.
+fn plausible(positions: &[[f32; 3]]) -> Option<Bounds> {
+    let step = positions.len().div_ceil(SAMPLES).max(1);
+    let near = |p: &&[f32; 3]| p.iter().all(|c| c.abs() < FAR);
+    let sample: Vec<[f32; 3]> = positions.iter().step_by(step).filter(near).copied().collect();
+    let last = sample.len().checked_sub(1)?;
+    let (mut low, mut high) = (Vec3::ZERO, Vec3::ZERO);
+    for axis in 0..3 {
+        let mut values: Vec<f32> = sample.iter().map(|p| p[axis]).collect();
+        let quarter = sample.len() / 4;
+        low[axis] = *values.select_nth_unstable_by(quarter.min(last), f32::total_cmp).1;
+        high[axis] = *values.select_nth_unstable_by(last - quarter.min(last), f32::total_cmp).1;
+    }
+    // A sheet has no range across; where half of all stand in one place there is none to go by.
+    let range = (high - low).max_element();
+    let reach = if range > 0.0 { REACH * range } else { FAR };
+    Some(Bounds {
+        min: (low - reach).max(Vec3::splat(-FAR)),
+        max: (high + reach).min(Vec3::splat(FAR)),
+    })
+}
+
+/// Takes out what is no number, what is too far away to be drawn, and what lies absurdly far from the rest.
+pub fn together(positions: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let Some(plausible) = plausible(positions) else { return Vec::new() };
+    positions.iter().copied().filter(|p| plausible.contains(Vec3::from(*p))).collect()
+}
+
+/// How many finite positions [`together`] takes out.
+pub fn count_far(positions: &[[f32; 3]]) -> usize {
+    let plausible = plausible(positions);
+    let far = |p: &Vec3| p.is_finite() && !plausible.is_some_and(|near| near.contains(*p));
+    positions.iter().map(|p| Vec3::from(*p)).filter(far).count()
+}
+
 impl Bounds {
-    /// Of the finite particles, without strays: at most 1 in 500 at each end of an axis, and only where they are
-    /// far off. `None` where there is no particle.
+    /// Of the particles that are [`together`], without strays: at most 1 in 500 at each end of an axis, and
+    /// only where they are far off. `None` where there is no particle.
     pub fn of_bulk(positions: &[[f32; 3]]) -> Option<Self> {
+        let positions = together(positions);
         let mut bounds = Self { min: Vec3::ZERO, max: Vec3::ZERO };
         for axis in 0..3 {
-            let mut values: Vec<f32> = positions
-                .iter()
-                .filter(|p| p.iter().all(|c| c.is_finite()))
-                .map(|p| p[axis])
-                .collect();
+            let mut values: Vec<f32> = positions.iter().map(|p| p[axis]).collect();
             values.sort_unstable_by(f32::total_cmp);
             let (first, last) = (*values.first()?, *values.last()?);
             let cut = values.len() / 500;
@@ -76,5 +117,35 @@ mod tests {
         assert!((bounds.max - Vec3::new(19.0, 9.0, 9.0)).abs().max_element() < 2.0, "{bounds:?}");
         assert_eq!(Bounds::of_bulk(&[]), None);
         assert_eq!(Bounds::of_bulk(&[[f32::NAN; 3]]), None);
+    }
+
+    #[test]
+    fn what_is_absurdly_far_does_not_count() {
+        // A grid, a sheet of one layer, and few.
+        let grid = |size: [usize; 3]| -> Vec<[f32; 3]> {
+            let [a, b, c] = size;
+            (0..a * b * c)
+                .map(|i| [(i % a) as f32, (i / a % b) as f32, (i / a / b) as f32])
+                .collect()
+        };
+        for size in [[7, 7, 7], [30, 1, 30], [300, 1, 1], [2, 2, 1]] {
+            let near = grid(size);
+            let clean = Bounds::of_bulk(&near).unwrap();
+            assert_eq!(count_far(&near), 0, "{size:?}");
+            for far in [1.0e20, -3.0e38, 1.0e17, 1.0e11, 1.0e6] {
+                let mut positions = near.clone();
+                positions.insert(1, [0.0, far, 0.0]);
+                assert_eq!(Bounds::of_bulk(&positions), Some(clean), "{size:?} {far}");
+                assert_eq!(count_far(&positions), 1, "{size:?} {far}");
+                assert_eq!(together(&positions), near);
+            }
+        }
+        // No range to go by: all that can be drawn counts.
+        let same = [[1.0; 3], [1.0; 3], [1.0; 3], [1.0; 3], [9.0, 1.0, 1.0], [1.0e20; 3]];
+        assert_eq!(Bounds::of_bulk(&same).unwrap().max, Vec3::new(9.0, 1.0, 1.0));
+        assert_eq!(count_far(&same), 1);
+        assert_eq!(Bounds::of_bulk(&[[1.0e20; 3]]), None);
+        assert_eq!(count_far(&[[1.0e20; 3]]), 1);
+        assert_eq!(count_far(&[[f32::NAN; 3]]), 0);
     }
 }

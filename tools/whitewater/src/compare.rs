@@ -5,6 +5,7 @@ use whitewater::io::picture::{self, Layers};
 
 use crate::args::CompareArgs;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::out;
 
 pub fn run(args: &CompareArgs) -> Outcome<()> {
     let (a, b) = (picture::read(&args.a)?, picture::read(&args.b)?);
@@ -41,11 +42,11 @@ fn compare_channels(mut a: Layers, mut b: Layers) -> Outcome<f32> {
             }
         }
     }
-    println!("{:<28} {:>12} {:>12}", "channel", "RMSE", "largest");
+    say(format_args!("{:<28} {:>12} {:>12}\n", "channel", "RMSE", "largest"))?;
     let mut worst = 0.0_f32;
     for channel in &a.channels {
         let Some(other) = b.channel(&channel.name) else {
-            println!("{:<28} only in the first", channel.name);
+            say(format_args!("{:<28} only in the first\n", channel.name))?;
             worst = f32::INFINITY;
             continue;
         };
@@ -57,11 +58,11 @@ fn compare_channels(mut a: Layers, mut b: Layers) -> Outcome<f32> {
             largest = if d.is_nan() { f32::INFINITY } else { largest.max(d) };
         }
         let rmse = (sum / channel.data.len().max(1) as f64).sqrt() as f32;
-        println!("{:<28} {rmse:>12.6} {largest:>12.6}", channel.name);
+        say(format_args!("{:<28} {rmse:>12.6} {largest:>12.6}\n", channel.name))?;
         worst = if rmse.is_nan() { f32::INFINITY } else { worst.max(rmse) };
     }
     for channel in b.channels.iter().filter(|c| a.channel(&c.name).is_none()) {
-        println!("{:<28} only in the second", channel.name);
+        say(format_args!("{:<28} only in the second\n", channel.name))?;
         worst = f32::INFINITY;
     }
     Ok(worst)
@@ -76,8 +77,16 @@ fn compare_flip(a: &Layers, b: &Layers) -> Outcome<f32> {
     };
     let error = flip(image(a)?, image(b)?, DEFAULT_PIXELS_PER_DEGREE);
     let pool = FlipPool::from_image(&error);
-    println!("mean FLIP {:.6}, largest {:.6}", pool.mean(), pool.max_value());
+    say(format_args!("mean FLIP {:.6}, largest {:.6}\n", pool.mean(), pool.max_value()))?;
     Ok(pool.mean())
+}
+
+/// A reader that has gone changes nothing about the verdict.
+fn say(text: std::fmt::Arguments<'_>) -> Outcome<()> {
+    match out::print(text) {
+        Err(failure) if failure.kind == Kind::Closed => Ok(()),
+        other => other,
+    }
 }
 
 fn no_color() -> Failure {

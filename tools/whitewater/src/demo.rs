@@ -63,8 +63,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
     let look =
         Look { camera, settings, environment, scene, foam, shadows, region, fps: None, rate: None };
-    let mut session = Session::new(&args.draw, checked, look)?;
-    let mut progress = Progress::new(1);
+    let mut progress = Progress::new(1, "frames");
+    let mut session = Session::new(&args.draw, checked, look, progress.steps())?;
     session.frame(0, None, "waterfall", &particles)?;
     let paths: Vec<_> = session.paths(0).iter().map(|p| p.display().to_string()).collect();
     progress.advance(&format!(

@@ -11,6 +11,8 @@ use whitewater::io::picture::PictureError;
 /// Kind of a failure; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
+    /// Who read the standard output has gone: nothing is wrong, and nobody is there to be told.
+    Closed = 0,
     /// Pictures differ, or some frames of a sequence failed.
     Partly = 1,
     /// The command line asks for something that cannot be.
@@ -68,9 +70,9 @@ impl Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
-            Error::BadInput { field: "Config.extent", .. } => Self::usage(format!(
-                "{error}; that is --size times --supersample: make either smaller"
-            )),
+            Error::BadInput { field: "Config.extent", .. } => {
+                Self::usage(format!("{error}; try a smaller --size"))
+            }
             // What fixes images and pipelines comes from flags.
             Error::BadInput { field, .. } if field.starts_with("Config.") => {
                 Self::usage(error.to_string())
@@ -116,5 +118,25 @@ impl From<SequenceError> for Failure {
             }
             _ => Self::input(error.to_string()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trouble_with_the_device_is_code_4() {
+        let vulkan =
+            |result| Failure::from(Error::Vulkan { call: "vkQueueSubmit2 frame".into(), result });
+        let lost = vulkan(vk::Result::ERROR_DEVICE_LOST);
+        assert_eq!(lost.kind as u8, 4);
+        assert!(lost.message.contains("vkQueueSubmit2 frame"), "{}", lost.message);
+        assert!(lost.message.contains("finished frames are kept"), "{}", lost.message);
+        let full = vulkan(vk::Result::ERROR_OUT_OF_DEVICE_MEMORY);
+        assert_eq!(full.kind as u8, 4);
+        assert!(!full.message.contains("finished"), "{}", full.message);
+        let missing = Error::Missing { what: "a layer".into(), why: "install it".into() };
+        assert_eq!(Failure::from(missing).kind as u8, 4);
     }
 }

@@ -1,13 +1,17 @@
 //! `whitewater info`: what particle files hold.
 
+use std::collections::HashSet;
+
 use serde_json::{Value, json};
-use whitewater::io::particles::{self, Particles, sequence};
+use whitewater::io::particles::sequence::{self, Frame, SequenceError};
+use whitewater::io::particles::{self, Particles};
 
 use crate::args::InfoArgs;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::out;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
-    let frames = sequence::expand(&args.inputs, None)?;
+    let frames = expand(&args.inputs)?;
     let mut all = Vec::new();
     let mut failed = Vec::new();
     for frame in &frames {
@@ -18,14 +22,14 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
                 if args.json {
                     all.push(value);
                 } else {
-                    print(&value);
+                    out::print(format_args!("{}", text(&value)))?;
                 }
             }
             Err(error) => {
                 if frames.len() == 1 {
                     return Err(error.into());
                 }
-                eprintln!("whitewater: {error}");
+                out::note(format_args!("{error}"));
                 all.push(json!({"file": path, "frame": frame.number, "error": error.to_string()}));
                 failed.push(path);
             }
@@ -33,7 +37,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     }
     if args.json {
         let text = serde_json::to_string_pretty(&Value::Array(all)).unwrap_or_default();
-        println!("{text}");
+        out::print(format_args!("{text}\n"))?;
     }
     if failed.is_empty() {
         return Ok(());
@@ -44,6 +48,20 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
         kind,
         format!("{some} of {total} files cannot be read: {}", failed.join(", ")),
     ))
+}
+
+/// The frames of one sequence; of files that are none, those of each input by itself.
+fn expand(inputs: &[String]) -> Result<Vec<Frame>, SequenceError> {
+    match sequence::expand(inputs, None) {
+        Err(SequenceError::Twice { .. }) if inputs.len() > 1 => {
+            let each = |input| sequence::expand(std::slice::from_ref(input), None);
+            let mut frames = inputs.iter().map(each).collect::<Result<Vec<_>, _>>()?.concat();
+            let mut known = HashSet::new();
+            frames.retain(|frame| known.insert(frame.path.clone()));
+            Ok(frames)
+        }
+        other => other,
+    }
 }
 
 fn describe(path: &str, number: u64, particles: &Particles) -> Value {
@@ -87,44 +105,39 @@ fn statistics(values: &[f32]) -> Option<Value> {
 }
 
 /// The same for people.
-fn print(value: &Value) {
+fn text(value: &Value) -> String {
     let text = |key: &str| value[key].as_str().unwrap_or_default();
     let number = |v: &Value| v.as_f64().map_or("-".into(), |v| format!("{:.6}", v as f32));
     let vector = |v: &Value| {
         let parts = v.as_array().map(Vec::as_slice).unwrap_or_default();
         parts.iter().map(number).collect::<Vec<_>>().join(" ")
     };
-    println!("{}", text("file"));
-    println!("  format      {}", text("format"));
-    println!("  frame       {}", value["frame"]);
-    println!("  particles   {}", value["particles"]);
+    let mut lines = vec![
+        text("file").to_owned(),
+        format!("  format      {}", text("format")),
+        format!("  frame       {}", value["frame"]),
+        format!("  particles   {}", value["particles"]),
+    ];
     if value["non_finite"] != json!(0) {
-        println!("  no numbers  {}", value["non_finite"]);
+        lines.push(format!("  no numbers  {}", value["non_finite"]));
     }
     if let Some(bounds) = value["bounds"].as_object() {
-        println!("  from        {}", vector(&bounds["min"]));
-        println!("  to          {}", vector(&bounds["max"]));
+        lines.push(format!("  from        {}", vector(&bounds["min"])));
+        lines.push(format!("  to          {}", vector(&bounds["max"])));
     }
-    println!(
-        "  spacing     {} (estimated; radius {})",
-        number(&value["spacing"]),
-        number(&value["radius"])
-    );
+    let (spacing, radius) = (number(&value["spacing"]), number(&value["radius"]));
+    lines.push(format!("  spacing     {spacing} (estimated; radius {radius})"));
     if let Some(density) = value["density"].as_object() {
         let all: Vec<String> =
             density.iter().map(|(name, v)| format!("{name} {}", number(v))).collect();
-        println!("  density     {}", all.join(", "));
+        lines.push(format!("  density     {}", all.join(", ")));
     }
-    let attributes = value["attributes"].as_array().map(Vec::as_slice).unwrap_or_default();
-    for a in attributes {
-        let name = a["name"].as_str().unwrap_or_default();
-        println!(
-            "  attribute   {name} ({} x {})",
-            a["type"].as_str().unwrap_or_default(),
-            a["components"]
-        );
+    for a in value["attributes"].as_array().map(Vec::as_slice).unwrap_or_default() {
+        let [name, ty] = ["name", "type"].map(|key| a[key].as_str().unwrap_or_default());
+        lines.push(format!("  attribute   {name} ({ty} x {})", a["components"]));
     }
     for warning in value["warnings"].as_array().map(Vec::as_slice).unwrap_or_default() {
-        println!("  warning     {}", warning.as_str().unwrap_or_default());
+        lines.push(format!("  warning     {}", warning.as_str().unwrap_or_default()));
     }
+    lines.join("\n") + "\n"
 }

@@ -12,6 +12,7 @@ mod failure;
 mod foam;
 mod info;
 mod layers;
+mod out;
 mod output;
 mod progress;
 mod render;
@@ -26,6 +27,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::args::{Cli, Command};
+use crate::failure::Kind;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -41,7 +43,9 @@ fn main() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("whitewater: {}", failure.message);
+            if failure.kind != Kind::Closed {
+                out::note(format_args!("{}", failure.message));
+            }
             ExitCode::from(failure.kind as u8)
         }
     }

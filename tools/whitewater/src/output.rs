@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::failure::{Failure, Kind, Outcome};
+use crate::out;
 
 /// Temporary files there are now. What Ctrl-C has to remove; the lock is held while one is renamed.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -14,15 +15,33 @@ fn temporary() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// What Ctrl-C does first: writes what was measured until then.
+type Last = Box<dyn FnOnce() -> Outcome<()> + Send>;
+static LAST: Mutex<Option<Last>> = Mutex::new(None);
+
+/// Has Ctrl-C do this before it ends the program; nothing else that was set so.
+pub fn at_interrupt(last: impl FnOnce() -> Outcome<()> + Send + 'static) {
+    *LAST.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(last));
+}
+
+/// Does at the end what Ctrl-C would have done, so that it is done once.
+pub fn at_end() -> Outcome<()> {
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    last.take().map_or(Ok(()), |last| last())
+}
+
 /// From here on Ctrl-C (and SIGTERM) removes what is half written, and ends with code 130.
 pub fn clean_up_on_interrupt() {
     // Without a handler the system's own holds: a half file may stay, and nothing else is lost.
     let _ = ctrlc::set_handler(|| {
+        if let Err(failure) = at_end() {
+            out::note(format_args!("{}", failure.message));
+        }
         let files = temporary();
         for file in files.iter() {
             let _ = std::fs::remove_file(file);
         }
-        eprintln!("whitewater: interrupted; finished files are kept");
+        out::note(format_args!("interrupted; finished files are kept"));
         // The lock is still held: no other thread renames or makes a file now.
         std::process::exit(130);
     });

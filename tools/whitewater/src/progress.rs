@@ -1,43 +1,106 @@
-//! How far it is: a bar on a terminal, else a line for each frame. On stderr.
+//! How far it is, on stderr: a bar on a terminal (of one frame a spinner), else a line for each frame, and for
+//! each step that takes long.
 
+use std::fmt::Display;
 use std::io::IsTerminal;
-use std::time::Instant;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 
-/// Of a run over many frames.
+use crate::out;
+
+/// A step that lasts so long is told of; again after ten times as long, and twice that, and so on.
+const PATIENCE: Duration = Duration::from_secs(3);
+
+/// What is being done.
+struct Step {
+    name: String,
+    began: Instant,
+    /// When it is told of next.
+    due: Duration,
+}
+
+impl Step {
+    /// What there is to say after so long.
+    fn told(&mut self, gone: Duration) -> Option<String> {
+        (gone >= self.due).then(|| {
+            self.due = (2 * self.due).max(10 * PATIENCE);
+            format!("{}, {} s so far", self.name, gone.as_secs())
+        })
+    }
+}
+
+/// A run of so many frames, or other things.
 pub struct Progress {
     bar: Option<ProgressBar>,
+    step: Arc<Mutex<Option<Step>>>,
     total: usize,
     done: usize,
     began: Instant,
 }
 
+/// Where steps are told of.
+#[derive(Clone)]
+pub struct Steps {
+    bar: Option<ProgressBar>,
+    step: Arc<Mutex<Option<Step>>>,
+}
+
+fn lock(step: &Mutex<Option<Step>>) -> MutexGuard<'_, Option<Step>> {
+    step.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 impl Progress {
-    pub fn new(total: usize) -> Self {
-        let bar = (total > 1 && std::io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::new(total as u64);
-            let template = "{bar:30} {pos}/{len} frames, {elapsed} gone, {eta} to go  {msg}";
-            if let Ok(style) = ProgressStyle::with_template(template) {
+    /// `things`: what there are many of, such as frames.
+    pub fn new(total: usize, things: &str) -> Self {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let (bar, template) = match total {
+                1 => (ProgressBar::new_spinner(), "{spinner} {msg}, {elapsed} gone".to_string()),
+                _ => {
+                    let bar = ProgressBar::new(total as u64);
+                    let gone = "{elapsed} gone, {eta} to go  {msg}";
+                    (bar, format!("{{bar:30}} {{pos}}/{{len}} {things}, {gone}"))
+                }
+            };
+            if let Ok(style) = ProgressStyle::with_template(&template) {
                 bar.set_style(style);
             }
+            bar.enable_steady_tick(Duration::from_millis(200));
             bar
         });
-        Self { bar, total, done: 0, began: Instant::now() }
+        let step = Arc::new(Mutex::new(None));
+        if bar.is_none() {
+            let watched = Arc::downgrade(&step);
+            std::thread::spawn(move || watch(&watched));
+        }
+        Self { bar, step, total, done: 0, began: Instant::now() }
+    }
+
+    /// For those who take them.
+    pub fn steps(&self) -> Steps {
+        Steps { bar: self.bar.clone(), step: Arc::clone(&self.step) }
     }
 
     /// A line that stays.
     pub fn say(&self, line: &str) {
+        self.aside(|| out::note(format_args!("{line}")));
+    }
+
+    /// Does what writes to the terminal.
+    pub fn aside<T>(&self, write: impl FnOnce() -> T) -> T {
         match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("whitewater: {line}")),
-            None => eprintln!("whitewater: {line}"),
+            Some(bar) => bar.suspend(write),
+            None => write(),
         }
     }
 
-    /// One more frame is done, well or not; `line` is shown where there is no bar.
+    /// One more is done, well or not; `line` is shown where there is no bar.
     pub fn advance(&mut self, line: &str) {
         self.done += 1;
-        if let Some(bar) = &self.bar {
+        if let Some(bar) = &self.bar
+            && self.total > 1
+        {
             bar.set_message(line.to_string());
             bar.inc(1);
             return;
@@ -61,5 +124,64 @@ impl Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
+
+impl Steps {
+    /// Does a step, which is told of where it takes long.
+    pub fn during<T>(&self, name: impl Display, work: impl FnOnce() -> T) -> T {
+        if let Some(bar) = &self.bar {
+            bar.set_message(name.to_string());
+        }
+        let now = Step { name: name.to_string(), began: Instant::now(), due: PATIENCE };
+        let outer = lock(&self.step).replace(now);
+        let result = work();
+        *lock(&self.step) = outer;
+        result
+    }
+}
+
+/// Tells of steps that last, until they are no one's.
+fn watch(step: &Weak<Mutex<Option<Step>>>) {
+    while let Some(step) = step.upgrade() {
+        if let Some(step) = lock(&step).as_mut()
+            && let Some(line) = step.told(step.began.elapsed())
+        {
+            out::note(format_args!("{line}"));
+        }
+        drop(step);
+        std::thread::sleep(PATIENCE / 6);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_that_last_are_told_of() {
+        let mut step = Step { name: "draw".into(), began: Instant::now(), due: PATIENCE };
+        let told: Vec<u64> =
+            (0..200).filter(|s| step.told(Duration::from_secs(*s)).is_some()).collect();
+        assert_eq!(told, [3, 30, 60, 120]);
+        assert_eq!(step.told(Duration::from_secs(300)).as_deref(), Some("draw, 300 s so far"));
+    }
+
+    #[test]
+    fn a_step_within_a_step_gives_it_back() {
+        let progress = Progress::new(1, "frames");
+        let steps = progress.steps();
+        let name = || lock(&steps.step).as_ref().map(|step| step.name.clone());
+        steps.during("outer", || {
+            assert_eq!(steps.during("inner", name).as_deref(), Some("inner"));
+            assert_eq!(name().as_deref(), Some("outer"));
+        });
+        assert_eq!(name(), None);
     }
 }

@@ -7,7 +7,7 @@ use whitewater::io::particles::{self, Particles};
 use whitewater::water::FoamLook;
 
 use crate::args::{RenderArgs, Up};
-use crate::bounds::Bounds;
+use crate::bounds::{self, Bounds};
 use crate::camera::CameraFile;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
@@ -42,7 +42,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         numbered && !args.draw.overwrite && checked.0.iter().all(|t| there(t.path(frame.number)))
     };
     let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
-    let mut progress = Progress::new(left.len());
+    let mut progress = Progress::new(left.len(), "frames");
     if !done.is_empty() {
         let count = done.len();
         progress
@@ -51,11 +51,14 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     if left.is_empty() {
         return Ok(());
     }
-    let mut probes = Probes::read(args, &all, &left)?;
+    let steps = progress.steps();
+    let mut probes = steps.during("reading", || Probes::read(args, &all, &left))?;
     let settings = settings.unwrap_or_default();
     let sequence = Sequence { is: all.len() > 1, motion: session::has_motion(&checked) };
-    let look = look(args, sequence, &mut probes, camera, settings, environment, &progress)?;
-    let mut session = Session::new(&args.draw, checked, look)?;
+    let look = steps.during("finding camera and light", || {
+        look(args, sequence, &mut probes, camera, settings, environment, &progress)
+    })?;
+    let mut session = Session::new(&args.draw, checked, look, steps)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
         match draw(args, &mut session, &all, frame, &progress) {
@@ -137,6 +140,14 @@ fn read(args: &RenderArgs, frame: &Frame) -> Outcome<Particles> {
         let Particles { positions, velocities, .. } = &mut particles;
         layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
     }
+    let far = bounds::count_far(&particles.positions);
+    if far > 0 {
+        particles.warnings.push(format!(
+            "{far} of {} positions are absurdly far from the rest, or from the origin; camera, ground \
+             and light are found without them",
+            particles.positions.len()
+        ));
+    }
     Ok(particles)
 }
 
@@ -203,7 +214,8 @@ impl Probes {
     }
 
     fn spacing(&self) -> Option<f32> {
-        self.frames.iter().find_map(|f| particles::estimate_spacing(&f.positions))
+        let each = |f: &Particles| particles::estimate_spacing(&bounds::together(&f.positions));
+        self.frames.iter().find_map(each)
     }
 
     fn bounds(&self) -> Option<Bounds> {
@@ -296,7 +308,9 @@ fn look(
         Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds),
         Some(path) => stage::read(path)?,
         None => {
-            let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+            let frames: Vec<_> =
+                probes.frames.iter().map(|f| bounds::together(&f.positions)).collect();
+            let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
             let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
             let eye = view.inverse().transform_point3(Vec3::ZERO);
             match stage::basin_round(&frames, &bounds, spacing, eye) {

@@ -8,7 +8,7 @@ use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Head
 use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, Shadows, WaterSettings};
-use whitewater::{Config, Previous, Region, Settings};
+use whitewater::{Config, Error, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, ShadowArg, SprayArg};
 use crate::camera::{CameraFile, Lens};
@@ -16,6 +16,7 @@ use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
+use crate::progress::Steps;
 use crate::settings;
 use crate::timings::Times;
 
@@ -111,12 +112,40 @@ pub fn guessed_densities(
     })
 }
 
+/// The size is that of two flags.
+fn too_large(error: Error, supersample: u32) -> Failure {
+    let of_size = matches!(error, Error::BadInput { field: "Config.extent", .. });
+    let failure = Failure::from(error);
+    match supersample {
+        2.. if of_size => Failure::new(
+            failure.kind,
+            format!("{}; or a smaller --supersample, which it is multiplied by", failure.message),
+        ),
+        _ => failure,
+    }
+}
+
+/// Names the picture that the device cannot take.
+fn bad_picture(error: Error, file: &str) -> Failure {
+    match error {
+        Error::BadInput { why, .. } => {
+            Failure::input(format!("{file}: {why}; use a smaller picture"))
+        }
+        Error::Allocation { .. } => Failure::new(
+            Kind::Device,
+            format!("{file}: {error}; use a smaller picture, or a device with more memory"),
+        ),
+        error => error.into(),
+    }
+}
+
 impl<'a> Session<'a> {
-    /// Checks the outputs and opens the device.
+    /// Checks the outputs and opens the device; `steps`: where it says what it does.
     pub fn new(
         args: &'a DrawArgs,
         checked: (Vec<Target>, Vec<&'static str>),
         look: Look,
+        steps: Steps,
     ) -> Outcome<Self> {
         let motion = has_motion(&checked);
         let (targets, wanted) = checked;
@@ -128,7 +157,13 @@ impl<'a> Session<'a> {
             validation: args.validate,
             ..DeviceOptions::default()
         };
-        let device = Some(Device::new(&options)?);
+        let device = Device::new(&options)?;
+        let times = Times::new(steps, &device.adapter, &device.driver);
+        let (last, timings, trace) = (times.clone(), args.timings.clone(), args.trace.clone());
+        output::at_interrupt(move || {
+            timings.map_or(Ok(()), |path| last.write(&path))?;
+            trace.map_or(Ok(()), |path| last.write_trace(&path))
+        });
         Ok(Self {
             args,
             targets,
@@ -136,10 +171,10 @@ impl<'a> Session<'a> {
             motion,
             look,
             staged: 0,
-            device,
+            device: Some(device),
             headless: None,
             memory: Memory::default(),
-            times: Times::new(),
+            times,
         })
     }
 
@@ -162,7 +197,8 @@ impl<'a> Session<'a> {
                 Failure::new(Kind::Device, "the device was lost earlier; run again")
             })?,
         };
-        let args = self.args;
+        let (args, times) = (self.args, self.times.clone());
+        let number = self.look.scene.frame;
         let [width, height] =
             [args.size.0, args.size.1].map(|n| n.saturating_mul(args.supersample));
         let extent = vk::Extent2D { width, height };
@@ -181,17 +217,20 @@ impl<'a> Session<'a> {
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
         config.rule = args.rule;
-        let mut headless = Headless::new(device, &config)?;
-        match &self.look.environment.source {
-            Source::Sky(sky) => headless.sky(sky)?,
+        let mut headless = times
+            .step("set up", number, || Headless::new(device, &config))
+            .map_err(|error| too_large(error, args.supersample))?;
+        times.step("environment", number, || match &self.look.environment.source {
+            Source::Sky(sky) => Ok(headless.sky(sky)?),
             Source::Picture(map) => {
                 let extent = vk::Extent2D { width: map.width as u32, height: map.height as u32 };
                 let pixels: Vec<[f32; 4]> =
                     map.pixels.iter().map(|c| c.extend(1.0).to_array()).collect();
-                headless.equirectangular(extent, &pixels, 1.0, 0.0)?;
+                let made = headless.equirectangular(extent, &pixels, 1.0, 0.0);
+                made.map_err(|error| bad_picture(error, &args.environment))
             }
-        }
-        headless.scene(&self.look.scene, true)?;
+        })?;
+        times.step("scene", number, || headless.scene(&self.look.scene, true))?;
         if args.shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
@@ -221,12 +260,12 @@ impl<'a> Session<'a> {
         if let Some(headless) = &mut self.headless {
             headless.previous(previous);
         }
-        self.timed(|this, times| this.frame_timed(number, source, particles, true, times))
+        self.step(number, source, particles, true)
     }
 
     /// Lets foam come and go by a frame that is not drawn, after [`make_room`](Self::make_room).
     pub fn pass(&mut self, number: u64, particles: &Particles) -> Outcome<()> {
-        self.timed(|this, times| this.frame_timed(number, "", particles, false, times))
+        self.step(number, "", particles, false)
     }
 
     /// Goes past a frame that can't be read.
@@ -249,21 +288,14 @@ impl<'a> Session<'a> {
         self.headless.as_ref().map_or(0, |h| h.renderer().config().max_particles as usize)
     }
 
-    fn timed(&mut self, run: impl FnOnce(&mut Self, &mut Times) -> Outcome<()>) -> Outcome<()> {
-        let mut times = std::mem::replace(&mut self.times, Times::new());
-        let result = run(self, &mut times);
-        self.times = times;
-        result
-    }
-
-    fn frame_timed(
+    fn step(
         &mut self,
         number: u64,
         source: &str,
         particles: &Particles,
         drawn: bool,
-        times: &mut Times,
     ) -> Outcome<()> {
+        let times = self.times.clone();
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
@@ -354,20 +386,42 @@ impl<'a> Session<'a> {
 
     /// Writes the times and gives the device back.
     pub fn finish(mut self) -> Outcome<()> {
-        let device = match (self.headless.take(), self.device.take()) {
-            (Some(headless), _) => Some(headless.finish()?),
-            (None, device) => device,
+        let gone = match self.headless.take() {
+            Some(headless) => headless.finish().map(drop),
+            None => Ok(()),
         };
-        let (adapter, driver) = match &device {
-            Some(device) => (device.adapter.as_str(), device.driver.as_str()),
-            None => ("", ""),
-        };
-        if let Some(path) = &self.args.timings {
-            self.times.write(path, adapter, driver)?;
+        let written = output::at_end();
+        gone?;
+        written
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_environment_too_large_for_the_device_is_named() {
+        let device = Device::new(&DeviceOptions::default()).unwrap();
+        let extent = vk::Extent2D { width: 16, height: 16 };
+        let config = Config { environment_size: 16, ..Config::new(extent, COLOR_FORMAT, 1024) };
+        let mut headless = Headless::new(device, &config).unwrap();
+        // No device's images are so wide.
+        let wide = vk::Extent2D { width: 100_000, height: 1 };
+        let error = headless.equirectangular(wide, &vec![[1.0; 4]; 100_000], 1.0, 0.0).unwrap_err();
+        let failure = bad_picture(error, "sky.png");
+        assert_eq!(failure.kind, Kind::Input);
+        for part in ["sky.png: ", "100000x1", "smaller picture"] {
+            assert!(failure.message.contains(part), "{}", failure.message);
         }
-        if let Some(path) = &self.args.trace {
-            self.times.write_trace(path, adapter)?;
-        }
-        Ok(())
+        headless.finish().unwrap();
+    }
+
+    #[test]
+    fn a_size_too_large_names_its_flags() {
+        let error = || Error::BadInput { field: "Config.extent", why: "too large".into() };
+        let message = |supersample| too_large(error(), supersample).message;
+        assert!(message(2).contains("--size") && message(2).contains("--supersample"));
+        assert!(message(1).contains("--size") && !message(1).contains("--supersample"));
     }
 }

@@ -45,7 +45,7 @@ pub fn run(args: &SimulateArgs) -> Outcome<()> {
     threads.install(|| {
         let mut simulation = Simulation::new(scene, spacing, args.seed);
         let mut turns = Vec::new();
-        let mut progress = Progress::new(last as usize + 1);
+        let mut progress = Progress::new(last as usize + 1, "frames");
         for number in 0..=last {
             let began = Instant::now();
             simulation.advance_to(number as f32 / args.fps);

@@ -58,15 +58,12 @@ struct Side {
     highest: f32,
 }
 
-/// The sides of the box that the particles fill; `None` where they fill none. Most solvers hold
+/// The sides of the box that finite particles fill; `None` where they fill none. Most solvers hold
 /// their water by walls that are in no file: bare, it looks like fog.
 fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side; 4]> {
-    let finite = || {
-        let all = frames.iter().copied().flatten();
-        all.copied().filter(|p| p.iter().all(|c| c.is_finite()))
-    };
     let side = |axis: usize, sign: f32| {
-        let mut places: Vec<f32> = finite().map(|p| sign * p[axis]).collect();
+        let all = frames.iter().copied().flatten();
+        let mut places: Vec<f32> = all.map(|p| sign * p[axis]).collect();
         places.sort_unstable_by(f32::total_cmp);
         // Without strays.
         let at = sign * *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use serde_json::json;
@@ -9,6 +10,7 @@ use whitewater::Timing;
 
 use crate::failure::{Failure, Outcome};
 use crate::output;
+use crate::progress::Steps;
 
 /// A step of the tool's own, in microseconds since the start.
 struct Step {
@@ -19,36 +21,58 @@ struct Step {
 }
 
 /// What was measured.
-pub struct Times {
+struct Record {
     began: Instant,
+    adapter: String,
+    driver: String,
     steps: Vec<Step>,
     /// Frame, when its submission began (microseconds since the start), its passes.
     frames: Vec<(u64, f64, Vec<Timing>)>,
 }
 
+/// The same for all who measure, and for who writes it where Ctrl-C ends the program.
+#[derive(Clone)]
+pub struct Times {
+    record: Arc<Mutex<Record>>,
+    steps: Steps,
+}
+
 impl Times {
-    pub fn new() -> Self {
-        Self { began: Instant::now(), steps: Vec::new(), frames: Vec::new() }
+    /// `steps`: where they are told of as well.
+    pub fn new(steps: Steps, adapter: &str, driver: &str) -> Self {
+        let record = Record {
+            began: Instant::now(),
+            adapter: adapter.into(),
+            driver: driver.into(),
+            steps: Vec::new(),
+            frames: Vec::new(),
+        };
+        Self { record: Arc::new(Mutex::new(record)), steps }
+    }
+
+    fn record(&self) -> MutexGuard<'_, Record> {
+        self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Does a step and notes how long it took.
-    pub fn step<T>(&mut self, name: &'static str, frame: u64, work: impl FnOnce() -> T) -> T {
+    pub fn step<T>(&self, name: &'static str, frame: u64, work: impl FnOnce() -> T) -> T {
         let start = self.now();
-        let result = work();
+        let result = self.steps.during(format_args!("frame {frame}: {name}"), work);
         let length = self.now() - start;
-        self.steps.push(Step { name, frame, start, length });
+        self.record().steps.push(Step { name, frame, start, length });
         result
     }
 
     /// Microseconds since the start.
     fn now(&self) -> f64 {
-        self.began.elapsed().as_secs_f64() * 1.0e6
+        self.record().began.elapsed().as_secs_f64() * 1.0e6
     }
 
     /// The passes of a frame, whose drawing was the step noted last.
-    pub fn passes(&mut self, frame: u64, passes: Vec<Timing>) {
-        let start = self.steps.last().map_or(0.0, |s| s.start);
-        self.frames.push((frame, start, passes));
+    pub fn passes(&self, frame: u64, passes: Vec<Timing>) {
+        let mut record = self.record();
+        let start = record.steps.last().map_or(0.0, |s| s.start);
+        record.frames.push((frame, start, passes));
     }
 
     /// Fails early where a name of a file of times is of no known kind.
@@ -66,20 +90,20 @@ impl Times {
     }
 
     /// Frame, pass, start and length in nanoseconds.
-    pub fn write(&self, path: &Path, adapter: &str, driver: &str) -> Outcome<()> {
+    pub fn write(&self, path: &Path) -> Outcome<()> {
+        let Record { adapter, driver, frames, .. } = &*self.record();
         let csv = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
         output::write(path, |to| {
             if csv {
                 writeln!(to, "frame,pass,start,nanoseconds")?;
-                for (frame, _, passes) in &self.frames {
+                for (frame, _, passes) in frames {
                     for p in passes {
                         writeln!(to, "{frame},{},{:.0},{:.0}", p.name, p.start, p.nanoseconds)?;
                     }
                 }
                 return Ok(());
             }
-            let frames: Vec<_> = self
-                .frames
+            let frames: Vec<_> = frames
                 .iter()
                 .map(|(frame, _, passes)| {
                     let passes: Vec<_> = passes
@@ -97,14 +121,15 @@ impl Times {
 
     /// All of it as Chrome's trace events: the tool's steps, and the passes on the device. The clocks of both are
     /// not one: a frame's first pass is put where its drawing began.
-    pub fn write_trace(&self, path: &Path, adapter: &str) -> Outcome<()> {
+    pub fn write_trace(&self, path: &Path) -> Outcome<()> {
+        let Record { adapter, steps, frames, .. } = &*self.record();
         let thread = |tid: u32, name: &str| json!({"ph": "M", "name": "thread_name", "pid": 1, "tid": tid, "args": {"name": name}});
         let mut events = vec![thread(1, "whitewater"), thread(2, adapter)];
-        for s in &self.steps {
+        for s in steps {
             events.push(json!({"ph": "X", "pid": 1, "tid": 1, "name": s.name, "ts": s.start,
                 "dur": s.length, "args": {"frame": s.frame}}));
         }
-        for (frame, start, passes) in &self.frames {
+        for (frame, start, passes) in frames {
             for p in passes {
                 events.push(json!({"ph": "X", "pid": 1, "tid": 2, "name": p.name,
                     "ts": start + p.start * 1.0e-3, "dur": p.nanoseconds * 1.0e-3,

@@ -4,6 +4,8 @@
 #[path = "tool/support.rs"]
 mod support;
 
+#[path = "tool/bench.rs"]
+mod bench;
 #[path = "tool/failures.rs"]
 mod failures;
 #[path = "tool/info_compare.rs"]

@@ -6,6 +6,8 @@ mod calibrate;
 mod pool;
 mod report;
 
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
 use clap::{Args, ValueEnum};
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
@@ -14,11 +16,13 @@ use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptio
 use whitewater::water::{
     Convolution, FoamLook, FoamSettings, Gate, Rule, Shading, Shadows, Smoothing, Splat,
 };
-use whitewater::{Camera, Config, Previous, Region, Settings};
+use whitewater::{Camera, Config, Error, Previous, Region, Settings};
 
 use crate::bounds::Bounds;
-use crate::failure::Outcome;
-use report::{Format, Row};
+use crate::failure::{Failure, Outcome};
+use crate::output;
+use crate::progress::Progress;
+use report::{Format, Report, Row};
 
 /// Arguments of `bench`.
 #[derive(Args, Debug)]
@@ -38,7 +42,8 @@ pub struct BenchArgs {
     /// Frames drawn before, not counted
     #[arg(long, default_value_t = 3)]
     warmup: u32,
-    /// How to print the result
+    /// How to print the result. Where a combination fails, or at Ctrl-C, what was measured before is
+    /// printed
     #[arg(long, value_enum, default_value_t = Format::Table)]
     format: Format,
     /// Part of the wanted device's name
@@ -157,7 +162,7 @@ pub struct Drawn {
     pub most_iterations: u32,
 }
 
-/// Runs everything asked for and prints it.
+/// Runs everything asked for and prints it: what was measured, also where it ends early.
 pub fn run(args: &BenchArgs) -> Outcome<()> {
     let paths: Vec<Path> = if args.path.contains(&Path::All) {
         Path::value_variants().iter().copied().filter(|p| *p != Path::All).collect()
@@ -168,31 +173,64 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
     let device = Device::new(&options)?;
     let (adapter, driver) = (device.adapter.clone(), device.driver.clone());
     drop(device);
-    let mut rows = Vec::new();
+    let report = Arc::new(Mutex::new(Report::new(args.format, adapter, driver)?));
+    let begun = Arc::clone(&report);
+    output::at_interrupt(move || lock(&begun).finish());
+    let outcome = measure_all(args, &paths, &options, &report);
+    // What there is is told, whatever became of the rest.
+    let told = output::at_end();
+    outcome.and(told)
+}
+
+fn lock(report: &Mutex<Report>) -> MutexGuard<'_, Report> {
+    report.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn measure_all(
+    args: &BenchArgs,
+    paths: &[Path],
+    options: &DeviceOptions,
+    report: &Mutex<Report>,
+) -> Outcome<()> {
+    let total = args.particles.len() * args.size.len() * paths.len();
+    let mut progress = Progress::new(total, "combinations");
+    let steps = progress.steps();
     for &count in &args.particles {
         let pool = pool::Pool::new(count);
         for &(width, height) in &args.size {
-            for &path in &paths {
-                eprintln!(
-                    "bench: {} particles, {width}x{height}, {}",
+            for &path in paths {
+                let what = format!(
+                    "{} particles, {width}x{height}, {}",
                     pool.positions.len(),
                     path.name()
                 );
                 let extent = vk::Extent2D { width, height };
-                let device = Device::new(&options)?;
-                let outcome = measure(device, args, &pool, extent, path);
+                let outcome = steps.during(&what, || {
+                    Device::new(options)
+                        .and_then(|device| measure(device, args, &pool, extent, path))
+                });
                 match outcome {
-                    Ok(more) => rows.extend(more),
-                    // A device may lack one path; the others still count.
-                    Err(whitewater::Error::Missing { what, why }) => {
-                        eprintln!("bench: {} skipped: {what} is missing: {why}", path.name());
+                    Ok(rows) => {
+                        progress.aside(|| lock(report).add(rows))?;
+                        progress.advance(&what);
                     }
-                    Err(error) => return Err(error.into()),
+                    // A device may lack one path; the others still count.
+                    Err(Error::Missing { what: lacks, why }) => {
+                        progress.advance(&format!("{what}: skipped: {lacks} is missing: {why}"));
+                    }
+                    Err(error) => {
+                        progress.finish();
+                        let failure = Failure::from(error);
+                        return Err(Failure {
+                            message: format!("{what}: {}", failure.message),
+                            ..failure
+                        });
+                    }
                 }
             }
         }
     }
-    report::print(args.format, &adapter, &driver, &rows);
+    progress.finish();
     Ok(())
 }
 
@@ -203,7 +241,7 @@ fn measure(
     pool: &pool::Pool,
     extent: vk::Extent2D,
     path: Path,
-) -> Result<Vec<Row>, whitewater::Error> {
+) -> Result<Vec<Row>, Error> {
     let mut config = Config::new(extent, COLOR_FORMAT, pool.positions.len() as u32);
     path.configure(&mut config);
     let mut headless = Headless::new(device, &config)?;
@@ -218,7 +256,7 @@ fn sample(
     pool: &pool::Pool,
     config: Config,
     path: Path,
-) -> Result<Vec<Row>, whitewater::Error> {
+) -> Result<Vec<Row>, Error> {
     let extent = config.extent;
     let camera = camera(extent);
     let mut settings = Settings::default();
@@ -326,7 +364,7 @@ fn region(pool: &pool::Pool) -> Region {
 }
 
 /// As fast as it is high: the splash foams. How many particles do.
-fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, whitewater::Error> {
+fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, Error> {
     let mut heights: Vec<f32> = pool.positions.iter().map(|p| p[1].max(0.0)).collect();
     let velocities: Vec<[f32; 3]> = heights.iter().map(|y| [20.0 * y, 0.0, 0.0]).collect();
     heights.sort_unstable_by(f32::total_cmp);
@@ -339,11 +377,7 @@ fn foam(headless: &mut Headless, pool: &pool::Pool) -> Result<u64, whitewater::E
     Ok(heights.iter().filter(|y| **y > high * 0.5_f32.sqrt()).count() as u64)
 }
 
-fn drawn(
-    headless: &mut Headless,
-    config: Config,
-    pool: &pool::Pool,
-) -> Result<Drawn, whitewater::Error> {
+fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<Drawn, Error> {
     let counts = headless.counts()?;
     let depth = headless.layer("water.depth")?;
     let iterations = headless.layer("water.iterations")?;

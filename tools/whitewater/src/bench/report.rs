@@ -3,6 +3,9 @@
 use clap::ValueEnum;
 use serde::Serialize;
 
+use crate::failure::Outcome;
+use crate::out;
+
 /// How to print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
@@ -48,59 +51,91 @@ pub fn median(samples: &mut [f64]) -> f64 {
     quantile(samples, 0.5)
 }
 
-/// Prints all rows to the standard output.
-pub fn print(format: Format, adapter: &str, driver: &str, rows: &[Row]) {
-    let version = env!("CARGO_PKG_VERSION");
-    match format {
-        Format::Table => table(adapter, driver, rows),
-        Format::Csv => {
-            println!(
+/// What is printed to the standard output: tables and CSV as they come, JSON at the end.
+pub struct Report {
+    format: Format,
+    adapter: String,
+    driver: String,
+    /// Not yet told.
+    rows: Vec<Row>,
+}
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+impl Report {
+    /// Begins it.
+    pub fn new(format: Format, adapter: String, driver: String) -> Outcome<Self> {
+        match format {
+            Format::Table => out::print(format_args!("{adapter}, {driver}\n"))?,
+            Format::Csv => out::print(format_args!(
                 "adapter,driver,version,particles,width,height,path,pass,median_ms,p10_ms,p90_ms,\
-                 bytes,calibration_ms,most_iterations"
-            );
-            for r in rows {
-                let bytes = r.bytes.map_or_else(String::new, |b| b.to_string());
-                println!(
-                    "\"{adapter}\",\"{driver}\",{version},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},\
-                     {:.4},{}",
-                    r.particles,
-                    r.width,
-                    r.height,
-                    r.path,
-                    r.pass,
-                    r.median,
-                    r.low,
-                    r.high,
-                    r.calibration,
-                    r.most_iterations
-                );
+                 bytes,calibration_ms,most_iterations\n"
+            ))?,
+            Format::Json => {}
+        }
+        Ok(Self { format, adapter, driver, rows: Vec::new() })
+    }
+
+    /// One combination more.
+    pub fn add(&mut self, rows: Vec<Row>) -> Outcome<()> {
+        match self.format {
+            Format::Table => out::print(format_args!("{}", table(&rows))),
+            Format::Csv => {
+                let (adapter, driver) = (&self.adapter, &self.driver);
+                let lines = rows.iter().map(|row| csv(adapter, driver, row)).collect::<String>();
+                out::print(format_args!("{lines}"))
+            }
+            Format::Json => {
+                self.rows.extend(rows);
+                Ok(())
             }
         }
-        Format::Json => {
-            let all = serde_json::json!({
-                "adapter": adapter, "driver": driver, "version": version, "rows": rows,
-            });
-            println!("{all:#}");
+    }
+
+    /// Ends it.
+    pub fn finish(&self) -> Outcome<()> {
+        if self.format != Format::Json {
+            return Ok(());
         }
+        let all = serde_json::json!({
+            "adapter": self.adapter, "driver": self.driver, "version": VERSION, "rows": self.rows,
+        });
+        out::print(format_args!("{all:#}\n"))
     }
 }
 
-fn table(adapter: &str, driver: &str, rows: &[Row]) {
-    println!("{adapter}, {driver}");
-    let mut head = None;
+fn csv(adapter: &str, driver: &str, r: &Row) -> String {
+    let bytes = r.bytes.map_or_else(String::new, |b| b.to_string());
+    format!(
+        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{}\n",
+        r.particles,
+        r.width,
+        r.height,
+        r.path,
+        r.pass,
+        r.median,
+        r.low,
+        r.high,
+        r.calibration,
+        r.most_iterations
+    )
+}
+
+/// Of one combination.
+fn table(rows: &[Row]) -> String {
+    let Some(first) = rows.first() else { return String::new() };
+    let mut text = format!(
+        "\n{} particles, {}x{}, {}, at most {} iterations; calibration loop {:.2} ms\n",
+        first.particles,
+        first.width,
+        first.height,
+        first.path,
+        first.most_iterations,
+        first.calibration
+    );
+    let [a, b, c, d, e] = ["median ms", "p10", "p90", "MB at least", "GB/s"];
+    text += &format!("{:<12}{a:>10}{b:>10}{c:>10}{d:>11}{e:>10}\n", "pass");
     for r in rows {
-        let this = (r.particles, r.width, r.height, &r.path);
-        if head != Some(this) {
-            head = Some(this);
-            println!(
-                "\n{} particles, {}x{}, {}, at most {} iterations; calibration loop {:.2} ms",
-                r.particles, r.width, r.height, r.path, r.most_iterations, r.calibration
-            );
-            println!(
-                "{:<12}{:>10}{:>10}{:>10}{:>11}{:>10}",
-                "pass", "median ms", "p10", "p90", "MB at least", "GB/s"
-            );
-        }
         let (moved, rate) = match r.bytes {
             Some(b) => (
                 format!("{:.2}", b as f64 * 1e-6),
@@ -108,12 +143,13 @@ fn table(adapter: &str, driver: &str, rows: &[Row]) {
             ),
             None => ("-".into(), "-".into()),
         };
-        println!(
-            "{:<12}{:>10.3}{:>10.3}{:>10.3}{moved:>11}{rate:>10}",
+        text += &format!(
+            "{:<12}{:>10.3}{:>10.3}{:>10.3}{moved:>11}{rate:>10}\n",
             r.pass, r.median, r.low, r.high
         );
         if r.pass == "frame" {
-            println!("{:<12}{:>10.2} calibration loops", "", r.median / r.calibration);
+            text += &format!("{:<12}{:>10.2} calibration loops\n", "", r.median / r.calibration);
         }
     }
+    text
 }

@@ -99,6 +99,11 @@ fn no_device_is_code_4() {
     folder.run(&format!("{command} --device nosuch")).fails(4, &["nosuch", "there is"]);
     let nowhere = [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
     folder.run_with(&command, &nowhere).fails(4, &["mesa-vulkan-drivers"]);
+    // Where the loader looks for layers there are none.
+    let bare = [("VK_LAYER_PATH", "/nonexistent"), ("VK_ADD_LAYER_PATH", "")];
+    folder
+        .run_with(&format!("{command} --validate"), &bare)
+        .fails(4, &["VK_LAYER_KHRONOS_validation", "vulkan-validationlayers"]);
     assert_eq!(folder.files(), ["a.ply"]);
 }
 
@@ -140,6 +145,38 @@ fn a_full_disk_is_code_5() {
     assert_eq!(folder.files(), ["a.ply", "a.png", "full.csv", "full.exr", "full.png"]);
 }
 
+/// Whatever prints a result: what it prints goes nowhere, or to a reader that has gone.
+#[test]
+fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(3));
+    folder.run(&format!("render a.ply -o a.png {SMALL}")).ok();
+    folder.run(&format!("render a.ply -o b.png {SMALL} --sun 1,1,1")).ok();
+    let bench = "bench --particles 64 --size 64x64 --frames 1 --warmup 0 --format";
+    let printing = [
+        "info a.ply".to_string(),
+        "info a.ply --json".to_string(),
+        "compare a.png a.png".to_string(),
+        "compare a.png a.png --flip".to_string(),
+        format!("{bench} table"),
+        format!("{bench} csv"),
+        format!("{bench} json"),
+    ];
+    for command in &printing {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        folder.run_to(command, full).fails(5, &["standard output", "space"]);
+        let closed = || std::io::pipe().unwrap().1;
+        let run = folder.run_to(command, closed()).ok();
+        assert!(!run.stderr().contains("panicked"), "{command}: {}", run.stderr());
+        // Nor does it matter that nobody reads the messages.
+        let mut unheard = folder.command(command);
+        let status = unheard.stdout(closed()).stderr(closed()).status().unwrap();
+        assert_eq!(status.code(), Some(0), "{command}");
+    }
+    // The verdict stands, though nobody reads the list.
+    folder.run_to("compare a.png b.png", std::io::pipe().unwrap().1).fails(1, &["RMSE"]);
+}
+
 #[test]
 fn a_file_that_cannot_grow_leaves_nothing_half() {
     // SwiftShader keeps the code it makes in files of its own and does not survive the limit.
@@ -176,6 +213,7 @@ fn an_interrupt_leaves_nothing_half() {
     }
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_whitewater"))
         .args(["render", "f_%d.ply", "-o", "out/a.exr", "--size", "320x180"])
+        .args(["--timings", "t.csv", "--trace", "t.json"])
         .current_dir(folder.path(""))
         .stderr(std::process::Stdio::null())
         .spawn()
@@ -191,4 +229,10 @@ fn an_interrupt_leaves_nothing_half() {
         assert!(!name.starts_with('.'), "{name}");
         folder.picture(&format!("out/{name}"));
     }
+    // What was measured is kept.
+    let times = std::fs::read_to_string(folder.path("t.csv")).unwrap();
+    assert!(times.lines().any(|l| l.starts_with("1,composite,")), "{times}");
+    let trace = std::fs::read_to_string(folder.path("t.json")).unwrap();
+    let trace: serde_json::Value = serde_json::from_str(&trace).unwrap();
+    assert!(trace["traceEvents"].as_array().is_some_and(|events| events.len() > 20));
 }

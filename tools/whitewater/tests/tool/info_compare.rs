@@ -42,6 +42,30 @@ fn info_goes_on_after_a_bad_file() {
     assert!(value[1]["error"].is_string());
 }
 
+#[test]
+fn info_takes_files_that_are_no_sequence() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("b")).unwrap();
+    for name in ["a_27.ply", "a_28.ply", "other_27.ply", "b/a_27.ply"] {
+        folder.particles(name, block(2));
+    }
+    let files = |inputs: &str| {
+        let run = folder.run(&format!("info {inputs} --json")).ok();
+        let value: Value = serde_json::from_str(&run.stdout()).unwrap();
+        let each = |v: &Value| format!("{} {}", v["file"].as_str().unwrap(), v["frame"]);
+        value.as_array().unwrap().iter().map(each).collect::<Vec<_>>().join(", ")
+    };
+    assert_eq!(files("a_28.ply a_27.ply"), "a_27.ply 27, a_28.ply 28");
+    assert_eq!(
+        files("other_27.ply a_*.ply b/a_27.ply a_27.ply"),
+        "other_27.ply 27, a_27.ply 27, a_28.ply 28, b/a_27.ply 27"
+    );
+    folder.run("info other_27.ply a_27.ply none.ply").fails(3, &["none.ply", "no such file"]);
+    // One pattern names one sequence.
+    folder.run("info *_27.ply").fails(3, &["both frame 27"]);
+    folder.run("render a_27.ply other_27.ply -o o.png").fails(3, &["both frame 27"]);
+}
+
 fn grey(value: f32) -> Layers {
     let mut layers = Layers::new(32, 24);
     for (c, name) in ["R", "G", "B"].iter().enumerate() {

@@ -122,6 +122,25 @@ fn particles_that_are_no_numbers_change_nothing() {
 }
 
 #[test]
+fn particles_that_are_absurdly_far_change_no_view() {
+    let folder = Folder::new();
+    let mut positions = block(7);
+    folder.particles("clean.ply", positions.clone());
+    positions.extend([[0.0, 1.0e20, 0.0], [-3.0e8, 0.0, 0.0]]);
+    folder.particles("far.ply", positions);
+    folder.run(&format!("render clean.ply -o clean.exr {SMALL}")).ok();
+    let run = folder.run(&format!("render far.ply -o far.exr {SMALL} --validate")).ok();
+    assert!(run.stderr().contains("2 of 345 positions"), "{}", run.stderr());
+    folder.run("compare clean.exr far.exr").ok();
+    // So few that none is the bulk; and none that is near.
+    folder.particles("few.ply", vec![[0.0; 3], [0.0, 0.1, 0.0], [9.0e17, 0.0, 0.0]]);
+    folder.particles("none.ply", block(4).iter().map(|p| p.map(|c| c * 1.0e18 + 2.0e18)).collect());
+    for name in ["few", "none"] {
+        folder.run(&format!("render {name}.ply -o {name}.exr {SMALL}")).ok();
+    }
+}
+
+#[test]
 fn z_up_particles_are_turned() {
     let folder = Folder::new();
     let positions = block(6);

@@ -1,7 +1,7 @@
 //! A folder, some water in it, and the program.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Layers};
@@ -27,13 +27,19 @@ impl Folder {
     }
 
     pub fn run_with(&self, arguments: &str, variables: &[(&str, &str)]) -> Run {
-        let output = Command::new(env!("CARGO_BIN_EXE_whitewater"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .envs(variables.iter().copied())
-            .output()
-            .unwrap();
-        Run(output)
+        Run(self.command(arguments).envs(variables.iter().copied()).output().unwrap())
+    }
+
+    /// The same, its standard output somewhere else.
+    pub fn run_to(&self, arguments: &str, to: impl Into<Stdio>) -> Run {
+        let child = self.command(arguments).stdout(to).stderr(Stdio::piped()).spawn();
+        Run(child.unwrap().wait_with_output().unwrap())
+    }
+
+    pub fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_whitewater"));
+        command.args(arguments.split_whitespace()).current_dir(self.0.path());
+        command
     }
 
     /// Writes particles as PLY.

@@ -1,0 +1,94 @@
+//! Scenes: files that are damaged are errors or scenes, never a panic, never memory for a count that lies.
+
+use whitewater::headless::scene::Scene;
+
+use super::allocation;
+use super::bad::{damaged, numbers};
+
+/// A part and one of its own parts, with indices, normals and a colour.
+const GLB: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+    "nodes":[{"mesh":0,"children":[1]},{"mesh":0,"translation":[1,2,3],"rotation":[0,0,0,1]}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0},"indices":1,"material":0}]}],
+    "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,0.4,0.3,1]}}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+    {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
+    "bufferViews":[{"buffer":0,"byteLength":36},
+    {"buffer":0,"byteOffset":36,"byteLength":6}],"buffers":[{"byteLength":44}]}"#;
+
+/// The JSON with a triangle as its data.
+fn glb(json: &[u8]) -> Vec<u8> {
+    let mut data = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].map(f32::to_le_bytes).concat();
+    data.extend([0, 0, 1, 0, 2, 0, 0, 0]);
+    let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+    for (kind, chunk) in [(b"JSON", json), (b"BIN\0", &data)] {
+        bytes.extend((chunk.len() as u32).to_le_bytes());
+        bytes.extend(kind);
+        bytes.extend(chunk);
+    }
+    bytes
+}
+
+const OBJ: &str = "# a sheet\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\n\
+    f 1/1/1 2/2/1 3/2/1\nf -4 -3 -2 -1\nf 1//1 2//1 3//1\n";
+
+const JSON: &str = r#"{"boxes":[
+    {"name":"basin floor","material":"concrete","centre":[0,-0.05,0],"half":[1,0.05,1]},
+    {"name":"lid","material":"timber","centre":[0.95,0.3,0],"half":[0.05,0.3,1],"rotation":[0,0,0,1]}],
+    "cylinders":[{"material":"stone","centre":[0,1,0],"radius":0.2,"bore":0.1,"height":1,"slope":0.5}],
+    "spheres":[{"material":"stone","centre":[0,1,0],"radius":0.2}],
+    "motion":[{"parts":["lid"],"origin":[0,0,0],"first_frame":1,"poses":[[0,0,0,0,0,0,1],[0,1,0,0,0,0,1]]}],
+    "ground":{"y":-0.1,"material":"ground"},"fluid":{"pool_level":0.2}}"#;
+
+type Parse = fn(&[u8]) -> Result<Scene, String>;
+
+#[test]
+fn damaged_scenes() {
+    let samples: [(&str, Vec<u8>, Parse); 4] = [
+        ("glb", glb(GLB.as_bytes()), Scene::parse_glb),
+        // Damage to the text alone: its chunk keeps its length.
+        ("glb's text", GLB.into(), |text| Scene::parse_glb(&glb(text))),
+        ("obj", OBJ.into(), Scene::parse_obj),
+        ("json", JSON.into(), Scene::parse_json),
+    ];
+    let mut next = numbers();
+    for (name, bytes, parse) in &samples {
+        let scene = parse(bytes).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let whole = scene.meshes.iter().map(|m| m.positions.len()).sum::<usize>();
+        assert!(whole > 3, "{name}: {whole}");
+        let (mut read, cases) = (0, 4000);
+        for _ in 0..cases {
+            let bytes = damaged(bytes, &mut next);
+            let (result, peak) = allocation::peak(|| parse(&bytes));
+            // A shape of a hundred bytes becomes some hundred vertices of 32.
+            let limit = (1 << 20) + 1000 * bytes.len();
+            assert!(peak <= limit, "{name}: {peak} bytes held for {} of input", bytes.len());
+            match result {
+                Ok(scene) => {
+                    read += 1;
+                    for mesh in &scene.meshes {
+                        let count = mesh.positions.len();
+                        assert!(mesh.indices.iter().all(|i| (*i as usize) < count), "{name}");
+                        assert_eq!(mesh.normals.len(), count, "{name}");
+                    }
+                }
+                Err(why) => assert!(why.len() < 3000, "{name}: {why}"),
+            }
+        }
+        println!("{name}: {read} of {cases} damaged files read");
+        assert!(read > 0 && read < cases, "{name}: {read} of {cases}");
+    }
+}
+
+#[test]
+fn a_glb_that_doubles_itself_is_refused() {
+    // Thirty nodes, each with the next as its child twice: 2^30 meshes.
+    let nodes: Vec<String> =
+        (1..=30).map(|next| format!("{{\"mesh\":0,\"children\":[{next},{next}]}}")).collect();
+    let (head, rest) = GLB.split_once("\"nodes\":[{\"mesh").unwrap();
+    let (_, tail) = rest.split_once("\"meshes\"").unwrap();
+    let json = format!("{head}\"nodes\":[{},{{\"mesh\":0}}],\"meshes\"{tail}", nodes.join(","));
+    let (result, peak) = allocation::peak(|| Scene::parse_glb(&glb(json.as_bytes())));
+    let why = result.err().unwrap();
+    assert!(why.contains("more than one parent"), "{why}");
+    assert!(peak < 1 << 20, "{peak}");
+}
