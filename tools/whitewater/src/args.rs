@@ -124,7 +124,8 @@ pub struct DrawArgs {
     /// Direction to the sun [default: of the sky -0.7,0.55,-0.35; of a file its brightest spot]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
-    /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene. motion.X and
+    /// Layers of the EXR beside R G B A: all, none, or names such as water.depth,scene; and ladder, the
+    /// picture up to each of its layers (background, back_water, foam, front_water). motion.X and
     /// motion.Y: pixels from where what a pixel shows was in the frame before, x to the right and y
     /// down; of the first frame of a sequence 0, of the scene by the camera alone
     #[arg(long, value_name = "NAMES", default_value = "all")]

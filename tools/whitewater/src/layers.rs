@@ -1,14 +1,16 @@
 //! From the renderer's images to named channels.
 
 use glam::Vec3;
-use whitewater::headless::{Headless, Picture};
+use whitewater::headless::{Background, Headless, Picture};
 use whitewater::io::picture::{EMPTY, Layers, normals};
+use whitewater::water::Ladder;
+use whitewater::{Camera, Settings};
 
 use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 14] = [
+const GROUPS: [&str; 15] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -23,15 +25,26 @@ const GROUPS: [&str; 14] = [
     "spray",
     "scene",
     MOTION,
+    LADDER,
 ];
 
 /// From where what a pixel shows was in the frame before, in pixels.
 pub const MOTION: &str = "motion";
 
-/// Understands `--layers`.
+/// The composite up to each of its layers: pictures of three channels each.
+pub const LADDER: &str = "ladder";
+
+const RUNGS: [(&str, Ladder); 4] = [
+    ("background", Ladder::Background),
+    ("back_water", Ladder::BackWater),
+    ("foam", Ladder::Foam),
+    ("front_water", Ladder::FrontWater),
+];
+
+/// Understands `--layers`. The ladder is not among `all`: each of its rungs is another frame to draw.
 pub fn wanted(text: &str) -> Outcome<Vec<&'static str>> {
     match text {
-        "all" => return Ok(GROUPS.to_vec()),
+        "all" => return Ok(GROUPS.into_iter().filter(|name| *name != LADDER).collect()),
         "none" => return Ok(Vec::new()),
         _ => {}
     }
@@ -183,6 +196,25 @@ pub fn collect(
         }
     }
     Ok(layers)
+}
+
+/// Draws the frame again as far as each rung of the ladder, and adds what it shows.
+pub fn ladder(
+    headless: &mut Headless,
+    camera: &Camera,
+    settings: &Settings,
+    layers: &mut Layers,
+) -> Outcome<()> {
+    for (name, ladder) in RUNGS {
+        headless.render(camera, &Settings { ladder, ..*settings }, &Background::Scene)?;
+        let color = headless.color()?;
+        for (c, axis) in ["R", "G", "B"].into_iter().enumerate() {
+            let picture = merged(&color.map(|v| v[c]), layers.width, Merge::Mean);
+            let name = format!("{LADDER}.{name}.{axis}");
+            layers.push(&name, picture.width, picture.height, picture.data)?;
+        }
+    }
+    Ok(())
 }
 
 /// Vectors of a z-up world, turned to y up.

@@ -341,7 +341,11 @@ impl<'a> Session<'a> {
         })?;
         times.passes(number, headless.timings());
         let layers = times.step("read back", number, || {
-            layers::collect(headless, self.args.size, &self.wanted, &lens)
+            let mut layers = layers::collect(headless, self.args.size, &self.wanted, &lens)?;
+            if self.wanted.contains(&layers::LADDER) {
+                layers::ladder(headless, &camera, &self.look.settings, &mut layers)?;
+            }
+            Outcome::Ok(layers)
         })?;
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {

@@ -79,6 +79,29 @@ fn layers_can_be_chosen() {
     folder.run("render a.ply -o a.exr --layers water").fails(2, &["water.depth", "'water'"]);
 }
 
+/// Each rung differs from the one below, in the water alone. Without foam all water is before it.
+#[test]
+fn the_ladder_has_its_rungs() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    let command =
+        format!("render a.ply -o a.exr {SMALL} {FRONT} --shadows none --layers ladder,scene");
+    folder.run(&command).ok();
+    let exr = folder.picture("a.exr");
+    let at = |name: &str, x: usize, y: usize| {
+        ["R", "G", "B"].map(|c| exr.channel(&format!("{name}{c}")).unwrap()[y * 96 + x])
+    };
+    let rungs = ["background", "back_water", "foam", "front_water"].map(|r| format!("ladder.{r}."));
+    for rung in &rungs {
+        assert_eq!(at(rung, 48, 60), at("", 48, 60), "{rung}: the ground before the water");
+    }
+    let [background, back, foam, front] = rungs.each_ref().map(|rung| at(rung, 48, 32));
+    assert_eq!((background, background), (back, foam));
+    assert!(front[0] < 0.9 * background[0], "red is absorbed: {front:?}, {background:?}");
+    let whole = at("", 48, 32);
+    assert!(whole != front, "what it mirrors");
+}
+
 #[test]
 fn odd_and_tiny_sizes_and_levels_are_drawn() {
     let folder = Folder::new();

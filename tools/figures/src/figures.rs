@@ -1,0 +1,209 @@
+//! The figures, each by its number in the thesis.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::Outcome;
+use crate::curves::{self, Curve};
+use crate::panels::{self, amount, depth, grid, iterations, normals};
+use crate::tool::{Tool, total};
+
+type Figure = fn(&Tool, &Path) -> Outcome<()>;
+
+/// All figures by name.
+pub const ALL: [(&str, Figure); 9] = [
+    ("layers", layers),
+    ("iterations", iteration_counts),
+    ("thresholds", thresholds),
+    ("shadows", shadows),
+    ("bamboo", bamboo),
+    ("foam", foam),
+    ("sheets", sheets),
+    ("zoom", zoom),
+    ("flights", flights),
+];
+
+fn pictures(docs: &Path, name: &str) -> PathBuf {
+    docs.join("pictures").join(name)
+}
+
+/// The basin and the pillar of the waterfall from near.
+const NEAR: &str = "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40";
+
+/// Figures 4.7 to 4.20: what each pass leaves.
+fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let frame = tool.frame("waterfall", 240, "")?;
+    let without = tool.frame("waterfall", 240, "--spray none")?;
+    let radius = 0.053; // of the scene's particles, drawn
+    let layers = &frame.layers;
+    let panels = [
+        depth(layers, "water.depth.Z")?,
+        depth(layers, "foam.depth.Z")?,
+        depth(layers, "water.surface.Z")?,
+        normals(layers)?,
+        iterations(layers)?,
+        amount(layers, "water.thickness", 6.0 * radius)?,
+        amount(layers, "foam.thickness", radius)?,
+        amount(layers, "foam.thickness.front", radius)?,
+        amount(layers, "spray", 0.5)?,
+        tool.frame("waterfall", 240, "--foam none --spray none")?.picture,
+        without.picture,
+        frame.picture,
+    ];
+    grid(&panels, 3, &pictures(docs, "layers.png"))
+}
+
+/// Iterations of the three scenes' views, by the source's rule and by ours.
+fn iteration_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let mut panels = Vec::new();
+    for (scene, frame) in [("waterfall", 240), ("corridor", 110), ("bamboo", 112)] {
+        for rule in ["source", "constant-width"] {
+            let more = format!("--rule {rule} --supersample 1 --shadows none");
+            let drawn = tool.frame(scene, frame, &more)?;
+            let (least, most) = panels::range_of(&drawn.layers, "water.iterations")?;
+            println!("iterations, {scene}, {rule}: {least} to {most}");
+            panels.push(iterations(&drawn.layers)?);
+        }
+    }
+    grid(&panels, 2, &pictures(docs, "iterations.png"))
+}
+
+/// Figure 5.3: foam against the threshold, in the proportions of the source's 110, 90, 70 and 50.
+fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let mut panels = Vec::new();
+    let mut before = 0.0;
+    // The scene's default, found from its fastest twentieth, stands for the source's 80.
+    for source in [110.0, 90.0, 70.0, 50.0] {
+        let threshold = 173.0 / 80.0 * source;
+        let drawn = tool.frame("waterfall", 240, &format!("--foam {threshold}"))?;
+        let foam = panels::mean_of(&drawn.layers, "foam.thickness")?;
+        println!("thresholds, We {threshold:.0}: {foam:.6} m of foam a pixel");
+        if foam <= before {
+            return Err(format!("foam does not grow as the threshold falls to {threshold}"));
+        }
+        before = foam;
+        panels.push(drawn.picture);
+    }
+    grid(&panels, 2, &pictures(docs, "thresholds.png"))
+}
+
+/// Figure 5.4: no shadows, those of the scene, and those of water and foam with caustics.
+fn shadows(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let panels: Result<Vec<_>, _> = ["none", "scene", "all"]
+        .iter()
+        .map(|what| {
+            let more = format!("{NEAR} --shadows {what}");
+            Ok::<_, String>(tool.frame("waterfall", 240, &more)?.picture)
+        })
+        .collect();
+    grid(&panels?, 3, &pictures(docs, "shadows.png"))
+}
+
+/// Figures 5.5 and 5.6: the bamboo fills, tips and is empty, and the pouring from near.
+fn bamboo(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let near = "--eye 1.0,0.75,1.05 --target 0.45,0.3,0 --fov 36";
+    let panels = [
+        tool.frame("bamboo", 80, "")?.picture,
+        tool.frame("bamboo", 112, "")?.picture,
+        tool.frame("bamboo", 112, near)?.picture,
+        tool.frame("bamboo", 112, &format!("{near} --foam none --spray none"))?.picture,
+    ];
+    grid(&panels, 2, &pictures(docs, "bamboo-foam.png"))
+}
+
+/// Figure 5.7, without and with foam; below it Figure 5.8's foam under the surface, and where foam is.
+fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
+    let under = "--eye 0.75,0.75,1.35 --target -0.05,0.1,0.1 --fov 40";
+    let panels = [
+        tool.frame("corridor", 110, &format!("{wave} --foam none --spray none"))?.picture,
+        tool.frame("corridor", 110, wave)?.picture,
+        tool.frame("waterfall", 240, under)?.picture,
+        amount(&tool.frame("waterfall", 240, under)?.layers, "foam.thickness", 0.05)?,
+    ];
+    grid(&panels, 2, &pictures(docs, "foam.png"))
+}
+
+/// Figure 5.13: one sheet of water, whose thickness counts what is behind the air, and two.
+fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let panels: Result<Vec<_>, _> = ["1", "2"]
+        .iter()
+        .map(|sheets| {
+            let more = format!("{NEAR} --foam none --spray none --shadows none --sheets {sheets}");
+            let frame = tool.frame("waterfall", 240, &more)?;
+            Ok::<_, String>(frame.picture)
+        })
+        .collect();
+    grid(&panels?, 2, &pictures(docs, "sheets.png"))
+}
+
+/// The ways that the thesis compares, and ours.
+const WAYS: [(&str, &str); 4] = [
+    ("baseline: 40 iterations", "--sheets 1 --foam none --rule fixed:40"),
+    ("source, without foam", "--sheets 1 --foam none --rule source"),
+    ("source, with foam", "--sheets 1 --foam auto --rule source"),
+    ("default: constant width, two sheets, foam", "--foam auto"),
+];
+
+fn measure(tool: &Tool, scene: &str, files: &[PathBuf], camera: &Path) -> Outcome<Vec<Curve>> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for (name, more) in WAYS {
+        let times = tool.times(scene, files, camera, more)?;
+        let all: f64 = times.iter().map(total).sum();
+        let mut shares: Vec<(&str, f64)> = Vec::new();
+        for (pass, ms) in times.iter().flatten() {
+            match shares.iter_mut().find(|(name, _)| name == pass) {
+                Some((_, sum)) => *sum += ms,
+                None => shares.push((pass, *ms)),
+            }
+        }
+        let mean = all / times.len().max(1) as f64;
+        let first = curves.first().map_or(mean, |(_, ms)| ms.iter().sum::<f64>() / ms.len() as f64);
+        print!("{scene}, {name}: {mean:.1} ms, {:.2} of the baseline;", mean / first);
+        for (pass, ms) in shares {
+            print!(" {pass} {:.0} %", 100.0 * ms / all);
+        }
+        println!();
+        curves.push((name, times.iter().map(total).collect()));
+    }
+    Ok(curves)
+}
+
+/// Figure 5.9: a zoom to the waterfall's basin, over one frame.
+fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
+    const STEPS: u32 = 24;
+    let still = tool.scene("waterfall")?.join("waterfall_0240.bgeo");
+    let mut files = Vec::new();
+    for step in 1..=STEPS {
+        let file = tool.temporary(&format!("zoom_{step:04}.bgeo"));
+        std::fs::copy(&still, &file).map_err(|error| format!("{}: {error}", file.display()))?;
+        files.push(file);
+    }
+    // From ten metres to one, each step as much nearer as the one before in proportion.
+    let keys: Vec<_> = (1..=STEPS)
+        .map(|step| {
+            let away = 10.0_f64.powf(1.0 - f64::from(step - 1) / f64::from(STEPS - 1));
+            let eye = [-0.1 + 0.35 * away, 0.15 + 0.45 * away, 0.82 * away];
+            json!({"frame": step, "eye": eye, "target": [-0.1, 0.15, 0.0]})
+        })
+        .collect();
+    let camera = tool.temporary("zoom.json");
+    std::fs::write(&camera, json!({"fov_y_degrees": 38.0, "keys": keys}).to_string())
+        .map_err(|error| format!("{}: {error}", camera.display()))?;
+    let curves = measure(tool, "waterfall", &files, &camera)?;
+    curves::plot("Zoom, waterfall", "from 10 m to 1 m", &curves, &pictures(docs, "cost-zoom.svg"))
+}
+
+/// Figures 5.10 to 5.12: the scenes' own camera ways, every tenth frame.
+fn flights(tool: &Tool, docs: &Path) -> Outcome<()> {
+    for scene in ["waterfall", "corridor", "bamboo"] {
+        let folder = tool.scene(scene)?;
+        let files: Vec<_> =
+            (1..=24).map(|i| folder.join(format!("{scene}_{:04}.bgeo", 10 * i))).collect();
+        let curves = measure(tool, scene, &files, &folder.join("camera.json"))?;
+        let to = pictures(docs, &format!("cost-{scene}.svg"));
+        curves::plot(&format!("Fly-through, {scene}"), "frame / 10", &curves, &to)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,67 @@
+//! The figures of `docs/layered-water.md`: the thesis' own (F. Bagar, 2010), drawn anew by `whitewater`.
+//!
+//! ```sh
+//! cargo build --release -p whitewater-cli -p whitewater-figures
+//! target/release/figures --caches DIR            # all of them, into docs/
+//! target/release/figures --caches DIR --only thresholds
+//! ```
+//!
+//! Scenes that are not yet in DIR are simulated first, some minutes each. Figures are drawn by the command
+//! line as anyone would; here is only what puts them side by side.
+
+mod curves;
+mod figures;
+mod panels;
+mod tool;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::tool::Tool;
+
+/// Of everything here: a line for the user.
+type Outcome<T> = Result<T, String>;
+
+/// Draws the figures of the documents.
+#[derive(Parser)]
+struct Args {
+    /// Folder of the simulated scenes; what is missing there is simulated
+    #[arg(long)]
+    caches: PathBuf,
+    /// Folder of the documents
+    #[arg(long, default_value = "docs")]
+    docs: PathBuf,
+    /// This figure alone
+    #[arg(long)]
+    only: Option<String>,
+    /// The program that draws [default: `whitewater` beside this one]
+    #[arg(long)]
+    tool: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("figures: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> Outcome<()> {
+    let tool = Tool::new(args.tool.as_deref(), &args.caches)?;
+    let wanted = |name: &str| args.only.as_deref().is_none_or(|only| only == name);
+    let all: Vec<_> = figures::ALL.iter().filter(|(name, _)| wanted(name)).collect();
+    if all.is_empty() {
+        let names: Vec<_> = figures::ALL.iter().map(|(name, _)| *name).collect();
+        return Err(format!("there is no such figure; there are {}", names.join(", ")));
+    }
+    for (name, draw) in all {
+        eprintln!("figures: {name}");
+        draw(&tool, &args.docs)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,166 @@
+//! Runs the command line, and reads what it wrote.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use image::RgbImage;
+use whitewater::io::picture::{self, Layers};
+
+use crate::Outcome;
+
+/// Size of a panel's picture.
+pub const SIZE: (usize, usize) = (480, 270);
+
+/// Towards the sun in all pictures: from the side.
+const SUN: &str = "-0.75,0.62,0.3";
+
+/// The command line with the scenes to draw.
+pub struct Tool {
+    program: PathBuf,
+    caches: PathBuf,
+    folder: tempfile::TempDir,
+}
+
+/// A frame as it was drawn.
+pub struct Frame {
+    /// Its layers, with the linear picture.
+    pub layers: Layers,
+    /// As a screen shows it.
+    pub picture: RgbImage,
+}
+
+/// Milliseconds of a frame's passes, in their order.
+pub type Times = Vec<(String, f64)>;
+
+impl Tool {
+    /// The program, by default that beside this one.
+    pub fn new(program: Option<&Path>, caches: &Path) -> Outcome<Self> {
+        let beside =
+            || Ok::<_, std::io::Error>(std::env::current_exe()?.with_file_name("whitewater"));
+        let program = match program {
+            Some(program) => program.to_owned(),
+            None => beside().map_err(|error| format!("cannot find whitewater: {error}"))?,
+        };
+        if !program.exists() {
+            return Err(format!("{} is not there; build it", program.display()));
+        }
+        let folder =
+            tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
+        Ok(Self { program, caches: caches.to_owned(), folder })
+    }
+
+    /// A file that goes when this ends.
+    pub fn temporary(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn run(&self, arguments: &[String]) -> Outcome<()> {
+        let status = Command::new(&self.program)
+            .args(arguments)
+            .status()
+            .map_err(|error| format!("cannot run {}: {error}", self.program.display()))?;
+        if status.success() {
+            return Ok(());
+        }
+        Err(format!("whitewater {} ended with {status}", arguments.join(" ")))
+    }
+
+    /// Files of a scene's simulation, made when they are not there.
+    pub fn scene(&self, name: &str) -> Outcome<PathBuf> {
+        let folder = self.caches.join(name);
+        if !folder.join(format!("{name}_0240.bgeo")).exists() {
+            eprintln!("figures: simulating {name}");
+            let folder = folder.display().to_string();
+            self.run(&["simulate".into(), name.into(), "--out".into(), folder])?;
+        }
+        Ok(folder)
+    }
+
+    /// A frame of a scene. `more` are further arguments.
+    pub fn frame(&self, scene: &str, frame: u32, more: &str) -> Outcome<Frame> {
+        let folder = self.scene(scene)?;
+        let (exr, png) = (self.temporary("frame.exr"), self.temporary("frame.png"));
+        let mut arguments = vec![
+            "render".to_owned(),
+            folder.join(format!("{scene}_{frame:04}.bgeo")).display().to_string(),
+            format!("--scene={}", folder.join("scene.json").display()),
+            format!("--size={}x{}", SIZE.0, SIZE.1),
+            format!("--sun={SUN}"),
+            format!("--output={}", exr.display()),
+            format!("--output={}", png.display()),
+            "--overwrite".to_owned(),
+        ];
+        if !more.contains("--eye") {
+            arguments.push(format!("--camera={}", folder.join("camera.json").display()));
+        }
+        arguments.extend(more.split_whitespace().map(str::to_owned));
+        self.run(&arguments)?;
+        let layers = picture::read(&exr).map_err(|error| error.to_string())?;
+        let picture = image::open(&png).map_err(|error| error.to_string())?.into_rgb8();
+        Ok(Frame { layers, picture })
+    }
+
+    /// Times of the frames in `files` from a moving camera, at the best of three runs each.
+    pub fn times(
+        &self,
+        scene: &str,
+        files: &[PathBuf],
+        camera: &Path,
+        more: &str,
+    ) -> Outcome<Vec<Times>> {
+        let mut best: Vec<Times> = Vec::new();
+        for _ in 0..3 {
+            let csv = self.temporary("times.csv");
+            let mut arguments = vec!["render".to_owned()];
+            arguments.extend(files.iter().map(|file| file.display().to_string()));
+            arguments.extend([
+                format!("--scene={}", self.scene(scene)?.join("scene.json").display()),
+                format!("--camera={}", camera.display()),
+                "--size=1280x720".to_owned(),
+                "--supersample=1".to_owned(),
+                "--shadows=none".to_owned(),
+                "--spray=none".to_owned(),
+                "--thickness-level=2".to_owned(),
+                format!("--output={}", self.temporary("times_%04d.png").display()),
+                "--overwrite".to_owned(),
+                format!("--timings={}", csv.display()),
+            ]);
+            arguments.extend(more.split_whitespace().map(str::to_owned));
+            self.run(&arguments)?;
+            let frames = read_times(&csv)?;
+            best = match best.is_empty() {
+                true => frames,
+                false => best.into_iter().zip(frames).map(quicker).collect(),
+            };
+        }
+        Ok(best)
+    }
+}
+
+/// Milliseconds of all passes.
+pub fn total(times: &Times) -> f64 {
+    times.iter().map(|(_, ms)| ms).sum()
+}
+
+fn quicker((a, b): (Times, Times)) -> Times {
+    if total(&a) <= total(&b) { a } else { b }
+}
+
+/// The rows of `--timings`: frame, pass, start, nanoseconds.
+fn read_times(csv: &Path) -> Outcome<Vec<Times>> {
+    let text =
+        std::fs::read_to_string(csv).map_err(|error| format!("{}: {error}", csv.display()))?;
+    let mut frames: Vec<(String, Times)> = Vec::new();
+    for line in text.lines().skip(1) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [frame, pass, _, nanoseconds] = cells[..] else {
+            return Err(format!("expected four columns, found {line:?}"));
+        };
+        let ms = nanoseconds.parse::<f64>().map_err(|_| format!("no number in {line:?}"))? * 1.0e-6;
+        match frames.last_mut() {
+            Some((last, times)) if last == frame => times.push((pass.to_owned(), ms)),
+            _ => frames.push((frame.to_owned(), vec![(pass.to_owned(), ms)])),
+        }
+    }
+    Ok(frames.into_iter().map(|(_, times)| times).collect())
+}
