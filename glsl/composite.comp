@@ -11,6 +11,7 @@
 #include "surface.glsl"
 #include "beside.glsl"
 #include "sunlight.glsl"
+#include "surface_noise.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

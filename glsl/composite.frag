@@ -8,6 +8,7 @@
 #include "surface.glsl"
 #include "beside.glsl"
 #include "sunlight.glsl"
+#include "surface_noise.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;

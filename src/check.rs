@@ -17,6 +17,7 @@ pub fn frame(
     check_settings(&frame.settings.water, &frame.settings.light)?;
     frame.settings.foam.check()?;
     frame.settings.spray.check()?;
+    frame.settings.noise.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
     if part.width > most.width || part.height > most.height {
         return Err(Error::bad(
@@ -196,6 +197,11 @@ pub fn config(config: &Config) -> Result<(), Error> {
     }
     if !(1..=2).contains(&config.sheets) {
         return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
+    }
+    if let Some(level) = config.noise
+        && level > 3
+    {
+        return bad("Config.noise", format!("{level} of 0 to 3"));
     }
     if let Some(edge) = config.cast
         && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))

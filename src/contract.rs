@@ -10,7 +10,7 @@ use gpu_allocator::vulkan::Allocator;
 use crate::error::Error;
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
-    FoamLook, FoamSettings, Ladder, Rule, Shading, Shadows, Smoothing, Splat, SprayLook,
+    FoamLook, FoamSettings, Ladder, NoiseLook, Rule, Shading, Shadows, Smoothing, Splat, SprayLook,
     WaterSettings,
 };
 
@@ -104,6 +104,9 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
+    /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0 full,
+    /// 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4 a texel.
+    pub noise: Option<u32>,
     /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`]; `None`
     /// (default): it is everywhere.
     pub shadow: Option<Shadows>,
@@ -141,6 +144,7 @@ impl Config {
             sheets: 2,
             foam: false,
             spray: false,
+            noise: None,
             shadow: None,
             cast: None,
             environment_size: 256,
@@ -269,7 +273,8 @@ pub struct Particles {
     /// with [`Config::foam`] or [`Config::spray`] alone. `None`: at rest.
     pub velocities: Option<Stream>,
     /// Numbers that follow the particles from frame to frame (u32), for the noise in foam and the
-    /// droplets of spray; read as the velocities. `None`: their place.
+    /// droplets of spray; read as the velocities, and with [`Config::noise`] for the noise on the surface.
+    /// `None`: their place.
     pub ids: Option<Stream>,
     /// How many.
     pub count: Count,
@@ -437,6 +442,8 @@ pub struct Settings {
     pub foam: FoamLook,
     /// Drops too small for the particles.
     pub spray: SprayLook,
+    /// Noise on its surface.
+    pub noise: NoiseLook,
     /// Light on it.
     pub light: Light,
     /// How many of the composite's layers are drawn, for a look at each; default all.

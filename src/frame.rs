@@ -59,6 +59,9 @@ pub struct FrameUniforms {
     pub shade: [f32; 4],
     pub lit_color: [f32; 4],
     pub lit_origin: [f32; 4],
+    pub noise: [f32; 4],
+    pub noise_image: [f32; 4],
+    pub noise_color: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -104,6 +107,9 @@ shader::assert_layout!(
         shade,
         lit_color,
         lit_origin,
+        noise,
+        noise_image,
+        noise_color,
     }
 );
 
@@ -248,6 +254,9 @@ impl FrameUniforms {
         };
         let (medium_a, medium_b) = medium(&water.medium);
         let look = &frame.settings.foam;
+        let ripples = &frame.settings.noise;
+        let noise_level = config.noise.unwrap_or(0);
+        let noisy = reduced(full, noise_level);
         let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
         Self {
             view: lens.view.to_cols_array_2d(),
@@ -322,6 +331,19 @@ impl FrameUniforms {
             shade: shade(light, look),
             lit_color: ratio(lit),
             lit_origin: [lit.offset.x as f32, lit.offset.y as f32, 0.0, 0.0],
+            noise: [
+                ripples.weight * radius,
+                ripples.foam,
+                ripples.falloff / radius,
+                ripples.size * radius,
+            ],
+            noise_image: [
+                noisy.width as f32,
+                noisy.height as f32,
+                (1 << noise_level) as f32,
+                ripples.cells / radius,
+            ],
+            noise_color: foam_color(ripples.color, light),
         }
     }
 }

@@ -474,7 +474,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        94 + 24 * crate::water::chunks(&gpu.limits, config).1
+        94 + 26 * crate::water::chunks(&gpu.limits, config).1
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

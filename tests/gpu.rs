@@ -32,6 +32,8 @@ mod level;
 mod light;
 #[path = "gpu/limits.rs"]
 mod limits;
+#[path = "gpu/noise.rs"]
+mod noise;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/rect.rs"]

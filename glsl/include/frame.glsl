@@ -43,6 +43,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 shade;         // light in shade over that in the sun; foam's extinction of sunlight
     vec4 lit_color;     // as scene_color and its origin, of what `lit` reads
     vec4 lit_origin;
+    vec4 noise;         // height of 1 in metres, foam; falloff a metre below the surface, half-axis
+    vec4 noise_image;   // width, height of the surface noise; its texels' size; cells a metre
+    vec4 noise_color;   // radiance of its foam
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -9,6 +9,7 @@ mod foam;
 mod front;
 mod gaps;
 mod level;
+mod noise;
 mod reduce;
 pub mod settings;
 mod smooth;
@@ -36,8 +37,8 @@ pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, Rule, Shading, Shadows,
-    Smoothing, Splat, SprayLook, WaterSettings,
+    Amplitude, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule, Shading,
+    Shadows, Smoothing, Splat, SprayLook, WaterSettings,
 };
 
 /// What every pass records with.
@@ -97,6 +98,8 @@ pub(crate) struct WaterLayers<'a> {
     pub foam: Option<[&'a Image; 2]>,
     /// Spray, where there may be some.
     pub spray: Option<&'a Image>,
+    /// Height of the surface noise, where it is drawn.
+    pub noise: Option<&'a Image>,
 }
 
 /// The passes that tell two sheets apart.
@@ -125,6 +128,7 @@ pub(crate) struct Water {
     smooth: smooth::Smooth,
     thickness: thickness::Thickness,
     split: split::Split,
+    noise: Option<noise::Noise>,
 }
 
 impl Water {
@@ -142,6 +146,7 @@ impl Water {
             smooth: smooth::Smooth::new(gpu, config)?,
             thickness: thickness::Thickness::new(gpu, config)?,
             split: split::Split::new(gpu, config)?,
+            noise: config.noise.map(|level| noise::Noise::new(gpu, config, level)).transpose()?,
         })
     }
 
@@ -168,6 +173,9 @@ impl Water {
         self.tiles.resize(gpu, config, retired)?;
         self.smooth.resize(gpu, config, retired)?;
         self.thickness.resize(gpu, config, retired)?;
+        if let Some(noise) = &mut self.noise {
+            noise.resize(gpu, config, retired)?;
+        }
         self.split.resize(gpu, config, retired)
     }
 
@@ -208,7 +216,11 @@ impl Water {
         }
         self.tiles.record(r, level)?;
         self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
-        self.split.record(r, tiles, level, gaps)
+        self.split.record(r, tiles, level, gaps)?;
+        if let Some(noise) = &self.noise {
+            noise.record(r, particles, &self.cull.list, &self.front, &self.depth.image)?;
+        }
+        Ok(())
     }
 
     /// What `composite` reads.
@@ -223,6 +235,7 @@ impl Water {
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
             spray: self.spray.as_ref().map(spray::Spray::image),
+            noise: self.noise.as_ref().map(noise::Noise::image),
         }
     }
 
@@ -278,6 +291,9 @@ impl Water {
         if let Some(spray) = &self.spray {
             layers.push(layer("spray", spray.image(), 0, spray::AFTER));
         }
+        if let Some(noise) = &self.noise {
+            layers.push(layer("noise", noise.image(), noise.level, access));
+        }
         layers
     }
 
@@ -296,15 +312,18 @@ impl Water {
         let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
         let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
         let (spray, droplets) = self.spray.as_ref().map_or((0, 0), spray::Spray::memory);
+        let (noise, ripples) = self.noise.as_ref().map_or((0, 0), noise::Noise::memory);
         MemoryUse {
             images: images.iter().map(|image| image.size).sum::<u64>()
                 + back
                 + sheets
                 + foam
-                + spray,
+                + spray
+                + noise,
             buffers: gaps
                 + sprites
                 + droplets
+                + ripples
                 + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()

@@ -20,6 +20,7 @@ pub mod depth;
 pub mod environment;
 pub mod foam;
 pub mod light;
+pub mod noise;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;

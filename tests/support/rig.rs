@@ -210,6 +210,8 @@ pub struct Drawn {
     pub spray: Option<Image<f32>>,
     /// What of it the sun lights.
     pub lit_spray: Option<Image<f32>>,
+    /// Height of the surface noise, where it is drawn.
+    pub noise: Option<Image<f32>>,
     /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
     /// times where they lie; light over what comes without water.
     pub light_front: Option<Image<f32>>,
@@ -451,6 +453,7 @@ impl<'g> Rig<'g> {
             foam: None,
             spray: None,
             lit_spray: None,
+            noise: None,
             light_front: None,
             light_thickness: None,
             caustics: None,
@@ -496,6 +499,7 @@ impl<'g> Rig<'g> {
                     drawn.spray = Some(both.map(|s| s[0]));
                     drawn.lit_spray = Some(both.map(|s| s[1]));
                 }
+                "noise" => drawn.noise = Some(self.floats(layer, whole)),
                 "light.front" => drawn.light_front = Some(self.floats(layer, whole)),
                 "light.thickness" => {
                     let bytes = self.bytes(layer, whole);

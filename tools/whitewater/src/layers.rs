@@ -8,7 +8,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 13] = [
+const GROUPS: [&str; 14] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -21,6 +21,7 @@ const GROUPS: [&str; 13] = [
     "foam.thickness",
     "foam.thickness.front",
     "spray",
+    "noise",
     "scene",
 ];
 
@@ -114,6 +115,7 @@ pub fn collect(
         ("foam.thickness", Merge::Mean),
         ("foam.thickness.front", Merge::Mean),
         ("spray", Merge::Mean),
+        ("noise", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?

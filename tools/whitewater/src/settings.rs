@@ -15,6 +15,7 @@ pub struct SettingsFile {
     pub water: WaterTable,
     pub foam: FoamTable,
     pub spray: SprayTable,
+    pub noise: NoiseTable,
     pub light: LightTable,
 }
 
@@ -66,6 +67,18 @@ pub struct SprayTable {
     shutter: Option<f32>,
     color: Option<[f32; 3]>,
     additive: Option<bool>,
+}
+
+/// Table `[noise]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NoiseTable {
+    weight: Option<f32>,
+    falloff: Option<f32>,
+    size: Option<f32>,
+    cells: Option<f32>,
+    foam: Option<f32>,
+    color: Option<[f32; 3]>,
 }
 
 /// Table `[light]`.
@@ -175,6 +188,13 @@ impl SettingsFile {
         set(&mut spray.shutter, table.shutter);
         spray.color = table.color.unwrap_or(spray.color);
         spray.additive = table.additive.unwrap_or(spray.additive);
+        let (noise, table) = (&mut settings.noise, &self.noise);
+        set(&mut noise.weight, table.weight);
+        set(&mut noise.falloff, table.falloff);
+        set(&mut noise.size, table.size);
+        set(&mut noise.cells, table.cells);
+        set(&mut noise.foam, table.foam);
+        noise.color = table.color.unwrap_or(noise.color);
         let light = &mut settings.light;
         light.direction = self.light.direction.unwrap_or(light.direction);
         light.color = self.light.color.unwrap_or(light.color);
@@ -275,6 +295,14 @@ pub fn to_toml(settings: &Settings) -> String {
         ("spread", spray.spread),
         ("shutter", spray.shutter),
     ];
+    let noise = &settings.noise;
+    let of_noise = [
+        ("weight", noise.weight),
+        ("falloff", noise.falloff),
+        ("size", noise.size),
+        ("cells", noise.cells),
+        ("foam", noise.foam),
+    ];
     let lines = |numbers: &[(&str, f32)]| -> String {
         numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect()
     };
@@ -282,6 +310,7 @@ pub fn to_toml(settings: &Settings) -> String {
         "[water]\n{}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
          [foam]\n{}back_color = {:?}\nfront_color = {:?}\n\n\
          [spray]\n{}droplets = {}\ndensities = {:?}\ncolor = {:?}\nadditive = {}\n\n\
+         [noise]\n{}color = {:?}\n\n\
          [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\nshade = {:?}\n",
         lines(&numbers),
         lines(&of_foam),
@@ -292,6 +321,8 @@ pub fn to_toml(settings: &Settings) -> String {
         spray.densities,
         spray.color,
         spray.additive,
+        lines(&of_noise),
+        noise.color,
         light.direction,
         light.color,
         light.ambient,
@@ -307,7 +338,7 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use whitewater::water::SprayLook;
+    use whitewater::water::{NoiseLook, SprayLook};
 
     #[test]
     fn values_arrive() {
@@ -332,6 +363,7 @@ mod tests {
         settings.foam.veil = 0.25;
         settings.foam.front_color = [0.1, 0.2, 0.3];
         settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
+        settings.noise = NoiseLook { cells: 0.7, ..NoiseLook::SOURCE };
         settings.light.irradiance = [1.0, 2.0, 3.0];
         let mut back = Settings::default();
         SettingsFile::parse(&to_toml(&settings)).unwrap().apply(&mut back).unwrap();

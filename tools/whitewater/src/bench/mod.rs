@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
-use whitewater::water::{FoamLook, FoamSettings, Gate, Rule, Shading, Smoothing, Splat};
+use whitewater::water::{FoamLook, FoamSettings, Gate, NoiseLook, Rule, Shading, Smoothing, Splat};
 use whitewater::{Camera, Config, Region, Settings};
 
 use crate::bounds::Bounds;
@@ -78,6 +78,8 @@ pub enum Path {
     Foam,
     /// With spray: the highest fortieth of the particles is nothing else
     Spray,
+    /// With the baseline's surface noise and its foam
+    Noise,
     /// With shadows and caustics of the water, maps of 512 texels a side
     Light,
     /// Composite: a render pass over the tiles
@@ -88,6 +90,8 @@ pub enum Path {
     Source,
     /// The baseline: 40 iterations for every pixel
     Baseline,
+    /// The baseline with its noise and foam
+    BaselineNoise,
     /// All of the above, one after the other
     All,
 }
@@ -118,11 +122,16 @@ impl Path {
             Self::OneSheet => config.sheets = 1,
             Self::Foam => config.foam = true,
             Self::Spray => config.spray = true,
+            Self::Noise => config.noise = Some(1),
             Self::Light => config.cast = Some(512),
             Self::RasterComposite => config.composite = Some(Shading::Raster),
             Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,
             Self::Baseline => config.rule = Rule::Fixed(40),
+            Self::BaselineNoise => {
+                config.rule = Rule::Fixed(40);
+                config.noise = Some(1);
+            }
         }
     }
 }
@@ -209,6 +218,7 @@ fn sample(
     let camera = camera(extent);
     let mut settings = Settings::default();
     settings.water.spacing = pool.spacing;
+    settings.noise = NoiseLook::SOURCE;
     let densities = config.spray.then(|| densities(pool));
     headless.particles(&pool.positions, densities.as_deref())?;
     if config.cast.is_some() {
