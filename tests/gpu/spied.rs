@@ -71,6 +71,7 @@ fn record_only_records() {
         ("compute composite", Config { composite: Some(Shading::Compute), ..base }),
         ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
         ("query", Config { smoothing: query, ..base }),
+        ("noise", Config { noise: Some(1), ..base }),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));
@@ -92,6 +93,8 @@ fn many_chunks_have_their_descriptor_sets() {
     let size = extent(48, 32);
     let config = Config { max_stride: 1 << 16, max_particles: 1 << 16, ..config(size) };
     watched("many chunks", &mut Rig::new(&gpu, &config), &water(size));
+    let noisy = Config { noise: Some(0), ..config };
+    watched("many chunks of noise", &mut Rig::new(&gpu, &noisy), &water(size));
 }
 
 /// Frames in a steady state make and destroy as much.
