@@ -155,12 +155,6 @@ impl Front {
         Ok(())
     }
 
-    /// For each cell of 4x4 pixels a depth behind which nothing shows, and cells a row. Left as compute
-    /// reads them.
-    pub fn bounds(&self) -> (&Buffer, u32) {
-        (&self.cells, self.columns)
-    }
-
     pub fn memory(&self) -> u64 {
         self.cells.size + self.list.memory()
     }

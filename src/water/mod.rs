@@ -218,7 +218,7 @@ impl Water {
         self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
         self.split.record(r, tiles, level, gaps)?;
         if let Some(noise) = &self.noise {
-            noise.record(r, particles, &self.cull.list, &self.front, &self.depth.image)?;
+            noise.record(r, particles, &self.cull.list, &self.depth.image)?;
         }
         Ok(())
     }

@@ -8,8 +8,8 @@
 //! the surface is that of the spheres before they are smoothed; the depth below it is of a particle's
 //! nearest point, so that what is at the surface counts whole; sums are of whole steps, so that the order
 //! does not show. The noise is about 0: a calm pool has as much of it as a fall.
-//! Reads: the counts of `cull`, the cells of `front`, the host's particles, water depth. Writes: noise,
-//! R32F, 0 where there is no water.
+//! Reads: the counts of `cull`, the host's particles, water depth. Writes: noise, R32F, 0 where there is
+//! no water.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -17,7 +17,6 @@ use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::{self, LIST_USE, SphereList, Window};
-use super::front::Front;
 use crate::contract::{Config, Particles};
 use crate::error::Error;
 use crate::frame::reduced;
@@ -52,7 +51,6 @@ struct Push {
     id_word: u32,
     id_stride: u32,
     chunk_first: u32,
-    columns: u32,
 }
 shader::assert_layout!(
     shader::WATER_NOISE_LIST_COMP,
@@ -65,7 +63,6 @@ shader::assert_layout!(
         id_word,
         id_stride,
         chunk_first,
-        columns,
     }
 );
 
@@ -130,7 +127,6 @@ impl Noise {
         r: &mut Recording<'_>,
         particles: &Particles,
         list: &SphereList,
-        front: &Front,
         depth: &Image,
     ) -> Result<(), Error> {
         let scope = r.begin(c"noise");
@@ -142,7 +138,7 @@ impl Noise {
         ];
         gpu.barriers(cmd, &[], &before);
         for index in 0..list.chunks {
-            self.record_list(r, particles, list, front, index)?;
+            self.record_list(r, particles, list, index)?;
         }
         let after = [
             buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
@@ -179,7 +175,6 @@ impl Noise {
         r: &Recording<'_>,
         particles: &Particles,
         list: &SphereList,
-        front: &Front,
         index: u32,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -193,7 +188,6 @@ impl Noise {
         else {
             return Ok(());
         };
-        let (cells, columns) = front.bounds();
         r.descriptors.bind(
             gpu,
             cmd,
@@ -203,9 +197,8 @@ impl Noise {
                 (1, positions.resource),
                 (2, densities.resource),
                 (3, ids.resource),
-                (4, Resource::buffer(cells)),
-                (5, list.chunk(index).counts),
-                (6, self.chunk(list, index)),
+                (4, list.chunk(index).counts),
+                (5, self.chunk(list, index)),
             ],
         )?;
         self.list.push(
@@ -219,7 +212,6 @@ impl Noise {
                 id_word: ids.word,
                 id_stride: ids.stride,
                 chunk_first: first,
-                columns,
             },
         );
         let groups = list.chunk_size.div_ceil(self.list.local_size[0]).min(MOST_GROUPS);

@@ -151,8 +151,8 @@ fn noise_of_all_settings_is_the_twins() {
         for deep in [false, true] {
             let mut case = Noisy::new(size, Lens::OffAxis);
             if deep {
-                let points = scenes::block(9, 0.12, [16, 10, 9], [-0.9, -0.6, 2.0]);
-                case = Noisy::of(Shot::new(size, Lens::Standard, 0.08, &points));
+                let points = scenes::block(9, 0.24, [12, 8, 9], [-1.4, -0.9, 2.0]);
+                case = Noisy::of(Shot::new(size, Lens::Standard, 0.16, &points));
                 case.shot.densities = None;
             }
             case.shot.positions[1][0] = f32::NAN;
