@@ -68,7 +68,7 @@ fn pipelines(
     let beside = [
         (9, u32::from(config.foam)),
         (10, u32::from(config.spray)),
-        (13, u32::from(config.noise.is_some())),
+        (14, u32::from(config.noise.is_some())),
     ];
     let light = crate::light::constants(config);
     let make = |configured: u32, sheets: u32| {
@@ -174,7 +174,7 @@ impl Composite {
             (15, Resource::Sampled(layers.spray.unwrap_or(layers.thickness).view, nearest)),
             shadow,
             light_thickness,
-            (18, Resource::Sampled(layers.noise.unwrap_or(layers.thickness).view, nearest)),
+            (20, Resource::Sampled(layers.noise.unwrap_or(layers.thickness).view, nearest)),
         ];
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();

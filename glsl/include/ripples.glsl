@@ -2,9 +2,9 @@
 // surface_noise.glsl.
 
 // 1: there is some; else it is not read.
-layout(constant_id = 13) const uint NOISE = 0;
+layout(constant_id = 14) const uint NOISE = 0;
 
-layout(set = 0, binding = 18) uniform sampler2D surface_noise;
+layout(set = 0, binding = 20) uniform sampler2D surface_noise;
 
 // Noise of a texel, and the depth of its surface: none beyond the picture.
 vec2 ripple_texel(ivec2 texel) {
