@@ -12,6 +12,7 @@
 #include "beside.glsl"
 #include "convolution.glsl"
 #include "sunlight.glsl"
+#include "surface_noise.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

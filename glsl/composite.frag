@@ -9,6 +9,7 @@
 #include "beside.glsl"
 #include "convolution.glsl"
 #include "sunlight.glsl"
+#include "surface_noise.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;

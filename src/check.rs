@@ -18,6 +18,7 @@ pub fn frame(
     frame.settings.foam.check()?;
     frame.settings.spray.check()?;
     frame.settings.shadow.check()?;
+    frame.settings.noise.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
     if part.width > most.width || part.height > most.height {
         return Err(Error::bad(
@@ -222,6 +223,11 @@ pub fn config(config: &Config) -> Result<(), Error> {
     }
     if let Some(Shadows::Convolution(convolution)) = config.shadow {
         convolution.check()?;
+    }
+    if let Some(level) = config.noise
+        && level > 3
+    {
+        return bad("Config.noise", format!("{level} of 0 to 3"));
     }
     if let Some(edge) = config.cast
         && (!edge.is_multiple_of(16) || !(16..=4096).contains(&edge))

@@ -65,7 +65,11 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
-    let beside = [(9, u32::from(config.foam)), (10, u32::from(config.spray))];
+    let beside = [
+        (9, u32::from(config.foam)),
+        (10, u32::from(config.spray)),
+        (14, u32::from(config.noise.is_some())),
+    ];
     let light = crate::light::constants(config);
     let make = |configured: u32, sheets: u32| {
         let wanted = sheets <= config.sheets && (configured == 1 || coarsening(config) > 0);
@@ -172,6 +176,7 @@ impl Composite {
             light_thickness,
             basis,
             span,
+            (20, Resource::Sampled(layers.noise.unwrap_or(layers.thickness).view, nearest)),
         ];
         let arguments = layers.split.arguments.handle;
         let middle = layers.split.middle();
@@ -197,6 +202,7 @@ impl Composite {
                     .chain(layers.sheets)
                     .chain(foam)
                     .chain(layers.spray)
+                    .chain(layers.noise)
                     .collect();
                 let hand = |from, to| -> Vec<_> {
                     images.iter().map(|image| access::image(image, from, to)).collect()

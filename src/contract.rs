@@ -10,8 +10,8 @@ use gpu_allocator::vulkan::Allocator;
 use crate::error::Error;
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
-    FoamLook, FoamSettings, Ladder, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat,
-    SprayLook, WaterSettings,
+    FoamLook, FoamSettings, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing,
+    Splat, SprayLook, WaterSettings,
 };
 
 /// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
@@ -106,6 +106,9 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
+    /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0 full,
+    /// 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4 a texel.
+    pub noise: Option<u32>,
     /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`], and how the
     /// map is filtered; `None` (default): it is everywhere.
     pub shadow: Option<Shadows>,
@@ -147,6 +150,7 @@ impl Config {
             sheets: 2,
             foam: false,
             spray: false,
+            noise: None,
             shadow: None,
             cast: None,
             motion: false,
@@ -277,7 +281,8 @@ pub struct Particles {
     /// `None`: at rest.
     pub velocities: Option<Stream>,
     /// Numbers that follow the particles from frame to frame (u32), for the noise in foam and the
-    /// droplets of spray; read as the velocities. `None`: their place.
+    /// droplets of spray; read as the velocities, and with [`Config::noise`] for the noise on the surface.
+    /// `None`: their place.
     pub ids: Option<Stream>,
     /// How many.
     pub count: Count,
@@ -468,6 +473,8 @@ pub struct Settings {
     pub spray: SprayLook,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
+    /// Noise on its surface.
+    pub noise: NoiseLook,
     /// Light on it.
     pub light: Light,
     /// How many of the composite's layers are drawn, for a look at each; default all.

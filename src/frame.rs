@@ -67,6 +67,9 @@ pub struct FrameUniforms {
     pub before_lens: [f32; 4],
     pub lens_change: [f32; 4],
     pub motion: [f32; 4],
+    pub noise: [f32; 4],
+    pub noise_image: [f32; 4],
+    pub noise_color: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -120,6 +123,9 @@ shader::assert_layout!(
         before_lens,
         lens_change,
         motion,
+        noise,
+        noise_image,
+        noise_color,
     }
 );
 
@@ -272,6 +278,9 @@ impl FrameUniforms {
         };
         let (medium_a, medium_b) = medium(&water.medium);
         let look = &frame.settings.foam;
+        let ripples = &frame.settings.noise;
+        let noise_level = config.noise.unwrap_or(0);
+        let noisy = reduced(full, noise_level);
         let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
         let since = Since::new(lens, frame);
         Self {
@@ -355,6 +364,19 @@ impl FrameUniforms {
             before_lens: [since.lens.p.x, since.lens.p.y, since.lens.near, lens.nothing()],
             lens_change: since.lens_change,
             motion: [since.dt / water.spacing, water.spacing, 0.0, 0.0],
+            noise: [
+                ripples.weight * radius,
+                ripples.foam,
+                ripples.falloff / radius,
+                ripples.size * radius,
+            ],
+            noise_image: [
+                noisy.width as f32,
+                noisy.height as f32,
+                (1 << noise_level) as f32,
+                ripples.cells / radius,
+            ],
+            noise_color: foam_color(ripples.color, light),
         }
     }
 }

@@ -34,7 +34,7 @@
 //! | `particles.count` | from the CPU, or a `u32` in a buffer, clamped | storage buffer, aligned offset | as above |
 //! | `particles.packets` | the host's own groups with bounding boxes, to cull by | storage buffer, aligned offset | as above |
 //! | `particles.velocities` | 3×f32, world space, with `Config.foam`, `Config.spray` or `Config.motion` | as above | as above |
-//! | `particles.ids` | u32 that follow the particles, likewise | as above | as above |
+//! | `particles.ids` | u32 that follow the particles, likewise, and with `Config.noise` | as above | as above |
 //! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]) | as above | as above |
 //! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, of any size from frame to frame, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |
@@ -102,6 +102,8 @@
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
+//! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |
+//! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
@@ -134,6 +136,9 @@
 //!   the thesis' foam is flat.
 //! - Spray is water that turns into droplets as its density falls, laid over the picture; the thesis
 //!   adds a sprite a particle ([`water::SprayLook::SOURCE`]).
+//! - The baseline's surface noise (van der Laan et al. 2009) is a height in metres along the normal, the
+//!   same at every distance and resolution, on the front sheet ([`Config::noise`]); the baseline adds the
+//!   derivatives of the noise's image to the normal.
 //! - Shadows: percentage-closer filtering of the host's map, or its mask, or convolution shadow maps, which
 //!   the thesis takes; these span no more depth than there is in the map, and are damped so that few terms
 //!   keep the light's height ([`Shadows::Convolution`](water::Shadows)). Water and foam cast coloured shadows and caustics, which the

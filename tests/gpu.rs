@@ -36,6 +36,8 @@ mod light;
 mod limits;
 #[path = "gpu/motion.rs"]
 mod motion;
+#[path = "gpu/noise.rs"]
+mod noise;
 #[path = "gpu/queries.rs"]
 mod queries;
 #[path = "gpu/rect.rs"]

@@ -27,4 +27,8 @@ struct Counts {
     uint cast_particles;  // instanceCount: all
     uint cast_vertex;
     uint cast_instance;
+    uint noise_vertices;  // surface noise: vertexCount = 4
+    uint noise;           // instanceCount
+    uint noise_vertex;
+    uint noise_instance;
 };

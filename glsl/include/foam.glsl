@@ -1,6 +1,5 @@
 // A particle's foam as a sprite (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which turns
-// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl,
-// random.glsl.
+// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl.
 
 struct FoamSprite {
     vec4 centre;   // eye space; foam, 0 to 1
@@ -35,39 +34,4 @@ float foam_axes(FoamSprite sprite, out vec3 along, out vec3 across) {
                   * (1.0 - smoothstep(0.9, 1.0, abs(dot(v, direction))));
     along = normalize(mix(facing, direction, stretch));
     return stretch;
-}
-
-// Three uniform numbers of an id, 0 to 1.
-vec3 foam_phase(uint id) {
-    uvec3 h = uvec3(pcg(3u * id), pcg(3u * id + 1u), pcg(3u * id + 2u)) >> 8;
-    return vec3(h) * (1.0 / 16777216.0);
-}
-
-// Of one of the twelve directions to the edges of a cube.
-float lattice_gradient(uint hash, vec3 off) {
-    uint h = hash & 15u;
-    float u = h < 8u ? off.x : off.y;
-    float v = h < 4u ? off.y : h == 12u || h == 14u ? off.x : off.z;
-    return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
-}
-
-// Along x, of a row whose hash is known.
-float row_noise(uint x, uint row, vec3 off, float fade) {
-    return mix(lattice_gradient(pcg(x + row), off),
-               lattice_gradient(pcg(x + 1u + row), off - vec3(1.0, 0.0, 0.0)), fade);
-}
-
-// Gradient noise (Perlin 2002), mean 0.
-float gradient_noise(vec3 p) {
-    vec3 cell = floor(p);
-    vec3 f = p - cell;
-    vec3 fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    uvec3 c = uvec3(ivec3(cell));
-    uint near = pcg(c.z);
-    uint far = pcg(c.z + 1u);
-    float a = mix(row_noise(c.x, pcg(c.y + near), f, fade.x),
-                  row_noise(c.x, pcg(c.y + 1u + near), f - vec3(0.0, 1.0, 0.0), fade.x), fade.y);
-    float b = mix(row_noise(c.x, pcg(c.y + far), f - vec3(0.0, 0.0, 1.0), fade.x),
-                  row_noise(c.x, pcg(c.y + 1u + far), f - vec3(0.0, 1.0, 1.0), fade.x), fade.y);
-    return mix(a, b, fade.z);
 }

@@ -51,6 +51,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 before_lens;   // its P00 P11; its near plane; device depth of nothing in this frame
     vec4 lens_change;   // P00 P11 P20 P21 less those of the frame before
     vec4 motion;        // seconds since it per spacing; a spacing
+    vec4 noise;         // height of 1 in metres, foam; falloff a metre below the surface, half-axis
+    vec4 noise_image;   // width, height of the surface noise; its texels' size; cells a metre
+    vec4 noise_color;   // radiance of its foam
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

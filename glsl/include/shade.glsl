@@ -2,8 +2,8 @@
 // its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
-// Reads: smoothed, levels, depth, thickness, boundaries, scene colour and depth, environment.
-// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, beside.glsl, sunlight.glsl.
+// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment.
+// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, beside.glsl, sunlight.glsl, surface_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -18,6 +18,8 @@ layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
 layout(set = 0, binding = 12) uniform sampler2D sheets;
 layout(set = 0, binding = 14) uniform sampler2D foam_thickness;
+
+#include "ripples.glsl"
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -180,6 +182,11 @@ float fresnel(float cosine) {
     return clamp(frame.fresnel.x + frame.fresnel.y * power, 0.0, 1.0);
 }
 
+// What of the light in the sun there is where so much of the sun's comes.
+vec3 under(vec3 sun) {
+    return mix(frame.shade.rgb, vec3(1.0), sun);
+}
+
 // What a sheet of water does to the light from behind it.
 struct Sheet {
     float path;    // metres through the water
@@ -189,11 +196,18 @@ struct Sheet {
     vec3 shine;    // the sun's highlight
 };
 
-Sheet sheet_of(Surface surface, vec2 pixel, float t) {
+// ripple: noise on the surface, and its rise a pixel.
+Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
     vec3 n;
     surface_frame(surface, slope, position, n);
+    if (NOISE == 1u) {
+        vec3 px;
+        vec3 py;
+        surface_tangents(surface, slope, px, py);
+        n = rippled(n, px, py, ripple.yz);
+    }
 
     // No more water than there is room: sprites are wider than what they stand for. So water ends
     // where it meets the scene, and bends nothing that it touches.
@@ -223,6 +237,11 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t) {
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
     sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
+    if (NOISE == 1u) {
+        // As the foam of the particles, in the light there.
+        vec3 light = SHADOW + CAST > 0u ? under(sunlight(position, pixel)) : vec3(1.0);
+        sheet.shine += w * light * ripple_foam(ripple.x);
+    }
     return sheet;
 }
 
@@ -248,7 +267,7 @@ vec3 over(Sheet sheet, vec3 background) {
 // The back sheet where the front one covers it. Near its edge, and where it is no other sheet for
 // want of air, less of its surface; its thickness knows by itself.
 Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
-    Sheet sheet = sheet_of(surface, pixel, t);
+    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0));
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     bool there = surface.covered > 0.0 && !(scene > 0.0 && surface.z >= scene);
     float share = there ? surface.found : 0.0;
@@ -256,11 +275,6 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     sheet.mirror *= share * apart;
     sheet.shine *= share * apart;
     return sheet;
-}
-
-// What of the light in the sun there is where so much of the sun's comes.
-vec3 under(vec3 sun) {
-    return mix(frame.shade.rgb, vec3(1.0), sun);
 }
 
 // The foam in a pixel.
@@ -392,7 +406,9 @@ vec3 layers_at(vec2 pixel, float front) {
     // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
-    Sheet sheet = sheet_of(surface, pixel, t);
+    // On the front sheet: the noise is of the particles at its surface.
+    vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
+    Sheet sheet = sheet_of(surface, pixel, t, ripple);
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     sheet = on_ladder(sheet);
     back = on_ladder(back);

@@ -120,12 +120,19 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     return s;
 }
 
+// Eye-space steps of the surface from pixel to pixel.
+void surface_tangents(Surface s, vec2 slope, out vec3 px, out vec3 py) {
+    vec2 slope_step = frame.slope.xy;
+    px = vec3(slope_step.x * s.z + slope.x * s.dz.x, slope.y * s.dz.x, -s.dz.x);
+    py = vec3(slope.x * s.dz.y, slope_step.y * s.z + slope.y * s.dz.y, -s.dz.y);
+}
+
 // Eye-space position and normal (towards the eye).
 void surface_frame(Surface s, vec2 slope, out vec3 position, out vec3 normal) {
-    vec2 slope_step = frame.slope.xy;
     position = vec3(slope, -1.0) * s.z;
-    vec3 px = vec3(slope_step.x * s.z + slope.x * s.dz.x, slope.y * s.dz.x, -s.dz.x);
-    vec3 py = vec3(slope.x * s.dz.y, slope_step.y * s.z + slope.y * s.dz.y, -s.dz.y);
+    vec3 px;
+    vec3 py;
+    surface_tangents(s, slope, px, py);
     normal = normalize(cross(px, py));
     normal = dot(normal, position) > 0.0 ? -normal : normal;
 }

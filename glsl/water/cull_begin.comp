@@ -30,7 +30,7 @@ void main() {
     uint groups = push.packets > 0u ? (here > 0u ? push.packets : 0u)
                                     : (here + push.group_size - 1u) / push.group_size;
     uint base = chunk * 64u;
-    uint values[32] = uint[32](
+    uint values[36] = uint[36](
         0u, 1u, 0u, 0u,
         4u, 0u, 0u, 0u,
         0u, 1u, 1u,
@@ -39,8 +39,9 @@ void main() {
         here, 0u, 0u,
         4u, 0u, 0u, 0u,
         4u, 0u, 0u, 0u,
-        4u, here, 0u, 0u);
-    for (uint i = 0u; i < 32u; ++i) {
+        4u, here, 0u, 0u,
+        4u, 0u, 0u, 0u);
+    for (uint i = 0u; i < 36u; ++i) {
         words[base + i] = values[i];
     }
 }

@@ -5,6 +5,7 @@
 #include "frame.glsl"
 #include "sphere.glsl"
 #include "random.glsl"
+#include "gradient_noise.glsl"
 #include "foam.glsl"
 
 // 0: depth, at full resolution. 1: thickness.
@@ -34,7 +35,7 @@ void main() {
     // As a thickness sprite of water: the integral over the picture's plane is the volume.
     float facing = max(abs(normal.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
-    vec3 phase = foam_phase(floatBitsToUint(sprite.rest.x)) * 64.0;
+    vec3 phase = noise_phase(floatBitsToUint(sprite.rest.x)) * 64.0;
     look = vec4(foam * volume / (a * b * facing), phase + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y));
 
     vec2 extent = THICK == 1u ? frame.thick_extent.xy : frame.extent.xy;

@@ -7,7 +7,6 @@
 #include "frustum.glsl"
 #include "counts.glsl"
 #include "density.glsl"
-#include "random.glsl"
 #include "foam.glsl"
 
 layout(local_size_x = 64) in;

@@ -5,6 +5,7 @@
 
 #include "frame.glsl"
 #include "random.glsl"
+#include "gradient_noise.glsl"
 #include "foam.glsl"
 #include "kernel.glsl"
 #include "sprite_hit.glsl"

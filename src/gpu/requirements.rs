@@ -193,6 +193,9 @@ impl Offer {
                 "Config.cast needs it; leave it off",
             );
         }
+        if !self.blend_floats && !self.foam_floats && config.noise.is_some() {
+            return missing("blending of R32_SFLOAT".into(), "Config.noise needs it; leave it off");
+        }
         if !self.foam_floats && config.foam {
             return missing(
                 "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),

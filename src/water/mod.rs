@@ -10,6 +10,7 @@ mod front;
 mod gaps;
 mod level;
 mod motion;
+mod noise;
 mod reduce;
 pub mod settings;
 mod smooth;
@@ -37,8 +38,8 @@ pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, Rule, Shading,
-    ShadowFilter, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
+    Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule,
+    Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
 };
 
 /// What every pass records with.
@@ -98,6 +99,8 @@ pub(crate) struct WaterLayers<'a> {
     pub foam: Option<[&'a Image; 2]>,
     /// Spray, where there may be some.
     pub spray: Option<&'a Image>,
+    /// Height of the surface noise, where it is drawn.
+    pub noise: Option<&'a Image>,
 }
 
 /// The passes that tell two sheets apart.
@@ -127,6 +130,7 @@ pub(crate) struct Water {
     smooth: smooth::Smooth,
     thickness: thickness::Thickness,
     split: split::Split,
+    noise: Option<noise::Noise>,
 }
 
 impl Water {
@@ -145,6 +149,7 @@ impl Water {
             smooth: smooth::Smooth::new(gpu, config)?,
             thickness: thickness::Thickness::new(gpu, config)?,
             split: split::Split::new(gpu, config)?,
+            noise: config.noise.map(|level| noise::Noise::new(gpu, config, level)).transpose()?,
         })
     }
 
@@ -174,6 +179,9 @@ impl Water {
         self.tiles.resize(gpu, config, retired)?;
         self.smooth.resize(gpu, config, retired)?;
         self.thickness.resize(gpu, config, retired)?;
+        if let Some(noise) = &mut self.noise {
+            noise.resize(gpu, config, retired)?;
+        }
         self.split.resize(gpu, config, retired)
     }
 
@@ -225,6 +233,9 @@ impl Water {
             };
             motion.record(r, particles, &self.cull.list, &from)?;
         }
+        if let Some(noise) = &self.noise {
+            noise.record(r, particles, &self.cull.list, &self.depth.image)?;
+        }
         Ok(())
     }
 
@@ -240,6 +251,7 @@ impl Water {
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
             spray: self.spray.as_ref().map(spray::Spray::image),
+            noise: self.noise.as_ref().map(noise::Noise::image),
         }
     }
 
@@ -305,6 +317,9 @@ impl Water {
         if let Some(spray) = &self.spray {
             layers.push(layer("spray", spray.image(), 0, spray::AFTER));
         }
+        if let Some(noise) = &self.noise {
+            layers.push(layer("noise", noise.image(), noise.level, access));
+        }
         layers
     }
 
@@ -324,17 +339,20 @@ impl Water {
         let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
         let (spray, droplets) = self.spray.as_ref().map_or((0, 0), spray::Spray::memory);
         let (motion, sums) = self.motion.as_ref().map_or((0, 0), motion::Motion::memory);
+        let (noise, ripples) = self.noise.as_ref().map_or((0, 0), noise::Noise::memory);
         MemoryUse {
             images: images.iter().map(|image| image.size).sum::<u64>()
                 + back
                 + sheets
                 + foam
                 + spray
-                + motion,
+                + motion
+                + noise,
             buffers: gaps
                 + sprites
                 + droplets
                 + sums
+                + ripples
                 + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()

@@ -465,6 +465,55 @@ impl SprayLook {
     }
 }
 
+/// How the baseline's surface noise looks. Of no effect without [`Config::noise`](crate::Config).
+///
+/// Each particle has a gradient noise of its own, which moves with it; together they are a height on the
+/// front surface of the water that turns its normals, and the baseline's foam: grey where it is high or
+/// low.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoiseLook {
+    /// Height that a noise of 1 has, in drawn radii, [0, 16], default 0.336 (the source of the number has
+    /// it as the weight of the derivatives, in a unit of its own). 0: flat.
+    pub weight: f32,
+    /// How fast a particle's noise falls with its depth below the surface: by e within the drawn radius
+    /// over this. [0, 64], default 2.
+    pub falloff: f32,
+    /// Half-axis of a particle's noise in drawn radii, (0, 8], default 2.
+    pub size: f32,
+    /// Cells of the octave in a drawn radius, (0, 16], default 1: somewhat finer than the particles.
+    pub cells: f32,
+    /// Share of the foam's light that a noise of 1 adds to the picture, up to all of it, [0, 64]; default
+    /// 0: no such foam.
+    pub foam: f32,
+    /// Its albedo, linear RGB, 0 to 1, default grey 0.5.
+    pub color: [f32; 3],
+}
+
+impl Default for NoiseLook {
+    fn default() -> Self {
+        Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 0.0, color: [0.5; 3] }
+    }
+}
+
+impl NoiseLook {
+    /// As the baseline has it, with its foam. How much grey, is not known: so that it shows.
+    pub const SOURCE: Self =
+        Self { weight: 0.336, falloff: 2.0, size: 2.0, cells: 1.0, foam: 1.0, color: [0.5; 3] };
+
+    /// Checks the ranges; the message names the field.
+    pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
+        range("Settings.noise.weight", self.weight, 0.0, 16.0)?;
+        range("Settings.noise.falloff", self.falloff, 0.0, 64.0)?;
+        range("Settings.noise.size", self.size, 1.0e-3, 8.0)?;
+        range("Settings.noise.cells", self.cells, 1.0e-3, 16.0)?;
+        range("Settings.noise.foam", self.foam, 0.0, 64.0)?;
+        for color in self.color {
+            range("Settings.noise.color", color, 0.0, 1.0)?;
+        }
+        Ok(())
+    }
+}
+
 fn range(
     field: &'static str,
     value: f32,

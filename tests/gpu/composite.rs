@@ -7,6 +7,7 @@ use whitewater::water::{Fresnel, Medium, Shading, Splat};
 use crate::harness::fails;
 use crate::reduce::wide;
 use crate::reference::composite::{self as twin, Inputs, cut_look_up, hidden, look_up};
+use crate::reference::noise::{Look, Ripples};
 use crate::reference::surface::{Case, Surface, Surfaces};
 use crate::reference::{Image, View, is_surface};
 use crate::support::compare;
@@ -28,7 +29,7 @@ pub enum Sky {
 /// A scene of one colour: what filters may do to it is nothing, the bounds are those of arithmetic.
 pub const FLAT: [f32; 4] = [0.3, 0.5, 0.7, 0.75];
 const CUBE: f64 = 64.0;
-const SKY: (u32, u32) = (256, 128);
+pub const SKY: (u32, u32) = (256, 128);
 
 impl Sky {
     pub fn radiance(self, d: DVec3) -> DVec3 {
@@ -39,7 +40,7 @@ impl Sky {
     }
 
     /// Row 0 is up, the middle column looks along -z, the right quarter along +x.
-    fn texels(self) -> Vec<[f32; 4]> {
+    pub fn texels(self) -> Vec<[f32; 4]> {
         let (width, height) = (f64::from(SKY.0), f64::from(SKY.1));
         (0..SKY.1)
             .flat_map(|y| (0..SKY.0).map(move |x| (f64::from(x) + 0.5, f64::from(y) + 0.5)))
@@ -107,9 +108,24 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     }
 }
 
+/// How the noise of a shot shows, in an image of it.
+pub fn noise_look(shot: &Shot, image: &Image<f32>) -> Look {
+    let look = &shot.settings.noise;
+    let light = shot.settings.light.irradiance;
+    Look {
+        level: (0..4)
+            .find(|l| shot.size.width.div_ceil(1 << l) as usize == image.width)
+            .expect("a level"),
+        height: f64::from(look.weight) * f64::from(shot.settings.water.radius()),
+        foam: f64::from(look.foam),
+        color: [0, 1, 2]
+            .map(|c| f64::from(look.color[c]) * f64::from(light[c]) * std::f64::consts::FRAC_1_PI),
+    }
+}
+
 /// How many pixels were of each kind.
 #[derive(Clone, Copy, Debug, Default)]
-struct Cases {
+pub struct Cases {
     whole: usize,
     border: usize,
     part_rim: usize,
@@ -152,7 +168,7 @@ impl std::ops::AddAssign for Cases {
     }
 }
 
-fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) -> Cases {
+pub fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sky: Sky) -> Cases {
     check_other(name, rig, shot, sky, |_| ())
 }
 
@@ -161,6 +177,18 @@ fn check_other(
     name: &str,
     rig: &mut Rig<'_>,
     shot: &Shot,
+    sky: Sky,
+    other: impl Fn(&mut twin::Settings),
+) -> Cases {
+    check_told(name, rig, shot, shot, sky, other)
+}
+
+/// Against a twin whose look is another, and its noise that of another shot.
+pub fn check_told(
+    name: &str,
+    rig: &mut Rig<'_>,
+    shot: &Shot,
+    told: &Shot,
     sky: Sky,
     other: impl Fn(&mut twin::Settings),
 ) -> Cases {
@@ -173,6 +201,7 @@ fn check_other(
     let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
     let color = Image::from_vec(width, height, color).expect("the output's size");
     let (depth, smoothed) = (wide(&drawn.depth), wide(&drawn.surface));
+    let noise = drawn.noise.as_ref().map(|image| (wide(image), noise_look(told, image)));
     let (thickness, scene) = (drawn.thickness.map(|t| f64::from(*t)), shot.scene_eye());
     let inputs = Inputs {
         depth: &depth,
@@ -182,6 +211,7 @@ fn check_other(
         thickness_level: rig.config.thickness_level,
         scene_color: &color,
         scene_depth: &scene,
+        noise: noise.as_ref().map(|(image, look)| Ripples { image, look: *look }),
     };
     let mut expected = twin::shade(&inputs, &settings, |d| sky.radiance(d), &view);
     let bits = rig.gpu.limits().sub_texel_precision_bits;

@@ -76,7 +76,8 @@ fn three_slots_in_flight_with_a_resize() {
 
 fn in_flight(composite: Shading) {
     let gpu = Gpu::shared();
-    let config = |size| Config { composite: Some(composite), ..config(size) };
+    let noise = (composite == Shading::Compute).then_some(1);
+    let config = |size| Config { composite: Some(composite), noise, ..config(size) };
     let sizes = [extent(96, 64), extent(61, 97), extent(128, 32), extent(33, 17)];
     let expected: Vec<Vec<Drawn>> = sizes
         .iter()
@@ -181,8 +182,13 @@ fn resize_gives_what_a_new_renderer_gives() {
         let name = format!("resize-{}", size.width);
         compare::same_color(&name, &rig.draw(&shot).output, &expected.output);
     }
-    let config =
-        |size| Config { cast: Some(32), shadow: Some(Shadows::Map), foam: true, ..config(size) };
+    let config = |size| Config {
+        cast: Some(32),
+        shadow: Some(Shadows::Map),
+        foam: true,
+        noise: Some(1),
+        ..config(size)
+    };
     let mut rig = Rig::lit(&gpu, &config(extent(96, 64)), 1);
     for size in [extent(33, 17), extent(1, 1), extent(96, 64)] {
         rig.resize(size);
@@ -219,6 +225,8 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         Config { foam: true, depth_splat: Some(Splat::Raster), ..base },
         Config { spray: true, ..base },
         Config { spray: true, foam: true, composite: Some(Shading::Compute), ..base },
+        Config { noise: Some(1), sheets: 2, ..base },
+        Config { noise: Some(0), composite: Some(Shading::Compute), spray: true, ..base },
         Config { cast: Some(32), ..base },
         Config { cast: Some(64), shadow: Some(Shadows::Map), foam: true, spray: true, ..base },
         Config { cast: Some(64), composite: Some(Shading::Compute), sheets: 2, ..base },
@@ -528,6 +536,12 @@ fn spoils() -> Vec<Spoil> {
         ("densities", "Settings.spray.densities", |g| g.settings.spray.densities[1] = 0.1),
         ("spread", "Settings.spray.spread", |g| g.settings.spray.spread = f32::NAN),
         ("shutter", "Settings.spray.shutter", |g| g.settings.spray.shutter = -1.0),
+        ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),
+        ("falloff of noise", "Settings.noise.falloff", |g| g.settings.noise.falloff = -1.0),
+        ("size of noise", "Settings.noise.size", |g| g.settings.noise.size = 0.0),
+        ("cells", "Settings.noise.cells", |g| g.settings.noise.cells = 17.0),
+        ("grey", "Settings.noise.foam", |g| g.settings.noise.foam = -0.1),
+        ("grey's color", "Settings.noise.color", |g| g.settings.noise.color[0] = 1.5),
         ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),
         ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
         ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
@@ -724,6 +738,7 @@ fn bad_configurations_are_errors() {
         ("Config.coarsening", Config { coarsening: 4, ..good }),
         ("Config.sheets", Config { sheets: 0, ..good }),
         ("Config.sheets", Config { sheets: 3, ..good }),
+        ("Config.noise", Config { noise: Some(4), ..good }),
         ("Config.cast", Config { cast: Some(0), ..good }),
         ("Config.cast", Config { cast: Some(24), ..good }),
         ("Config.cast", Config { cast: Some(4112), ..good }),
@@ -785,6 +800,8 @@ fn what_a_device_lacks_is_named() {
     let foam = Config { foam: true, ..config };
     let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
     let motion = Config { motion: true, ..config };
+    let noise = Config { noise: Some(1), ..config };
+    let unsummed = whitewater::Offer { blend_floats: false, foam_floats: false, ..offer };
     let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
     let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
     let drawn = Config { composite: Some(Shading::Raster), ..config };
@@ -807,6 +824,7 @@ fn what_a_device_lacks_is_named() {
             "R16G16B16A16_SFLOAT",
         ),
         (whitewater::Offer { motion_floats: false, ..offer }, motion, "R32G32_SFLOAT"),
+        (unsummed, noise, "R32_SFLOAT"),
         (bare, gate(Gate::DrawCount), "drawIndirectCount"),
         (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
     ];
@@ -828,6 +846,7 @@ fn what_a_device_lacks_is_named() {
     small.limits.max_image_dimension2_d = 99;
     let shown = Config { extent: extent(32, 16), ..convolving(8) };
     assert!(matches!(small.check(&shown), Err(Error::BadInput { field: "Config.shadow", .. })));
+    unfoamed.check(&noise).expect("what the raster splats blend is enough for noise");
     // Foam's chunks are 64 particles at least.
     let mut narrow = offer;
     narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
@@ -956,6 +975,25 @@ fn memory_is_as_documented() {
             let off = (found - said * pixels).abs();
             assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
         }
+        // Noise: a number a texel of its own, and its sprites.
+        for level in 0..4 {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let config =
+                Config { noise: Some(level), ..Config::new(extent(width, height), format, count) };
+            // SAFETY: live handles.
+            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let memory = renderer.memory();
+            // SAFETY: nothing was recorded.
+            unsafe { renderer.destroy() };
+            let texels = f64::from(width.div_ceil(1 << level) * height.div_ceil(1 << level));
+            let found = (memory.images + memory.buffers) as f64;
+            let plain = needed(width, height, count, (2, 3, false, false));
+            let (more, said) = (found - plain, 4.0 * texels + 16.0 * n);
+            assert!(
+                (more - said).abs() < 0.01 * said + 64.0 * 1024.0,
+                "{level}: {more}, said {said}"
+            );
+        }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
         // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
@@ -984,7 +1022,8 @@ fn memory_is_as_documented() {
 fn timings_name_every_pass() {
     let gpu = Gpu::shared();
     let size = extent(32, 16);
-    let config = Config { sheets: 2, foam: true, spray: true, motion: true, ..config(size) };
+    let config =
+        Config { sheets: 2, foam: true, spray: true, motion: true, noise: Some(1), ..config(size) };
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = water(size, Lens::Standard);
     assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
@@ -1008,6 +1047,7 @@ fn timings_name_every_pass() {
             "smooth",
             "split",
             "motion",
+            "noise",
             "scene",
             "composite",
         ];

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, Mat4, Vec3};
 use whitewater::water::{Fresnel, Gate, Medium, Rule, Shading, Smoothing, Splat};
 use whitewater::{Camera, Config, SmoothingLevel, SmoothingLevels};
 
-use crate::composite::{FLAT, Sky, twin_settings};
+use crate::composite::{FLAT, Sky, noise_look, twin_settings};
 use crate::harness::fails;
 use crate::invariants::{exact, same_drawn, scaled};
 use crate::reduce::{assert_planned, decoded_plan, params, rules, wide};
@@ -13,6 +13,7 @@ use crate::reference::composite::{
     self as twin, Behind, Inputs, Two, cut_look_up, hidden, look_up_both, scene_at,
 };
 use crate::reference::cull::{CullParams, cull};
+use crate::reference::noise::{Look, Ripples};
 use crate::reference::sheets::{self, Boundaries, CELL, GROWN, Known, Part};
 use crate::reference::thickness::Amplitude;
 use crate::reference::{EMPTY, Image, Sphere, View, depth, is_surface, smooth};
@@ -751,6 +752,7 @@ fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> Drawn
         spray: None,
         lit_spray: None,
         motion: None,
+        noise: None,
         light_front: None,
         light_thickness: None,
         shadow_basis: None,
@@ -1250,6 +1252,7 @@ struct Layers {
     boundaries: Image<f64>,
     back_surface: Image<f64>,
     parts: Image<[f64; 3]>,
+    noise: Option<(Image<f64>, Look)>,
 }
 
 impl Layers {
@@ -1265,6 +1268,7 @@ impl Layers {
             boundaries: wide(&of(drawn).boundaries),
             back_surface: wide(&of(drawn).surface),
             parts: of(drawn).thickness.map(|t| t.map(f64::from)),
+            noise: drawn.noise.as_ref().map(|image| (wide(image), noise_look(shot, image))),
         }
     }
 
@@ -1277,6 +1281,7 @@ impl Layers {
             thickness_level,
             scene_color: &self.color,
             scene_depth: &self.scene,
+            noise: self.noise.as_ref().map(|(image, look)| Ripples { image, look: *look }),
         }
     }
 
@@ -1418,6 +1423,8 @@ fn even(gpu: &Gpu, config: Config) -> Rig<'_> {
 fn look(mut shot: Shot, flat: bool) -> Shot {
     let water = &mut shot.settings.water;
     (water.specular, water.shininess) = (0.3, 20.0);
+    // Where there is any: on the front sheet alone.
+    shot.settings.noise.foam = 1.0;
     if flat {
         shot.color.fill(FLAT);
     }
@@ -1441,6 +1448,7 @@ fn the_picture_of_two_sheets_is_the_twins() {
                 coarsening: 0,
                 composite: Some(way),
                 thickness_splat: Some(splat),
+                noise: (way == Shading::Compute).then_some(1),
                 ..two(size)
             };
             let mut rig = even(&gpu, config);

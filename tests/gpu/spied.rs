@@ -82,6 +82,7 @@ fn record_only_records() {
         ("fused", Config { smoothing: Some(Smoothing::Fused), ..base }),
         ("query", Config { smoothing: query, ..base }),
         ("motion", Config { motion: true, ..base }),
+        ("noise", Config { noise: Some(1), ..base }),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));
@@ -135,6 +136,10 @@ fn many_chunks_have_their_descriptor_sets() {
     let mut rig = Rig::new(&gpu, &config);
     let (shot, cloud) = (water(size), rig.particles(&water(size)));
     watched("many chunks", &mut rig, &shot, cloud.particles());
+    let noisy = Config { noise: Some(0), ..config };
+    let mut rig = Rig::new(&gpu, &noisy);
+    let (shot, cloud) = (water(size), rig.particles(&water(size)));
+    watched("many chunks of noise", &mut rig, &shot, cloud.particles());
 }
 
 /// Frames in a steady state make and destroy as much.

@@ -7,6 +7,7 @@
 //! C <- mix(C, env(R), w F) + w specular sun max(n.h, 0)^shininess,   w = smoothstep(0, r/4, T)
 //! ```
 
+use super::noise::Ripples;
 use super::surface::{Surface, Surfaces};
 use super::{Image, View, is_surface, smoothstep};
 use glam::{DVec2, DVec3};
@@ -54,7 +55,8 @@ pub enum Fresnel {
 impl Fresnel {
     /// The reflected part at the cosine `n.v`.
     pub fn reflectance(&self, cosine: f64) -> f64 {
-        let grazing = (1.0 - cosine).max(0.0);
+        // What is turned away from the eye grazes.
+        let grazing = (1.0 - cosine).clamp(0.0, 1.0);
         match *self {
             Self::Schlick { f0 } => f0 + (1.0 - f0) * grazing.powi(5),
             Self::Source { bias, scale, power } => {
@@ -81,6 +83,8 @@ pub struct Inputs<'a> {
     pub scene_color: &'a Image<[f64; 4]>,
     /// The scene's depth, of its own extent.
     pub scene_depth: &'a Image<f64>,
+    /// The noise on the front surface, if there is any.
+    pub noise: Option<Ripples<'a>>,
 }
 
 impl Inputs<'_> {
@@ -270,7 +274,8 @@ fn before(
 
     let h = (v + settings.sun_direction).normalize_or_zero();
     let highlight = n.dot(h).max(0.0).powf(settings.shininess);
-    color + DVec3::from(settings.specular) * DVec3::from(settings.sun_color) * (w * highlight)
+    let shine = DVec3::from(settings.specular) * DVec3::from(settings.sun_color) * highlight;
+    color + w * (shine + surface.ripple.foam)
 }
 
 /// The picture: water over the scene with alpha 1, the scene as it is elsewhere. `env` gives the
@@ -369,7 +374,11 @@ impl<'a> Two<'a> {
             behind: *behind,
             spacing: settings.radius / 0.656,
             fronts: Surfaces::new(inputs, settings, view),
-            backs: Surfaces::new(&Inputs { smoothed, level, ..*inputs }, settings, view),
+            backs: Surfaces::new(
+                &Inputs { smoothed, level, noise: None, ..*inputs },
+                settings,
+                view,
+            ),
         }
     }
 
@@ -538,6 +547,7 @@ mod tests {
                 thickness_level: 0,
                 scene_color: &self.color,
                 scene_depth: &self.scene,
+                noise: None,
             }
         }
     }

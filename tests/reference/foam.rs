@@ -330,7 +330,7 @@ fn gradient([i, j, k]: [u32; 3], offset: DVec3) -> f64 {
 /// The most that [`noise`] is, by Jensen: a gradient is as long as the root of 2, and the squares
 /// of an offset's parts are a quarter each at most in the mean by the fades,
 /// `(1 - F) f^2 + F (1 - f)^2 <= f (1 - f)`, as `F <= f` up to the middle.
-fn noise_reach() -> f64 {
+pub(super) fn noise_reach() -> f64 {
     1.5_f64.sqrt()
 }
 
@@ -342,14 +342,14 @@ fn noise_by_fade() -> f64 {
 
 /// The most that [`noise`] changes along an axis, to a cell: a part of a gradient is 1 at most, and
 /// the slope of a fade `30 f^2 (1 - f)^2` is 15/8 at most. It is continuous from cell to cell.
-fn noise_slope() -> f64 {
+pub(super) fn noise_slope() -> f64 {
     1.0 + 15.0 / 8.0 * noise_by_fade()
 }
 
 /// What single precision adds to [`noise`] at a given place. The place in the cell and the product
 /// with a gradient: 4u, of parts that are 1 at most. A fade: 15u, 9u and 1u of the sums, 3u of the
 /// products. Three times a mix, 5u of numbers that are 2 at most.
-fn noise_rounding() -> f64 {
+pub(super) fn noise_rounding() -> f64 {
     U * (4.0 + 3.0 * 28.0 * noise_by_fade() + 3.0 * 10.0)
 }
 

@@ -22,6 +22,7 @@ pub mod environment;
 pub mod foam;
 pub mod light;
 pub mod motion;
+pub mod noise;
 pub mod reduce;
 pub mod sheets;
 pub mod smooth;

@@ -7,6 +7,7 @@
 //! `(d_x, d_y, d + s_x d_x + s_y d_y)`: the normal, which has P on its back.
 
 use super::composite::{Inputs, Settings};
+use super::noise::Ripple;
 use super::{Image, View, is_surface, smoothstep};
 use glam::{DVec2, DVec3};
 
@@ -26,6 +27,8 @@ pub struct Surface {
     pub thickness: f64,
     /// What of it refracts: where the surface is torn no more than two spacings.
     pub lens: f64,
+    /// The noise on it, which has turned the normal.
+    pub ripple: Ripple,
     /// What it was made of.
     pub parts: Parts,
 }
@@ -326,7 +329,7 @@ impl<'a> Surfaces<'a> {
         smooth: &Smooth,
         full: f64,
         depth: Option<f64>,
-        margin: f64,
+        mut margin: f64,
     ) -> Surface {
         let texel = f64::from(1 << self.inputs.level);
         let spacing = self.radius / 0.656;
@@ -343,11 +346,21 @@ impl<'a> Surfaces<'a> {
         let ray = self.view.ray(x, y);
         let d = slope / (self.view.slope_step() * texel);
         let normal = DVec3::new(d.x, d.y, z + ray.x * d.x + ray.y * d.y).normalize();
+        let mut ripple = Ripple::default();
+        let mut turned = normal;
+        if let (Some(depth), Some(noise)) = (depth, &self.inputs.noise) {
+            let raw = self.inputs.depth;
+            ripple = noise.at(raw, (x, y), depth, self.threshold, &mut margin);
+            let along = |step: DVec3, slope: f64| step * z + ray * slope / texel;
+            let step = self.view.slope_step();
+            let tangents = [along(DVec3::X * step.x, slope.x), along(DVec3::Y * step.y, slope.y)];
+            turned = ripple.turn(normal, tangents);
+        }
         let parts =
             Parts { case, smooth, sphere, full, drop, borrowed: false, found, mixed: 0.0, margin };
         let thickness = full.min((self.inputs.scene(x, y) - z).max(0.0));
         let torn = thickness.min(2.0 * spacing);
         let lens = torn + (thickness - torn) * found;
-        Surface { position: ray * z, normal, thickness, lens, parts }
+        Surface { position: ray * z, normal: turned, thickness, lens, ripple, parts }
     }
 }

@@ -216,6 +216,8 @@ pub struct Drawn {
     pub lit_spray: Option<Image<f32>>,
     /// With motion vectors.
     pub motion: Option<Image<[f32; 2]>>,
+    /// Height of the surface noise, where it is drawn.
+    pub noise: Option<Image<f32>>,
     /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
     /// times where they lie; light over what comes without water.
     pub light_front: Option<Image<f32>>,
@@ -471,6 +473,7 @@ impl<'g> Rig<'g> {
             spray: None,
             lit_spray: None,
             motion: None,
+            noise: None,
             light_front: None,
             light_thickness: None,
             caustics: None,
@@ -530,6 +533,7 @@ impl<'g> Rig<'g> {
                     drawn.lit_spray = Some(both.map(|s| s[1]));
                 }
                 "motion" => drawn.motion = Some(self.pairs(layer, whole)),
+                "noise" => drawn.noise = Some(self.floats(layer, whole)),
                 "light.front" => drawn.light_front = Some(self.floats(layer, whole)),
                 "light.thickness" => {
                     let bytes = self.bytes(layer, whole);

@@ -8,6 +8,7 @@ use super::tolerance::U;
 use crate::reference::composite::{
     Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
 };
+use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
 use crate::reference::{View, is_surface};
 
@@ -83,12 +84,28 @@ struct Lit {
     share: Rounded,
     turned: f64,
     shine: Rounded,
+    /// Of the baseline's foam.
+    foam: [Rounded; 3],
 }
 
 /// By how many pixels the look-up may be off. What brings the offset below the farthest does not
 /// stretch its error; it and the place add 16u of the picture.
 fn moved(offset: [Rounded; 2], view: &View) -> f64 {
     offset[0].e.hypot(offset[1].e) + 16.0 * U * view.extent().max_element()
+}
+
+/// A normal that the noise turns. Its rises are weighted means as a slope's, and a product more; the
+/// height of 1 is two products.
+fn turned(n: [Rounded; 3], px: [Rounded; 3], py: [Rounded; 3], ripple: &Ripple) -> [Rounded; 3] {
+    let height = |i: usize| {
+        let (v, rises) = (ripple.height[i], ripple.rises[i]);
+        Rounded { v, e: U * (16.0 * rises + 12.0 * v.abs()) }
+    };
+    let (along_x, along_y) = (cross(py, n), cross(n, px));
+    let area = dot(px, along_x);
+    let (area, sign) = if area.v < 0.0 { (-area, -1.0) } else { (area, 1.0) };
+    let by = |i: usize| exact(sign) * (height(0) * along_x[i] + height(1) * along_y[i]);
+    normalize([0, 1, 2].map(|i| area * n[i] - by(i)))
 }
 
 /// A surface of an image of so many pixels a texel, of a thickness, of whose mirror image a part shows.
@@ -139,6 +156,12 @@ fn lit(
     if dot(n, position).v > 0.0 {
         n = n.map(|c| -c);
     }
+    let ripple = &surface.ripple;
+    if ripple.height != DVec2::ZERO {
+        // Of the tangents a full pixel apart.
+        let part = exact(1.0 / texel);
+        n = turned(n, px.map(|c| c * part), py.map(|c| c * part), ripple);
+    }
     let away = dot(position, position).sqrt();
     let v = position.map(|c| -c / away);
     let path = t * away / z;
@@ -175,7 +198,9 @@ fn lit(
     let facing = dot(n, half);
     // The shader cuts at 2^-100.
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
-    Lit { z, path, offset, share, turned, shine: w * shine }
+    // Of the mean's weights 13u, a product; the radiance is two products and a constant.
+    let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
+    Lit { z, path, offset, share, turned, shine: w * shine, foam: grey }
 }
 
 /// What a surface makes of the colour behind it.
@@ -190,7 +215,7 @@ fn over(
         let water = through(&settings.medium, behind[i], lit.path, i);
         let seen = filter.sky_slope * lit.turned + filter.sky_error + 4.0 * U * env[i];
         let c = mix(water, Rounded { v: env[i], e: seen }, lit.share);
-        c + exact(settings.specular[i]) * lit.shine * exact(settings.sun_color[i])
+        c + (exact(settings.specular[i]) * lit.shine * exact(settings.sun_color[i]) + lit.foam[i])
     })
 }
 

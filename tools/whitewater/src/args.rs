@@ -115,7 +115,7 @@ pub struct DrawArgs {
     /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = times_as_large)]
     pub supersample: u32,
-    /// Settings as TOML, tables [water], [foam], [spray] and [light]
+    /// Settings as TOML, tables [water], [foam], [spray], [noise] and [light]
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
@@ -151,6 +151,10 @@ pub struct DrawArgs {
     /// can be found) or none
     #[arg(long, value_enum, default_value_t = SprayArg::Auto)]
     pub spray: SprayArg,
+    /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface
+    /// (its normals), or foam (its grey foam too); with --rule fixed:40 and --foam none it is whole
+    #[arg(long, value_enum, default_value_t = NoiseArg::None)]
+    pub noise: NoiseArg,
     /// What the sunlight does: shadows of the scene on foam and spray, shadows of water and foam, caustics
     /// (all), those of the scene alone (scene), or none
     #[arg(long, value_enum, default_value_t = ShadowArg::All)]
@@ -292,6 +296,17 @@ pub enum SprayArg {
     Auto,
     /// None.
     None,
+}
+
+/// What the baseline's noise does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum NoiseArg {
+    /// Nothing.
+    None,
+    /// Turns the surface's normals.
+    Surface,
+    /// And adds its foam.
+    Foam,
 }
 
 /// What of the water foams.

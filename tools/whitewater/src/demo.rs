@@ -49,6 +49,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
     settings.water.spacing = SPACING;
     settings.foam = FoamLook::of_spacing(SPACING);
+    settings.noise = session::noise(&args.draw);
     let file = settings_file.unwrap_or_default();
     file.apply(&mut settings).map_err(Failure::input)?;
     let shadows = file.shadows().map_err(Failure::input)?;

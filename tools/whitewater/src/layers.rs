@@ -10,7 +10,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 15] = [
+const GROUPS: [&str; 16] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -23,6 +23,7 @@ const GROUPS: [&str; 15] = [
     "foam.thickness",
     "foam.thickness.front",
     "spray",
+    "noise",
     "scene",
     MOTION,
     LADDER,
@@ -143,6 +144,7 @@ pub fn collect(
         ("foam.thickness", Merge::Mean),
         ("foam.thickness.front", Merge::Mean),
         ("spray", Merge::Mean),
+        ("noise", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?

@@ -288,6 +288,7 @@ fn look(
         settings.water.rest_density = density;
     }
     settings.foam = FoamLook::of_spacing(spacing);
+    settings.noise = session::noise(&args.draw);
     if probes.frames.iter().all(|frame| frame.densities.is_none()) {
         settings.spray.densities = GUESSED_DENSITIES;
     }

@@ -7,10 +7,10 @@ use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles};
 use whitewater::io::picture::{self, Layers};
-use whitewater::water::{FoamSettings, Shadows, WaterSettings};
+use whitewater::water::{FoamSettings, NoiseLook, Shadows, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
-use crate::args::{DrawArgs, ShadowArg, SprayArg};
+use crate::args::{DrawArgs, NoiseArg, ShadowArg, SprayArg};
 use crate::camera::{CameraFile, Lens};
 use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
@@ -93,6 +93,14 @@ pub fn environment(args: &DrawArgs, sun: Option<[f32; 3]>) -> Outcome<Environmen
 /// Edge of the light's maps for a picture so many pixels wide.
 fn light_texels(width: u32) -> u32 {
     (width / 2).next_multiple_of(16).clamp(256, 1024)
+}
+
+/// How the baseline's noise looks where nothing is said.
+pub fn noise(args: &DrawArgs) -> NoiseLook {
+    match args.noise {
+        NoiseArg::Foam => NoiseLook::SOURCE,
+        NoiseArg::None | NoiseArg::Surface => NoiseLook::default(),
+    }
 }
 
 /// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
@@ -211,6 +219,8 @@ impl<'a> Session<'a> {
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = args.spray == SprayArg::Auto;
+        // Half the resolution of the picture, as it is drawn for one sample a pixel.
+        config.noise = (args.noise != NoiseArg::None).then_some(1);
         config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
         config.cast = (args.shadows == ShadowArg::All).then(|| light_texels(width));
         config.motion = self.motion;

@@ -18,6 +18,7 @@ pub struct SettingsFile {
     pub foam: FoamTable,
     pub spray: SprayTable,
     pub shadow: ShadowTable,
+    pub noise: NoiseTable,
     pub light: LightTable,
 }
 
@@ -83,6 +84,18 @@ pub struct ShadowTable {
     damping: Option<f32>,
     offset: Option<f32>,
     scale: Option<f32>,
+}
+
+/// Table `[noise]`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NoiseTable {
+    weight: Option<f32>,
+    falloff: Option<f32>,
+    size: Option<f32>,
+    cells: Option<f32>,
+    foam: Option<f32>,
+    color: Option<[f32; 3]>,
 }
 
 /// Table `[light]`.
@@ -215,6 +228,13 @@ impl SettingsFile {
         set(&mut shadow.damping, table.damping);
         set(&mut shadow.offset, table.offset);
         set(&mut shadow.scale, table.scale);
+        let (noise, table) = (&mut settings.noise, &self.noise);
+        set(&mut noise.weight, table.weight);
+        set(&mut noise.falloff, table.falloff);
+        set(&mut noise.size, table.size);
+        set(&mut noise.cells, table.cells);
+        set(&mut noise.foam, table.foam);
+        noise.color = table.color.unwrap_or(noise.color);
         let light = &mut settings.light;
         light.direction = self.light.direction.unwrap_or(light.direction);
         light.color = self.light.color.unwrap_or(light.color);
@@ -322,6 +342,14 @@ pub fn to_toml(settings: &Settings) -> String {
         ("offset", shadow.offset),
         ("scale", shadow.scale),
     ];
+    let noise = &settings.noise;
+    let of_noise = [
+        ("weight", noise.weight),
+        ("falloff", noise.falloff),
+        ("size", noise.size),
+        ("cells", noise.cells),
+        ("foam", noise.foam),
+    ];
     let lines = |numbers: &[(&str, f32)]| -> String {
         numbers.iter().map(|(name, v)| format!("{name} = {v:?}\n")).collect()
     };
@@ -330,6 +358,7 @@ pub fn to_toml(settings: &Settings) -> String {
          [foam]\n{}back_color = {:?}\nfront_color = {:?}\n\n\
          [spray]\n{}droplets = {}\ndensities = {:?}\ncolor = {:?}\nadditive = {}\n\n\
          [shadow]\n{}\n\
+         [noise]\n{}color = {:?}\n\n\
          [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\nshade = {:?}\n",
         lines(&numbers),
         lines(&of_foam),
@@ -341,6 +370,8 @@ pub fn to_toml(settings: &Settings) -> String {
         spray.color,
         spray.additive,
         lines(&of_shadow),
+        lines(&of_noise),
+        noise.color,
         light.direction,
         light.color,
         light.ambient,
@@ -356,7 +387,7 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use whitewater::water::SprayLook;
+    use whitewater::water::{NoiseLook, SprayLook};
 
     #[test]
     fn values_arrive() {
@@ -391,6 +422,7 @@ mod tests {
         settings.foam.front_color = [0.1, 0.2, 0.3];
         settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
         settings.shadow.width = 7.5;
+        settings.noise = NoiseLook { cells: 0.7, ..NoiseLook::SOURCE };
         settings.light.irradiance = [1.0, 2.0, 3.0];
         let mut back = Settings::default();
         SettingsFile::parse(&to_toml(&settings)).unwrap().apply(&mut back).unwrap();

@@ -46,6 +46,12 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
                 + 3 * 32 * covered
                 + 24 * u64::from(drawn.particles)
         }
+        // Positions in; of the sprites, at least the front ones, the sprite out and in; the image cleared,
+        // depth in at its texels. What blending moves is not counted.
+        "noise" => {
+            let texels = pixels(drawn.config.noise.unwrap_or(0));
+            12 * u64::from(drawn.particles) + 32 * front + 8 * texels
+        }
         // Positions in twice, both maps cleared.
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
         // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.

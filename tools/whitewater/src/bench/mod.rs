@@ -14,7 +14,7 @@ use whitewater::ash::vk;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
 use whitewater::water::{
-    Convolution, FoamLook, FoamSettings, Gate, Rule, Shading, Shadows, Smoothing, Splat,
+    Convolution, FoamLook, FoamSettings, Gate, NoiseLook, Rule, Shading, Shadows, Smoothing, Splat,
 };
 use whitewater::{Camera, Config, Error, Previous, Region, Settings};
 
@@ -88,6 +88,8 @@ pub enum Path {
     Spray,
     /// With motion vectors
     Motion,
+    /// With the baseline's surface noise and its foam
+    Noise,
     /// With shadows and caustics of the water, maps of 512 texels a side
     Light,
     /// Shadows of a plate over the pool, by percentage-closer filtering of its map of 2048 texels
@@ -102,6 +104,8 @@ pub enum Path {
     Source,
     /// The baseline: 40 iterations for every pixel
     Baseline,
+    /// The baseline with its noise and foam
+    BaselineNoise,
     /// All of the above, one after the other
     All,
 }
@@ -133,6 +137,7 @@ impl Path {
             Self::Foam => config.foam = true,
             Self::Spray => config.spray = true,
             Self::Motion => config.motion = true,
+            Self::Noise => config.noise = Some(1),
             Self::Light => config.cast = Some(512),
             Self::Pcf => config.shadow = Some(Shadows::Map),
             Self::Convolution => {
@@ -142,6 +147,10 @@ impl Path {
             Self::ComputeComposite => config.composite = Some(Shading::Compute),
             Self::Source => config.rule = Rule::Source,
             Self::Baseline => config.rule = Rule::Fixed(40),
+            Self::BaselineNoise => {
+                config.rule = Rule::Fixed(40);
+                config.noise = Some(1);
+            }
         }
     }
 }
@@ -264,6 +273,7 @@ fn sample(
     if config.shadow.is_some() {
         headless.scene(&plate(pool), false)?;
     }
+    settings.noise = NoiseLook::SOURCE;
     let densities = config.spray.then(|| densities(pool));
     headless.particles(&pool.positions, densities.as_deref())?;
     if config.cast.is_some() {

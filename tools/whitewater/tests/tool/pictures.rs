@@ -103,6 +103,28 @@ fn the_ladder_has_its_rungs() {
 }
 
 #[test]
+fn the_baselines_noise_is_drawn_where_it_is_asked_for() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.text("flat.toml", "[noise]\nweight = 0.0\nfoam = 0.0\n");
+    for (name, more) in [
+        ("none", ""),
+        ("surface", "--noise surface"),
+        ("foam", "--noise foam"),
+        ("flat", "--noise foam --settings flat.toml"),
+    ] {
+        folder.run(&format!("render a.ply -o {name}.exr {SMALL} {FRONT} {more} --validate")).ok();
+    }
+    let [none, surface, foam, flat] =
+        ["none", "surface", "foam", "flat"].map(|name| folder.picture(&format!("{name}.exr")));
+    assert!(none.channel("noise").is_none());
+    let noise = surface.channel("noise").unwrap();
+    assert!(noise.iter().any(|n| n.abs() > 0.1) && noise.iter().any(|n| *n == 0.0));
+    let [none, surface, foam, flat] = [&none, &surface, &foam, &flat].map(|p| p.rgb().unwrap());
+    assert!(none == flat && none != surface && surface != foam);
+}
+
+#[test]
 fn odd_and_tiny_sizes_and_levels_are_drawn() {
     let folder = Folder::new();
     folder.particles("a.ply", block(4));

@@ -1,0 +1,17 @@
+// The baseline's surface noise (van der Laan, Green, Sainz, I3D 2009; thesis Sec. 2.5): what its pass and
+// `composite` agree on. Needs frame.glsl.
+
+// Parts of 1 that sums are counted in: floats hold them exactly up to 256, in any order.
+const float NOISE_PARTS = 65536.0;
+
+// A Gaussian that ends smoothly, in its slope too, which shades.
+float noise_kernel(float rho2) {
+    float left = max(1.0 - rho2, 0.0);
+    return left * left * exp(-2.0 * rho2);
+}
+
+// The full-resolution pixel whose surface a texel of the noise lies on.
+ivec2 noise_pixel(ivec2 texel) {
+    vec2 middle = (vec2(texel) + 0.5) * frame.noise_image.z;
+    return min(ivec2(middle), ivec2(frame.extent.xy) - 1);
+}

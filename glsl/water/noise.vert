@@ -1,0 +1,26 @@
+#version 460
+// Pass `noise`: a quad round each sprite, in the plane of its centre's depth. Reads: sprites.
+
+#include "frame.glsl"
+#include "random.glsl"
+#include "gradient_noise.glsl"
+
+layout(set = 0, binding = 1, std430) readonly buffer Sprites { vec4 sprites[]; };
+
+layout(location = 0) flat out vec3 centre;
+layout(location = 1) flat out vec3 phase; // place of the centre in the noise
+
+void main() {
+    vec4 sprite = sprites[gl_InstanceIndex];
+    centre = sprite.xyz;
+    // In 64 cells no two particles near each other are alike.
+    phase = noise_phase(floatBitsToUint(sprite.w)) * 64.0;
+    float edge = frame.noise_image.z;
+    vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
+    float depth = -centre.z;
+    // A texel more: snapping must not cut the footprint.
+    vec2 reach = frame.noise.w + depth * edge * abs(frame.slope.xy);
+    vec2 slope = (centre.xy + side * reach) / depth;
+    vec2 texel = (slope - frame.slope.zw) / (frame.slope.xy * edge);
+    gl_Position = vec4(texel / frame.noise_image.xy * 2.0 - 1.0, 0.5, 1.0);
+}
