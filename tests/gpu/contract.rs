@@ -14,6 +14,7 @@ use crate::support::device::Gpu;
 use crate::support::host::{COLOR, Texture};
 use crate::support::rig::{Cloud, Drawn, OUTPUT, Rig, Shot, config, extent};
 use crate::support::scenes::{self, LENSES, Lens};
+use crate::support::slow;
 use crate::support::spy;
 
 fn water(size: vk::Extent2D, lens: Lens) -> Shot {
@@ -239,7 +240,9 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
     ];
     let mut rig = Rig::lit(&gpu, &base, 2);
     let mut flight = None;
-    for (i, config) in configs.into_iter().chain([base]).enumerate() {
+    // Each takes two renderers: every other one, and all in the long tests.
+    let some = configs.into_iter().step_by(if slow() { 1 } else { 2 });
+    for (i, config) in some.chain([base]).enumerate() {
         let anew = rig.renderer().reconfigure(&config).expect("reconfigure");
         assert_eq!(anew, rig.config.environment_size != config.environment_size);
         assert_eq!(*rig.renderer().config(), config);
@@ -940,11 +943,13 @@ fn memory_is_as_documented() {
         (memory.images + memory.buffers) as f64
     };
     for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
+        // Of the larger size a part, and all in the long tests.
+        let whole = slow() || width == 1280;
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
         // The light's maps, and a lit scene in place of the copied one, which is of half precision
         // too.
-        for cast in [None, Some(256), Some(1024)] {
+        for cast in [None, Some(256), Some(1024)].into_iter().filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config { cast, ..Config::new(extent(width, height), format, count) };
             // SAFETY: live handles.
@@ -959,7 +964,9 @@ fn memory_is_as_documented() {
             assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}: {found}, said {said}");
         }
         // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
-        for (thickness_level, said) in [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)] {
+        for (thickness_level, said) in
+            [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)].into_iter().filter(|_| whole)
+        {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let of = |motion| {
                 let size = extent(width, height);
@@ -976,7 +983,7 @@ fn memory_is_as_documented() {
             assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
         }
         // Noise: a number a texel of its own, and its sprites.
-        for level in 0..4 {
+        for level in (0..4).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config =
                 Config { noise: Some(level), ..Config::new(extent(width, height), format, count) };
@@ -1006,7 +1013,10 @@ fn memory_is_as_documented() {
             (2, 3, true, false, 4.5, 7.75),
             (1, 3, false, true, 4.5, 4.0),
             (2, 3, true, true, 4.5, 11.75),
-        ] {
+        ]
+        .into_iter()
+        .step_by(if whole { 1 } else { 7 })
+        {
             let each = 32.0 + if foam { 52.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
             let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
             let found = needed(width, height, count, (sheets, coarsening, foam, spray));
