@@ -12,7 +12,8 @@ use crate::tool::{Tool, total};
 type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 9] = [
+pub const ALL: [(&str, Figure); 10] = [
+    ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
     ("thresholds", thresholds),
@@ -30,6 +31,14 @@ fn pictures(docs: &Path, name: &str) -> PathBuf {
 
 /// The basin and the pillar of the waterfall from near.
 const NEAR: &str = "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40";
+
+/// Figure 1.1: the baseline's noise foam beside foam of particles.
+fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let noise = "--rule fixed:40 --foam none --spray none --noise foam";
+    let panels =
+        [tool.frame("waterfall", 240, noise)?.picture, tool.frame("waterfall", 240, "")?.picture];
+    grid(&panels, 2, &pictures(docs, "noise-foam.png"))
+}
 
 /// Figures 4.7 to 4.20: what each pass leaves.
 fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
@@ -172,7 +181,7 @@ fn measure(tool: &Tool, scene: &str, files: &[PathBuf], camera: &Path) -> Outcom
 
 /// Figure 5.9: a zoom to the waterfall's basin, over one frame.
 fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
-    const STEPS: u32 = 24;
+    const STEPS: u32 = 16;
     let still = tool.scene("waterfall")?.join("waterfall_0240.bgeo");
     let mut files = Vec::new();
     for step in 1..=STEPS {
@@ -195,15 +204,15 @@ fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
     curves::plot("Zoom, waterfall", "from 10 m to 1 m", &curves, &pictures(docs, "cost-zoom.svg"))
 }
 
-/// Figures 5.10 to 5.12: the scenes' own camera ways, every tenth frame.
+/// Figures 5.10 to 5.12: the scenes' own camera ways, every fifteenth frame.
 fn flights(tool: &Tool, docs: &Path) -> Outcome<()> {
     for scene in ["waterfall", "corridor", "bamboo"] {
         let folder = tool.scene(scene)?;
         let files: Vec<_> =
-            (1..=24).map(|i| folder.join(format!("{scene}_{:04}.bgeo", 10 * i))).collect();
+            (1..=16).map(|i| folder.join(format!("{scene}_{:04}.bgeo", 15 * i))).collect();
         let curves = measure(tool, scene, &files, &folder.join("camera.json"))?;
         let to = pictures(docs, &format!("cost-{scene}.svg"));
-        curves::plot(&format!("Fly-through, {scene}"), "frame / 10", &curves, &to)?;
+        curves::plot(&format!("Fly-through, {scene}"), "frame / 15", &curves, &to)?;
     }
     Ok(())
 }
