@@ -254,7 +254,9 @@ mod tests {
 
     #[test]
     fn layer_names_are_understood() {
-        assert_eq!(wanted("all").unwrap().len(), GROUPS.len());
+        let all = wanted("all").unwrap();
+        assert!(all.len() == GROUPS.len() - 1 && !all.contains(&LADDER));
+        assert_eq!(wanted("ladder").unwrap(), [LADDER]);
         assert_eq!(wanted("water.depth.Z, scene").unwrap(), ["water.depth", "scene"]);
         assert_eq!(wanted("motion").unwrap(), [MOTION]);
         assert!(wanted("water").is_err() && wanted("").is_err());
