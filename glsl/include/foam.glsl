@@ -10,6 +10,11 @@ struct FoamSprite {
 // Half-axis across the motion in drawn radii. That of the depth shrinks with the last of the foam; else
 // it is the thickness', which ends softly: a narrower one cuts it off (the source has 2 to 3).
 const float FOAM_AXIS = 2.0;
+// Least half-axis of the thickness in texels: a narrower one would come and go between their middles. As it
+// is wider it is thinner.
+const float LEAST_FOAM_AXIS = 1.5;
+// Cells of the noise to a half-axis.
+const float NOISE_CELLS = 1.6;
 // Least that a sprite counts as turned towards the eye: seen from its edge it would be endless.
 const float LEAST_FACING = 0.2;
 

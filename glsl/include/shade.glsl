@@ -85,16 +85,16 @@ float air(float window) {
 }
 
 // Of the sheet that a surface belongs to; how much air is behind or before it (without air it is
-// both together); of the back sheet.
-vec3 sheet_thickness(ivec2 base, vec4 weights, float front) {
+// both together); of the back sheet; of the front one.
+vec4 sheet_thickness(ivec2 base, vec4 weights, float front) {
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
         vec3 t = texelFetch(sheets, texel, 0).xyz;
         vec2 own = front < boundary_of(texel) ? t.xy : t.yx;
         float apart = air(t.z);
-        sum += weights[i] * vec3(own.x + (1.0 - apart) * own.y, apart, apart * t.y);
+        sum += weights[i] * vec4(own.x + (1.0 - apart) * own.y, apart, apart * t.y, apart * t.x);
     }
     return sum;
 }
@@ -282,13 +282,26 @@ struct Foam {
     float depth; // of the frontmost, EMPTY where only thickness is left
     float kept;  // share of the light from behind that comes through
     vec3 color;
+    float t;     // metres of it
+    vec2 water;  // metres of water, all and before the frontmost, whether a sphere shows it or not
 };
 
 // Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
-// 1 where it is turned away. Not in the source, whose foam is flat.
-float relief(vec4 height, vec2 f, float z, float sun) {
-    vec2 rise = vec2(mix(height.y - height.x, height.w - height.z, f.y),
-                     mix(height.z - height.x, height.w - height.y, f.x));
+// 1 where it is turned away. Not in the source, whose foam is flat. The slope is that of quadratic
+// B-splines through the texels about a place h: differences of neighbours alone change from texel to texel,
+// which stays where it is on the screen while the foam moves.
+float relief(vec2 h, float z, float sun) {
+    ivec2 middle = ivec2(floor(h + 0.5));
+    vec2 f = h - vec2(middle);
+    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    vec2 weights[3] = vec2[](0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));
+    vec2 slopes[3] = vec2[](f - 0.5, -2.0 * f, f + 0.5);
+    vec2 rise = vec2(0.0);
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = ivec2(i % 3, i / 3);
+        float height = texelFetch(foam_thickness, clamp(middle + at - 1, ivec2(0), last), 0).y;
+        rise += height * vec2(slopes[at.x].x * weights[at.y].y, weights[at.x].x * slopes[at.y].y);
+    }
     vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
     vec3 normal = normalize(vec3(-slope, 1.0));
     float turned = dot(normal, frame.sun_direction.xyz) - frame.sun_direction.z;
@@ -304,14 +317,14 @@ Foam foam_of(vec2 pixel, vec3 sun) {
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     vec2 t = vec2(0.0);
-    vec4 front;
+    Foam foam;
+    foam.water = vec2(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
-        vec2 there = texelFetch(foam_thickness, texel, 0).xy;
-        t += weights[i] * there;
-        front[i] = there.y;
+        t += weights[i] * texelFetch(foam_thickness, texel, 0).xy;
+        foam.water += weights[i] * texelFetch(thickness, texel, 0).xy;
     }
-    Foam foam;
+    foam.t = t.x;
     foam.depth = texelFetch(foam_depth, ivec2(pixel), 0).x;
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
@@ -320,7 +333,7 @@ Foam foam_of(vec2 pixel, vec3 sun) {
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
     float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * t.y);
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
-    foam.color *= under(sun) * relief(front, f, foam.depth, sun.g);
+    foam.color *= under(sun) * relief(h, foam.depth, sun.g);
     return foam;
 }
 
@@ -334,6 +347,23 @@ vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
     c = mix(foam.color, c, foam.kept);
     c = through_medium(c, sheet.path * (frame.target.z >= FRONT_WATER ? share : 0.0));
     return mix(c, sheet.mirrored, sheet.mirror * first) + sheet.shine * first;
+}
+
+// Water among foam, which has the less of a surface the more of it is foam: what is left of a particle that
+// turns into foam is no drop, and would glint and bend in single pixels that come and go.
+Sheet among(Foam foam, float t, Sheet sheet) {
+    float whole = smoothstep(0.5, 1.0, t / max(t + foam.t, 1.0e-9));
+    sheet.offset *= whole;
+    sheet.mirror *= whole;
+    sheet.shine *= whole;
+    return sheet;
+}
+
+// Water among foam that shows no sphere: light is lost in it all the same. It ends at the scene.
+Sheet between(Foam foam, vec2 pixel, float t) {
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    t = scene > 0.0 && foam.depth < 0.5 * EMPTY ? min(t, max(scene - foam.depth, 0.0)) : t;
+    return Sheet(t * length(vec3(ray_slope(pixel, frame.slope), 1.0)), vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
 }
 
 // The sun's share at the foam, by the mean depth of its frontmost about a pixel (thesis Sec. 4.10 has the
@@ -379,10 +409,10 @@ vec3 layers_at(vec2 pixel, float front) {
     bool covers = false;
     vec2 share = vec2(0.0);
     if (boundary < EMPTY) {
-        vec3 thick = sheet_thickness(base, weights, front);
+        vec4 thick = sheet_thickness(base, weights, front);
         t = thick.x;
         covers = front < boundary && thick.z > 0.0;
-        share = thick.yz;
+        share = covers ? thick.yz : thick.yw;
     }
     if (SHEETS == 2u) {
         Surface other = surface_at(levels.level[2], pixel, covers ? -1.0 : front, threshold);
@@ -409,6 +439,19 @@ vec3 layers_at(vec2 pixel, float front) {
     // On the front sheet: the noise is of the particles at its surface.
     vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
     Sheet sheet = sheet_of(surface, pixel, t, ripple);
+    Foam foam;
+    bool past = false;
+    if (FOAM == 1u) {
+        foam = foam_of(pixel, SHADOW + CAST > 0u ? sun_on_foam(pixel) : vec3(1.0));
+        // One looks between the spheres of the front sheet, if only its foam is there.
+        past = foam.depth < boundary && front >= boundary;
+        // Foam behind the air between two sheets is among the other.
+        if (covers && foam.depth >= boundary) {
+            back = among(foam, share.y, back);
+        } else if (!past) {
+            sheet = among(foam, t, sheet);
+        }
+    }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     sheet = on_ladder(sheet);
     back = on_ladder(back);
@@ -423,16 +466,22 @@ vec3 layers_at(vec2 pixel, float front) {
         }
         return over(sheet, c);
     }
-    vec3 sun = SHADOW + CAST > 0u ? sun_on_foam(pixel) : vec3(1.0);
-    Foam foam = foam_of(pixel, sun);
     foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
     if (front >= EMPTY) {
-        return mix(foam.color, scene_at(pixel), foam.depth < EMPTY ? foam.kept : 1.0);
+        vec3 scene = scene_at(pixel);
+        float t = foam.water.x;
+        vec3 veiled = over_with(between(foam, pixel, t), min(foam.water.y, t), t, foam, scene);
+        return foam.depth < EMPTY ? veiled : scene;
     }
     // Behind as much air as there is: where there is none both sheets are one.
     float behind_air = covers && foam.depth >= boundary ? share.x : 0.0;
     vec3 apart = c;
-    if (behind_air > 0.0) {
+    if (past && share.y > 0.0) {
+        behind_air = share.x;
+        Sheet behind = sheet;
+        behind.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
+        apart = over_with(between(foam, pixel, share.y), min(all.y, share.y), share.y, foam, over(behind, c));
+    } else if (behind_air > 0.0) {
         Sheet whole = sheet;
         whole.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
         apart = over(whole, over_with(back, max(all.y - t, 0.0), share.y, foam, c));

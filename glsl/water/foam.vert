@@ -18,6 +18,11 @@ layout(location = 1) flat out vec3 along;  // over its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec4 look;   // amplitude; place in the noise
+layout(location = 5) flat out float torn;  // strength of the noise
+
+// Over the foam, that of the depth: whole before there is enough foam to be seen, for what is behind the
+// frontmost foam and what is before it changes at its outline.
+const float DEPTH_GROWTH = 8.0;
 
 void main() {
     FoamSprite sprite = sprites[gl_InstanceIndex];
@@ -26,8 +31,18 @@ void main() {
     float stretch = foam_axes(sprite, e1, e2);
     float foam = sprite.centre.w;
     float radius = frame.particle.x;
-    float b = radius * FOAM_AXIS * (THICK == 1u ? 1.0 : min(2.0 * foam, 1.0));
+    float b = radius * FOAM_AXIS * (THICK == 1u ? 1.0 : min(DEPTH_GROWTH * foam, 1.0));
     float a = b * (1.0 + stretch);
+    vec4 scale = THICK == 1u ? frame.thick_slope : frame.slope;
+    float depth = -sprite.centre.z;
+    float pixel = depth * max(abs(scale.x), abs(scale.y));
+    torn = 0.0;
+    if (THICK == 1u) {
+        // Cells of less than a texel cannot be told from each other; those of two are seen whole.
+        torn = frame.foam_noise.x * smoothstep(1.0, 2.0, b / (NOISE_CELLS * pixel));
+        a = max(a, LEAST_FOAM_AXIS * pixel);
+        b = max(b, LEAST_FOAM_AXIS * pixel);
+    }
     centre = sprite.centre.xyz;
     along = e1 / a;
     across = e2 / b;
@@ -39,11 +54,8 @@ void main() {
     look = vec4(foam * volume / (a * b * facing), phase + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y));
 
     vec2 extent = THICK == 1u ? frame.thick_extent.xy : frame.extent.xy;
-    vec4 scale = THICK == 1u ? frame.thick_slope : frame.slope;
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
     // A pixel more: snapping (1/16 at worst) must not cut the footprint, even foreshortened.
-    float depth = -centre.z;
-    float pixel = depth * max(abs(scale.x), abs(scale.y));
     vec3 reach_a = e1 * (a + pixel);
     vec3 reach_b = e2 * (b + pixel);
     vec2 at;

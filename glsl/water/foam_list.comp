@@ -58,7 +58,9 @@ void visit(uint index) {
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     // The longest half-axis of all. A centre behind the near plane has no sprite.
-    if (-centre.z <= frame.depth.z || !in_frustum(centre, 2.0 * FOAM_AXIS * frame.particle.x)) {
+    float texel = -centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
+    float reach = max(2.0 * FOAM_AXIS * frame.particle.x, LEAST_FOAM_AXIS * texel);
+    if (-centre.z <= frame.depth.z || !in_frustum(centre, reach)) {
         return;
     }
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;

@@ -11,6 +11,7 @@
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec4 look;
+layout(location = 5) flat in float torn;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D foam_depth;
@@ -28,12 +29,14 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    float noise = gradient_noise(vec3(1.6 * place, 0.0) + look.yzw);
+    float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
     float amount = look.x * thickness_kernel(dot(place, place));
-    amount *= max(1.0 + frame.foam_noise.x * noise, 0.0);
-    // Whole steps: their sums are exact, in any order.
-    amount = floor(amount / frame.foam_back.w + 0.5) * frame.foam_back.w;
+    amount *= max(1.0 + torn * noise, 0.0);
     ivec2 last = ivec2(frame.extent.xy) - 1;
     float front = texelFetch(foam_depth, min(ivec2(pixel), last), 0).x;
-    thickness = vec2(amount, depth <= front + frame.foam.w && front < EMPTY ? amount : 0.0);
+    // The layer ends softly, within a spacing: what passes its end would pop.
+    float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
+    thickness = amount * vec2(1.0, front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0);
+    // Whole steps: their sums are exact, in any order.
+    thickness = floor(thickness / frame.foam_back.w + 0.5) * frame.foam_back.w;
 }

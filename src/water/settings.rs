@@ -324,11 +324,12 @@ pub struct FoamLook {
     /// layer's depth, to the power p. 0 (default): the rule above.
     pub front_power: f32,
     /// Depth of that layer, scene units, [0, ∞), default 60 spacings (the source's 7 shows drops
-    /// before the foam as discs: it begins anew behind each).
+    /// before the foam as discs: it begins anew behind each); it ends within a spacing more.
     pub front_depth: f32,
     /// Speed at which a sprite is stretched to twice its width, spacings a second, (0, ∞), default 21.
     pub motion_threshold: f32,
-    /// Strength of the noise in a sprite, 0 (none) to 1 (default).
+    /// Strength of the noise in a sprite, 0 (none) to 1 (default); it fades where its cells are less than
+    /// two texels of the thickness wide.
     pub noise: f32,
     /// Cells of the noise that pass in a second of age, [0, ∞), default 2.
     pub noise_rate: f32,

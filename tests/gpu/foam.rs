@@ -454,15 +454,22 @@ fn the_relief_of_foam_follows_the_sun() {
         case.shot.settings.foam.relief = 0.6;
         let drawn = case.draw(&mut rig);
         let found = of(&drawn);
-        let height =
-            |x: usize, y: usize| f64::from(found.thickness.clamped(x as isize, y as isize)[1]);
+        let height = |x: usize, y: usize, i: isize, j: isize| {
+            f64::from(found.thickness.clamped(x as isize + i, y as isize + j)[1])
+        };
         let (mut lighter, mut darker) = (0, 0);
         for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
             let z = f64::from(found.depth.at(x, y));
-            if z >= 1e9 || height(x, y) < 1e-4 {
+            if z >= 1e9 || height(x, y, 0, 0) < 1e-4 {
                 continue;
             }
-            let rise = DVec2::new(height(x + 1, y) - height(x, y), height(x, y + 1) - height(x, y));
+            // In the middle of a texel: differences of both neighbours, of three rows.
+            let at = |i: isize, j: isize| height(x, y, i, j);
+            let three = |of: &dyn Fn(isize) -> f64| 0.125 * (of(-1) + 6.0 * of(0) + of(1));
+            let rise = DVec2::new(
+                three(&|j| 0.5 * (at(1, j) - at(-1, j))),
+                three(&|i| 0.5 * (at(i, 1) - at(i, -1))),
+            );
             let wide = view.slope_step() * z;
             let slope = rise / wide;
             let normal = DVec3::new(-slope.x, -slope.y, 1.0).normalize();
@@ -470,7 +477,7 @@ fn the_relief_of_foam_follows_the_sun() {
             let expected = factor * f64::from(flat.output.at(x, y)[0]);
             let found = f64::from(drawn.output.at(x, y)[0]);
             // The rise is a difference of two sums; the quotients and the unit length a few u more.
-            let bound = U * (40.0 + 16.0 * height(x, y) / wide.abs().min_element());
+            let bound = U * (40.0 + 16.0 * height(x, y, 0, 0) / wide.abs().min_element());
             assert!(
                 (found - expected).abs() <= bound * (1.0 + expected),
                 "{found}, not {expected}"

@@ -334,7 +334,7 @@ fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Pa
         &wrong[..wrong.len().min(900)]
     );
     assert!(
-        outside > 500 && darker > 10,
+        outside > 500 && darker >= 10,
         "{name}: {outside} outside, {darker} darker, {lighter} lighter"
     );
 }

@@ -20,13 +20,13 @@ use std::f64::consts::{PI, SQRT_2};
 
 /// Drawn radius of a whole particle over the spacing.
 const RADIUS: f64 = 0.656;
-/// Half-axis of a sprite at rest, in radii; of the one that makes the depth as much of it as twice
-/// the foam is, at most all.
+/// Half-axis of a sprite at rest, in radii; of the one that makes the depth as much of it as eight
+/// times the foam is, at most all.
 const AXIS: f64 = 2.0;
 
 /// The part of the half-axis that the depth's has.
 fn depth_part(foam: f64) -> f64 {
-    (2.0 * foam).min(1.0)
+    (8.0 * foam).min(1.0)
 }
 
 /// Slower than this, in spacings a second, there is no direction of motion.
@@ -41,6 +41,10 @@ const EDGE_ON: f64 = 1e-6;
 const LEAST_FACING: f64 = 0.2;
 /// Cells of the noise to a half-axis.
 const CELLS: f64 = 1.6;
+/// Least half-axis of what makes the thickness, in texels.
+const LEAST_AXIS: f64 = 1.5;
+/// Texels of a cell between which its noise comes.
+const TOLD_APART: (f64, f64) = (1.0, 2.0);
 /// The noise of the particles begins within this many cells.
 const SPREAD: f64 = 64.0;
 
@@ -91,6 +95,11 @@ impl Settings {
         }
         let steps = addend / self.step;
         ((steps * (1.0 + sign * 2.0 * U) + 0.5 + sign * 2.0 * U).floor() * self.step).max(0.0)
+    }
+
+    /// How much of what lies so far behind the nearest foam counts to the front layer.
+    fn within(&self, behind: f64) -> f64 {
+        1.0 - smoothstep(self.front_depth, self.front_depth + self.spacing, behind)
     }
 
     /// r, the drawn radius of a whole particle, world units.
@@ -199,12 +208,25 @@ impl Ellipse {
         (k >= near && at.length_squared() <= 1.0).then_some(Hit { k, at })
     }
 
+    /// The same as the thickness has it, in texels that are so wide at the depth of its centre; how
+    /// much the noise tears it.
+    fn wide(self, texel: f64, settings: &Settings) -> (Self, f64) {
+        let cell = self.half.y / (CELLS * texel);
+        let torn = settings.noise * smoothstep(TOLD_APART.0, TOLD_APART.1, cell);
+        (Self { half: self.half.max(DVec2::splat(LEAST_AXIS * texel)), ..self }, torn)
+    }
+
     /// The height along z at the middle of the thickness' sprite, world units: its integral is the
     /// particle's volume of foam. Flat ones would reach to any height.
     fn amplitude(&self, foam: f64, settings: &Settings) -> f64 {
         let facing = self.axes.normal().z.abs().max(LEAST_FACING);
         foam * settings.spacing.powi(3) / (PI * J * self.half.x * self.half.y * facing)
     }
+}
+
+/// How wide a texel is at the depth of a point.
+fn texel(center: DVec3, view: &View) -> f64 {
+    -center.z * view.slope_step().abs().max_element()
 }
 
 /// The pixels that may see anything within a distance of a point.
@@ -271,18 +293,19 @@ pub fn thickness(
     for sprite in sprites {
         let Some(foam) = sprite.part_beyond(near) else { continue };
         let ellipse = Ellipse::new(sprite, settings, AXIS * settings.radius());
+        let (ellipse, torn) = ellipse.wide(texel(sprite.center, view), settings);
         let amplitude = ellipse.amplitude(foam, settings);
         for (x, y) in pixels(view, sprite.center, ellipse.half.x) {
             let hit = ellipse.meet(view.ray(x, y), near);
             let hidden = scene_depth(in_full(scene, x, y, level));
             let Some(hit) = hit.filter(|hit| hit.k < hidden) else { continue };
-            let torn = 1.0 + settings.noise * noise(sprite.place(hit.at.x, hit.at.y, settings));
+            let torn = 1.0 + torn * noise(sprite.place(hit.at.x, hit.at.y, settings));
             let value = amplitude * kernel(hit.at.length_squared()) * torn.max(0.0);
             let nearest = in_full(foam_depth, x, y, level);
-            let front = is_surface(nearest) && hit.k <= nearest + settings.front_depth;
+            let front = if is_surface(nearest) { settings.within(hit.k - nearest) } else { 0.0 };
             let texel = thickness.at_mut(x, y);
             texel[0] += value;
-            texel[1] += if front { value } else { 0.0 };
+            texel[1] += value * front;
         }
     }
     thickness
@@ -330,7 +353,7 @@ fn gradient([i, j, k]: [u32; 3], offset: DVec3) -> f64 {
 /// The most that [`noise`] is, by Jensen: a gradient is as long as the root of 2, and the squares
 /// of an offset's parts are a quarter each at most in the mean by the fades,
 /// `(1 - F) f^2 + F (1 - f)^2 <= f (1 - f)`, as `F <= f` up to the middle.
-pub(super) fn noise_reach() -> f64 {
+pub fn noise_reach() -> f64 {
     1.5_f64.sqrt()
 }
 
@@ -342,7 +365,7 @@ fn noise_by_fade() -> f64 {
 
 /// The most that [`noise`] changes along an axis, to a cell: a part of a gradient is 1 at most, and
 /// the slope of a fade `30 f^2 (1 - f)^2` is 15/8 at most. It is continuous from cell to cell.
-pub(super) fn noise_slope() -> f64 {
+pub fn noise_slope() -> f64 {
     1.0 + 15.0 / 8.0 * noise_by_fade()
 }
 
@@ -515,6 +538,18 @@ impl LooseEllipse {
         1.01 * (self.a.v + self.a.e) + 32.0 * (self.center.e + U * self.center.v.length())
     }
 
+    /// See [`Ellipse::wide`]. A texel: the depth's error, 2u of the slope and a product.
+    fn wide(self, view: &View, settings: &Settings) -> (Self, Rounded) {
+        let z = Rounded { v: -self.center.v.z, e: self.center.e };
+        let pixel = z * off(view.slope_step().abs().max_element(), 3.0);
+        let cell = self.b / (off(CELLS, 1.0) * pixel);
+        let (from, to) = TOLD_APART;
+        let told = rounded::smoothstep(exact(from), exact(to), cell);
+        let least = exact(LEAST_AXIS) * pixel;
+        let (a, b) = (larger(self.a, least), larger(self.b, least));
+        (Self { a, b, ..self }, off(settings.noise, 1.0) * told)
+    }
+
     /// Whether and where a ray may meet it before the scene.
     ///
     /// k. The error of n counts by `n.(c - k w)` alone, which is 0 without it: by the distance p
@@ -587,6 +622,11 @@ impl LooseEllipse {
     }
 }
 
+/// The larger of two, of which either may be.
+fn larger(a: Rounded, b: Rounded) -> Rounded {
+    Rounded { v: a.v.max(b.v), e: if a.v - a.e > b.v + b.e { a.e } else { a.e.max(b.e) } }
+}
+
 /// The sprites that may be drawn, with their foam and whether they surely are: the near plane 8u.
 fn maybe_drawn<'a>(
     sprites: &'a [Sprite],
@@ -602,9 +642,9 @@ fn maybe_drawn<'a>(
 
 /// Least and greatest of what the ellipses that rounding may make of a sprite are at a pixel, by
 /// `of`, and whether all of them are there.
-fn span<const N: usize>(
-    ellipses: &[LooseEllipse],
-    of: impl Fn(&LooseEllipse) -> Option<([f64; N], [f64; N], bool)>,
+fn span<T, const N: usize>(
+    ellipses: &[T],
+    of: impl Fn(&T) -> Option<([f64; N], [f64; N], bool)>,
 ) -> Option<([f64; N], [f64; N], bool)> {
     let all: Vec<_> = ellipses.iter().map(of).collect();
     let sure = all.iter().all(|one| one.is_some_and(|(_, _, sure)| sure));
@@ -664,22 +704,36 @@ pub fn thickness_bounds(
     let mut count = Image::new(view.width, view.height, 0.0);
     for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
         let ellipses = LooseEllipse::all(sprite, full, settings, AXIS);
-        let reach = ellipses.iter().map(LooseEllipse::reach).fold(0.0, f64::max);
+        let ellipses: Vec<_> = ellipses.into_iter().map(|e| e.wide(view, settings)).collect();
+        let reach = ellipses.iter().map(|(e, _)| e.reach()).fold(0.0, f64::max);
         for (x, y) in pixels(view, sprite.center, reach) {
             let (ray, scene) = (ray_off(view, x, y), scene_depth(in_full(scene, x, y, level)));
             let nearest = in_full(&foam_depth.low, x, y, level);
             let farthest = in_full(&foam_depth.high, x, y, level);
-            let found = span(&ellipses, |ellipse| {
+            let found = span(&ellipses, |(ellipse, strength)| {
                 let hit = ellipse.meet(ray, near, scene)?;
-                let (least, most) = value_bounds(sprite, ellipse, &hit, foam, settings);
-                // The window: rounded itself by 2u, and the sum.
-                let end = |nearest: f64| nearest + settings.front_depth;
-                let maybe =
-                    is_surface(nearest) && hit.k.v - hit.k.e <= end(farthest) * (1.0 + 3.0 * U);
-                let surely =
-                    is_surface(farthest) && hit.k.v + hit.k.e <= end(nearest) * (1.0 - 3.0 * U);
-                let front = |is: bool, value: f64| if is { value } else { 0.0 };
-                Some(([least, front(surely, least)], [most, front(maybe, most)], hit.sure))
+                let bounds = value_bounds(sprite, (ellipse, *strength), &hit, foam, settings);
+                let (least, most) = bounds;
+                // The end of the layer is rounded by 2u, the ramp by 16u; it falls by 1.5 a spacing.
+                let share = |there: f64, k: f64, by: f64| {
+                    let off = 4.0 * U * (k.abs() + there + settings.front_depth);
+                    match is_surface(there) {
+                        true => {
+                            (settings.within(k - there - by * off) + by * 16.0 * U).clamp(0.0, 1.0)
+                        }
+                        false => 0.0,
+                    }
+                };
+                let surely = match is_surface(farthest) {
+                    true => share(nearest, hit.k.v + hit.k.e, -1.0),
+                    false => 0.0,
+                };
+                let maybe = match is_surface(nearest) {
+                    true if is_surface(farthest) => share(farthest, hit.k.v - hit.k.e, 1.0),
+                    true => 1.0,
+                    false => 0.0,
+                };
+                Some(([least, surely * least], [most, maybe * most], hit.sure))
             });
             let Some((least, most, sure)) = found else { continue };
             for i in 0..2 {
@@ -707,7 +761,7 @@ pub fn thickness_bounds(
 /// three products by 3u.
 fn value_bounds(
     sprite: &Sprite,
-    ellipse: &LooseEllipse,
+    (ellipse, strength): (&LooseEllipse, Rounded),
     hit: &LooseHit,
     foam: f64,
     settings: &Settings,
@@ -722,8 +776,9 @@ fn value_bounds(
     let moved = CELLS * (hit.x.e + hit.y.e) + U * sums;
     let (here, error) = (noise(place), noise_slope() * moved + noise_rounding());
     let torn = |noise: f64, sign: f64| {
-        let part = settings.noise * noise.clamp(-noise_reach(), noise_reach());
-        let rounding = U * (part.abs() + (1.0 + part).abs());
+        let noise = noise.clamp(-noise_reach(), noise_reach());
+        let part = strength.v * noise;
+        let rounding = strength.e * noise.abs() + U * (part.abs() + (1.0 + part).abs());
         (1.0 + part + sign * rounding).max(0.0)
     };
     let rounding = U * (0.5 + 9.0 + 14.0 + 3.0);
@@ -900,9 +955,9 @@ mod tests {
             let grown = found.0 as f64 / rest.0 as f64 / (by.0 * by.1);
             assert!((grown - 1.0).abs() < 0.02, "{velocity:?}: {grown}");
         }
-        let quarter = of(Sprite { foam: 0.25, ..sprite(at) });
+        let quarter = of(Sprite { foam: 0.0625, ..sprite(at) });
         assert!((quarter.0 as f64 / rest.0 as f64 - 0.25).abs() < 0.01);
-        assert_eq!(of(Sprite { foam: 0.5, ..sprite(at) }), rest);
+        assert_eq!(of(Sprite { foam: 0.125, ..sprite(at) }), rest);
         assert_eq!(of(Sprite { foam: 3.0, ..sprite(at) }), rest, "no more than whole");
     }
 
@@ -1004,7 +1059,7 @@ mod tests {
     fn the_window_behind_the_nearest_foam() {
         let settings = settings();
         let view = view(DVec2::splat(2.0), DVec2::ZERO, 61, 61);
-        let [at_4, at_7, at_8] = [4.0, 7.4, 7.6].map(|d| sprite([0.0, 0.0, -d]));
+        let [at_4, at_7, at_8] = [4.0, 7.4, 8.1].map(|d| sprite([0.0, 0.0, -d]));
         let none = nothing(&view);
         let of = |sprites: &[Sprite], foam: &Image<f64>| {
             thickness(sprites, &view, 0, &settings, &none, foam)
@@ -1013,17 +1068,17 @@ mod tests {
         assert!((foam.at(30, 30) - 4.0).abs() < 1e-9);
         let (all, near) = (of(&[at_4, at_7, at_8], &foam), of(&[at_4, at_7], &foam));
         for (x, y) in (0..61).flat_map(|y| (0..61).map(move |x| (x, y))) {
-            // 7 spacings are 3.5. Nothing where the depth has nothing, though there is some.
+            // 7 spacings are 3.5, and one more. Nothing where the depth has nothing, though there is some.
             let expected = if is_surface(foam.at(x, y)) { near.at(x, y)[0] } else { 0.0 };
             assert!((all.at(x, y)[1] - expected).abs() < 1e-12);
             assert!(all.at(x, y)[1] <= all.at(x, y)[0]);
         }
         // Of little foam the depth is smaller than the thickness.
-        let little = [Sprite { foam: 0.25, ..at_4 }];
+        let little = [Sprite { foam: 0.0625, ..at_4 }];
         let rim = of(&little, &depth(&little, &view, &settings, &none));
         assert!(rim.data.iter().any(|t| t[0] > 0.0 && t[1] == 0.0));
         assert!(total(&all).y > 0.5 * total(&all).x);
-        let all_in = Settings { front_depth: 3.7, ..settings };
+        let all_in = Settings { front_depth: 4.2, ..settings };
         let all_in = thickness(&[at_4, at_7, at_8], &view, 0, &all_in, &none, &foam);
         assert_eq!(all_in.at(30, 30)[0], all_in.at(30, 30)[1]);
     }
@@ -1123,10 +1178,13 @@ mod tests {
         e2: Vec3,
         half: Vec2,
         amplitude: f32,
+        torn: f32,
     }
 
     impl Single {
-        fn new(world: &Sprite, view: &View, settings: &Settings, thickness: bool) -> Self {
+        /// `texels`: those of the thickness.
+        fn new(world: &Sprite, view: &View, settings: &Settings, texels: Option<&View>) -> Self {
+            let thickness = texels.is_some();
             let to_eye = view.view.as_mat4();
             let c = to_eye.transform_point3(world.center.as_vec3());
             let u = to_eye.transform_vector3(world.velocity.as_vec3());
@@ -1153,12 +1211,17 @@ mod tests {
                 (e1 / e1.length(), e2, t)
             };
             let r = 0.656_f32 * spacing;
-            let b = 2.0 * r * if thickness { 1.0 } else { (2.0 * foam).min(1.0) };
-            let half = Vec2::new(b * (1.0 + t), b);
+            let b = 2.0 * r * if thickness { 1.0 } else { (8.0 * foam).min(1.0) };
+            let (mut half, mut torn) = (Vec2::new(b * (1.0 + t), b), 0.0);
+            if let Some(texels) = texels {
+                let texel = -c.z * texels.slope_step().as_vec2().abs().max_element();
+                torn = settings.noise as f32 * step(1.0, 2.0, b / (1.6 * texel));
+                half = half.max(Vec2::splat(1.5 * texel));
+            }
             let facing = e1.cross(e2).z.abs().max(0.2);
             let below = std::f32::consts::PI * 0.340003 * half.x * half.y * facing;
             let amplitude = foam * (spacing * spacing * spacing) / below;
-            Self { center: c, e1, e2, half, amplitude }
+            Self { center: c, e1, e2, half, amplitude, torn }
         }
 
         fn meet(&self, view: &View, x: usize, y: usize, scene: f64) -> Option<(f32, Vec2)> {
@@ -1191,7 +1254,7 @@ mod tests {
             let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
             let x = [0, 2, 4, 6].map(|i| mix(sums[i], sums[i + 1], fade.x));
             let y = [0, 2].map(|i| mix(x[i], x[i + 1], fade.y));
-            let torn = 1.0 + settings.noise as f32 * mix(y[0], y[1], fade.z);
+            let torn = 1.0 + self.torn * mix(y[0], y[1], fade.z);
             let rho_squared = at.x * at.x + at.y * at.y;
             let kernel = (1.0 - rho_squared).max(0.0).sqrt() * (-2.0 * rho_squared).exp();
             self.amplitude * kernel * torn.max(0.0)
@@ -1205,10 +1268,11 @@ mod tests {
             settings: &Settings,
             scene: &Image<f64>,
         ) -> [Image<f32>; 3] {
-            let all = |thickness: bool| -> Vec<Self> {
-                world.iter().map(|s| Self::new(s, view, settings, thickness)).collect()
+            let all = |texels: Option<&View>| -> Vec<Self> {
+                world.iter().map(|s| Self::new(s, view, settings, texels)).collect()
             };
-            let (flat, thick, reduced) = (all(false), all(true), view.reduced(level));
+            let reduced = view.reduced(level);
+            let (flat, thick) = (all(None), all(Some(&reduced)));
             let depth = Image::from_fn(view.width, view.height, |x, y| {
                 let hits = flat.iter().filter_map(|s| s.meet(view, x, y, scene.at(x, y)));
                 hits.map(|hit| hit.0).fold(1e10, f32::min)
@@ -1222,8 +1286,10 @@ mod tests {
                     let Some((k, at)) = hit else { continue };
                     let value = single.value(sprite, at, settings);
                     *sums[0].at_mut(x, y) += value;
-                    if nearest < 1e9 && k <= nearest + settings.front_depth as f32 {
-                        *sums[1].at_mut(x, y) += value;
+                    if nearest < 1e9 {
+                        let end = settings.front_depth as f32;
+                        let t = ((k - nearest - end) / settings.spacing as f32).clamp(0.0, 1.0);
+                        *sums[1].at_mut(x, y) += value * (1.0 - t * t * (3.0 - 2.0 * t));
                     }
                 }
             }
