@@ -54,6 +54,8 @@ mod smooth;
 mod spied;
 #[path = "gpu/spray.rs"]
 mod spray;
+#[path = "gpu/temporal.rs"]
+mod temporal;
 #[path = "gpu/thickness.rs"]
 mod thickness;
 #[path = "gpu/work.rs"]

@@ -127,7 +127,7 @@ fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
 }
 
 /// Depth of the foam where it hides half of what is behind it, as `composite` has it.
-fn shown_foam(shot: &Shot, drawn: &Drawn, level: u32) -> Option<Image<f32>> {
+pub(crate) fn shown_foam(shot: &Shot, drawn: &Drawn, level: u32) -> Option<Image<f32>> {
     let foam = drawn.foam.as_ref()?;
     let look = &shot.settings.foam;
     let edge = f64::from(1_u32 << level);

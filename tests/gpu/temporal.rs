@@ -1,0 +1,444 @@
+//! Foam from frame to frame: no pixel changes by more than motion and phases explain.
+//!
+//! A frame is laid over the one before by its own vectors, and what is left is a change of display values
+//! (sRGB, 0 to 1), of pixels that are well inside what the vectors are of. Sequences are drawn at two time
+//! steps too: what is continuous changes less in a shorter step, what pops does not.
+
+use glam::{DVec2, Mat4, Vec3};
+use whitewater::water::FoamLook;
+use whitewater::{Camera, Config, Previous};
+
+use crate::foam::Foamy;
+use crate::motion::shown_foam;
+use crate::reference::Image;
+use crate::reference::foam::{noise_reach, noise_slope};
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+
+const WIDTH: u32 = 192;
+const HEIGHT: u32 = 120;
+/// One step of a display of 8 bits.
+const STEP: f64 = 1.0 / 255.0;
+/// Pixels from what a vector may be of something else in: two texels of the thickness.
+const MARGIN: isize = 8;
+
+/// A renderer of foam that moves.
+fn moving(thickness_level: u32) -> Config {
+    Config {
+        foam: true,
+        motion: true,
+        thickness_level,
+        max_particles: 8192,
+        ..config(extent(WIDTH, HEIGHT))
+    }
+}
+
+/// A block of foam before the middle of the view, so many pixels from particle to particle.
+fn block(pixels: f32, layers: usize) -> Foamy {
+    let size = extent(WIDTH, HEIGHT);
+    let depth = 4.0;
+    let focal = scenes::projection(Lens::Standard, size).y_axis.y.abs();
+    let spacing = pixels * 2.0 * depth / (focal * HEIGHT as f32);
+    let across = (0.8 * HEIGHT as f32 / pixels) as usize;
+    let count = [across * 3 / 2, across, layers];
+    let [w, h] = [count[0], count[1]].map(|n| 0.5 * spacing * (n as f32 - 1.0));
+    let points = scenes::block(3, spacing, count, [-w, -h, depth]);
+    let mut shot = Shot::new(size, Lens::Standard, 0.656 * spacing, &points);
+    shot.settings.foam = FoamLook::of_spacing(shot.settings.water.spacing);
+    Foamy {
+        shot,
+        amounts: vec![[1.0, 0.0]; points.len()],
+        velocities: vec![[0.0; 3]; points.len()],
+        ids: Some((0..points.len() as u32).collect()),
+    }
+}
+
+fn display(v: f32) -> f64 {
+    let v = f64::from(v).clamp(0.0, 1.0);
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+fn bilinear(image: &Image<[f64; 3]>, at: DVec2) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (x, y, w) in image.bilinear(at) {
+        let there = image.clamped(x, y);
+        (0..3).for_each(|i| sum[i] += w * there[i]);
+    }
+    sum
+}
+
+/// A frame, and which of its pixels lie inside what their vectors are of.
+struct Seen {
+    drawn: Drawn,
+    picture: Image<[f64; 3]>,
+    inside: Image<bool>,
+}
+
+impl Seen {
+    fn new(case: &Foamy, rig: &mut Rig<'_>) -> Self {
+        let drawn = case.draw(rig);
+        let foam = shown_foam(&case.shot, &drawn, rig.config.thickness_level).expect("foam");
+        let shown = Image::from_fn(foam.width, foam.height, |x, y| {
+            foam.at(x, y).min(drawn.depth.at(x, y)) < 1e9
+        });
+        let all = -MARGIN..=MARGIN;
+        let row = Image::from_fn(foam.width, foam.height, |x, y| {
+            all.clone().all(|d| shown.checked(x as isize + d, y as isize) == Some(true))
+        });
+        let inside = Image::from_fn(foam.width, foam.height, |x, y| {
+            all.clone().all(|d| row.checked(x as isize, y as isize + d) == Some(true))
+        });
+        let picture = drawn.output.map(|c| [c[0], c[1], c[2]].map(display));
+        Self { drawn, picture, inside }
+    }
+
+    /// What is left of each pixel's change, largest of its channels; and the change where it stands.
+    fn changes(&self, before: &Self) -> [Vec<f64>; 2] {
+        let motion = self.drawn.motion.as_ref().expect("motion");
+        let mut found = [Vec::new(), Vec::new()];
+        for (i, inside) in self.inside.data.iter().enumerate() {
+            let (x, y) = (i % self.inside.width, i / self.inside.width);
+            let here = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let there = here - DVec2::from(motion.data[i].map(f64::from));
+            let at = there.floor().as_i64vec2();
+            let was = before.inside.checked(at.x as isize, at.y as isize) == Some(true);
+            if !(*inside && was && before.inside.data[i]) {
+                continue;
+            }
+            let now = self.picture.data[i];
+            for (found, from) in found.iter_mut().zip([there, here]) {
+                let was = bilinear(&before.picture, from);
+                found.push((0..3).map(|i| (now[i] - was[i]).abs()).fold(0.0, f64::max));
+            }
+        }
+        found
+    }
+}
+
+/// Changes of many pixels.
+#[derive(Clone, Copy, Debug)]
+struct Census {
+    count: usize,
+    mean: f64,
+    /// 95 of a hundred are less.
+    most: f64,
+    /// Share of those of more than eight steps.
+    over: f64,
+}
+
+fn census(mut all: Vec<f64>) -> Census {
+    all.sort_by(f64::total_cmp);
+    let n = all.len().max(1) as f64;
+    Census {
+        count: all.len(),
+        mean: all.iter().sum::<f64>() / n,
+        most: all.get(all.len() * 95 / 100).copied().unwrap_or(0.0),
+        over: all.iter().filter(|v| **v > 8.0 * STEP).count() as f64 / n,
+    }
+}
+
+/// What goes wrong from frame to frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Fault {
+    /// Another noise a frame.
+    Reseeded,
+    /// Noise that follows the place in the list, which changes.
+    Shuffled,
+    /// Every third particle is foam or not by turns.
+    Switched,
+    /// Sprites wider by a quarter by turns.
+    Resized,
+}
+
+/// Spacings of a block in pixels; how it moves, pixels a frame; the camera too.
+#[derive(Clone, Copy, Debug)]
+struct Take {
+    pixels: f32,
+    foam: f32,
+    by: [f32; 2],
+    panned: bool,
+    fault: Option<Fault>,
+}
+
+const DT: f32 = 1.0 / 60.0;
+
+impl Take {
+    /// Frame n.
+    fn frame(&self, n: u32) -> Foamy {
+        let mut case = block(self.pixels, 3);
+        let shot = &mut case.shot;
+        let pixel = shot.settings.water.spacing / self.pixels;
+        let [right, up] = [0, 1].map(|row| shot.camera.view.row(row).truncate());
+        let velocity = (right * self.by[0] - up * self.by[1]) * pixel / DT;
+        let time = n as f32 * DT;
+        shot.positions.iter_mut().for_each(|p| *p = (Vec3::from(*p) + velocity * time).to_array());
+        let first = shot.camera;
+        // It looks aside by a pixel and a half a frame, and goes nearer.
+        let pan = |n: f32| Camera {
+            view: Mat4::from_translation(Vec3::new(0.0, 0.0, 0.01 * n))
+                * Mat4::from_rotation_y(0.014 * n)
+                * first.view,
+            ..first
+        };
+        let camera = |n: f32| if self.panned { pan(n) } else { first };
+        shot.camera = camera(n as f32);
+        shot.previous = Some(Previous { camera: camera(n as f32 - 1.0), dt: DT });
+        let count = case.amounts.len() as u32;
+        case.amounts.fill([self.foam, time]);
+        case.velocities.fill(velocity.to_array());
+        match self.fault {
+            Some(Fault::Reseeded) => case.ids = Some((n * count..(n + 1) * count).collect()),
+            Some(Fault::Shuffled) => {
+                case.ids = Some((0..count).map(|i| (i + 7 * n) % count).collect());
+            }
+            Some(Fault::Switched) if n.is_multiple_of(2) => {
+                case.amounts.iter_mut().step_by(3).for_each(|a| a[0] = 0.0);
+            }
+            Some(Fault::Resized) if n.is_multiple_of(2) => case.shot.settings.water.spacing *= 1.25,
+            _ => {}
+        }
+        case
+    }
+
+    /// What is left of the changes of three frames, and what they are without the vectors.
+    fn changes(&self, rig: &mut Rig<'_>) -> [Census; 2] {
+        let mut before = Seen::new(&self.frame(0), rig);
+        let mut all = [Vec::new(), Vec::new()];
+        for n in 1..=3 {
+            let now = Seen::new(&self.frame(n), rig);
+            for (all, more) in all.iter_mut().zip(now.changes(&before)) {
+                all.extend(more);
+            }
+            before = now;
+        }
+        all.map(census)
+    }
+}
+
+/// What a display shows of a rigid body whose vectors are known: most of it is sampling, of sprites that are
+/// a texel and a half in radius at the least. At full resolution a pixel is a texel.
+fn bounds(level: u32) -> Census {
+    let [mean, most, over] = if level == 0 { [2.0, 5.0, 0.01] } else { [4.0, 8.0, 0.05] };
+    Census { count: 5000, mean: mean * STEP, most: most * STEP, over }
+}
+
+fn is_steady(found: &Census, level: u32) -> [bool; 3] {
+    let bounds = bounds(level);
+    [found.mean <= bounds.mean, found.most <= bounds.most, found.over <= bounds.over]
+}
+
+/// A rigid body of foam that passes by, before a camera at rest and one that goes along, near and far.
+#[test]
+fn what_moves_as_one_does_not_flicker() {
+    let gpu = Gpu::shared();
+    let passing = [2.3, -1.1];
+    for level in [2, 0] {
+        let base = moving(level);
+        for (config, takes) in [
+            (
+                base,
+                &[(12.0, 1.0, false), (6.0, 0.7, false), (3.0, 1.0, false), (12.0, 1.0, true)][..],
+            ),
+            (Config { sheets: 2, spray: true, ..base }, &[(12.0, 1.0, false)][..]),
+        ] {
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            for (pixels, foam, panned) in takes.iter().copied() {
+                let take = Take { pixels, foam, by: passing, panned, fault: None };
+                let [left, unwarped] = take.changes(&mut rig);
+                let name =
+                    format!("level {level}, {take:?}: {left:.4?}, without vectors {unwarped:.4?}");
+                println!("{name}");
+                assert!(left.count > bounds(level).count, "{name}");
+                assert_eq!(is_steady(&left, level), [true; 3], "{name}");
+            }
+        }
+    }
+}
+
+/// The same with each fault: no measure lets it pass.
+#[test]
+fn planted_flicker_is_seen() {
+    let gpu = Gpu::shared();
+    for level in [2, 0] {
+        let mut rig = Rig::lit(&gpu, &moving(level), 1);
+        for fault in [Fault::Reseeded, Fault::Shuffled, Fault::Switched, Fault::Resized] {
+            let by = [2.3, -1.1];
+            let take = Take { pixels: 12.0, foam: 1.0, by, panned: false, fault: Some(fault) };
+            let [left, _] = take.changes(&mut rig);
+            assert!(left.count > bounds(level).count, "{take:?}: {left:?}");
+            assert_eq!(is_steady(&left, level), [false; 3], "level {level}, {take:?}: {left:.4?}");
+        }
+    }
+}
+
+/// At rest thickness changes by the phases and the noise alone: a share of T, that of whole foam without
+/// noise. With g the strength of the noise, N its reach and L its slope by a cell, a frame adds at most
+/// df (1 + g N) + f g L r dt of it, and half a step of each sprite in either frame.
+#[test]
+fn thickness_changes_by_phases_and_noise_alone() {
+    let gpu = Gpu::shared();
+    for (level, reseeded) in [(2, false), (0, false), (0, true)] {
+        let mut rig = Rig::new(&gpu, &moving(level));
+        let mut whole = block(8.0, 3);
+        whole.shot.settings.foam.noise = 0.0;
+        let whole = whole.draw(&mut rig).foam.expect("foam").thickness;
+        // The fastest phase.
+        let (dt, slope) = (f64::from(DT), 1.0 / 0.25);
+        let mut before: Option<Image<[f32; 2]>> = None;
+        let (mut moved, mut wrong) = (0, 0);
+        for n in 0..=18_u32 {
+            let mut case = block(8.0, 3);
+            let foam = (f64::from(n) * dt * slope).min(1.0);
+            case.amounts.fill([foam as f32, n as f32 * DT]);
+            let count = case.amounts.len() as u32;
+            if reseeded {
+                case.ids = Some((n * count..(n + 1) * count).collect());
+            }
+            let spacing = f64::from(case.shot.settings.water.spacing);
+            let look = case.shot.settings.foam;
+            let (g, rate) = (f64::from(look.noise), f64::from(look.noise_rate));
+            let share =
+                dt * slope * (1.0 + g * noise_reach()) + foam * g * noise_slope() * rate * dt;
+            // Sprites of 2 x 0.656 spacings in radius, or of six pixels: 40 of three layers at most.
+            let slack = 40.0 * spacing.log2().floor().exp2() / 2048.0;
+            let now = case.draw(&mut rig).foam.expect("foam").thickness;
+            if let Some(before) = &before {
+                for i in 0..now.data.len() {
+                    let change = f64::from((now.data[i][0] - before.data[i][0]).abs());
+                    let t = f64::from(whole.data[i][0]);
+                    moved += usize::from(change > 0.0);
+                    wrong += usize::from(change > share * t + slack);
+                }
+            }
+            before = Some(now);
+        }
+        assert!(moved > 1000, "{moved} changes");
+        assert!(
+            reseeded == (wrong > 100),
+            "level {level}, reseeded {reseeded}: {wrong} of {moved}"
+        );
+    }
+}
+
+/// A sequence by time, from 0 to 1 in so many frames: the largest change of a pixel in a frame, and of all.
+fn steps(rig: &mut Rig<'_>, frames: u32, half: u32, of: impl Fn(f32) -> Foamy) -> (f64, f64) {
+    let (mut most, mut before) = (0.0_f64, None::<Seen>);
+    let count = (WIDTH * HEIGHT) as usize;
+    let (mut low, mut high) = (vec![[1.0_f64; 3]; count], vec![[0.0_f64; 3]; count]);
+    for n in 0..=frames {
+        let now = Seen::new(&of(n as f32 / frames as f32), rig);
+        if let Some(before) = &before {
+            for i in 0..count {
+                let (x, y) = (i as u32 % WIDTH, i as u32 / WIDTH);
+                let off = x.abs_diff(WIDTH / 2).max(y.abs_diff(HEIGHT / 2));
+                if off > half || !(now.inside.data[i] && before.inside.data[i]) {
+                    continue;
+                }
+                for c in 0..3 {
+                    let (a, b) = (now.picture.data[i][c], before.picture.data[i][c]);
+                    most = most.max((a - b).abs());
+                    low[i][c] = low[i][c].min(a.min(b));
+                    high[i][c] = high[i][c].max(a.max(b));
+                }
+            }
+        }
+        before = Some(now);
+    }
+    let range = (0..count).flat_map(|i| (0..3).map(move |c| (i, c)));
+    (most, range.map(|(i, c)| high[i][c] - low[i][c]).fold(0.0, f64::max))
+}
+
+/// Nothing pops where particles become foam and water again, and where foam moves past the end of the front
+/// layer. Over a fifth of the time no pixel changes by more than half of what it
+/// does over the whole: of what is continuous it is a fifth, or a bit more where it bends, of what pops
+/// all. Nor in any frame by more than ten times the mean that takes it from end to end: a veil's foam
+/// goes by thickness to the power 4 at most, and a display's scale is up to 2.5 times as steep in the dark.
+#[test]
+fn foam_comes_and_goes_without_a_pop() {
+    let gpu = Gpu::shared();
+    for (name, level, sheets, pops) in [
+        ("grows", 2, 2, false),
+        ("grows", 0, 1, false),
+        ("passes", 2, 1, false),
+        ("passes", 0, 1, false),
+        ("switched", 2, 1, true),
+    ] {
+        let mut rig = Rig::lit(&gpu, &Config { sheets, ..moving(level) }, 1);
+        let of = |t: f32| match name {
+            "grows" => growing(t),
+            "passes" => passing(t),
+            _ => {
+                let mut case = growing(t);
+                case.amounts.iter_mut().for_each(|a| a[0] = a[0].round());
+                case
+            }
+        };
+        let [slow, fast] = [100, 20].map(|frames| steps(&mut rig, frames, WIDTH, of));
+        let found = format!(
+            "{name}, level {level}: {:.4} of {:.4} in a hundredth, {:.4} in a twentieth",
+            slow.0, slow.1, fast.0
+        );
+        println!("{found}");
+        assert!(slow.1 > 0.05, "{found}");
+        let steady = [slow.0 <= 0.5 * fast.0 + STEP, slow.0 <= 10.0 * 2.0 * slow.1 / 100.0 + STEP];
+        assert_eq!(steady, [!pops; 2], "{found}");
+    }
+}
+
+/// A drop that is foam in part lands on a pool: two sheets become one. What one sees between its spheres and
+/// on them differs by what is mirrored alone, so that a pixel that goes from one to the other does not show.
+#[test]
+fn foam_lands_without_a_pop() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &Config { sheets: 2, ..moving(2) }, 1);
+    // A deep pool mirrors and bends more.
+    for (layers, bound) in [(3, 8.0), (10, 10.0)] {
+        // Well within the drop.
+        let (most, all) = steps(&mut rig, 50, 18, |t| landing(t, layers));
+        let found = format!("{layers} layers: {most:.4} of {all:.4} in a fiftieth");
+        println!("{found}");
+        assert!(all > 4.0 * STEP && most < bound * STEP, "{found}");
+    }
+}
+
+/// Foam that comes and goes, of particles at rest.
+fn growing(t: f32) -> Foamy {
+    let mut case = block(6.0, 3);
+    let foam = 1.0 - (2.0 * t - 1.0).abs();
+    case.amounts.fill([foam, 0.6 * t]);
+    case
+}
+
+/// A drop of foam that comes down on a pool of so many layers, away from the eye: two sheets become one.
+fn landing(t: f32, layers: usize) -> Foamy {
+    let mut case = block(5.0, layers);
+    let spacing = case.shot.settings.water.spacing;
+    let drop = scenes::block(9, spacing, [9, 9, 4], [-4.0 * spacing, -4.0 * spacing, 4.0]);
+    let gap = (1.0 - t) * 4.0 + 4.0;
+    let drop: Vec<_> = drop.iter().map(|[x, y, z]| [*x, *y, z - gap * spacing]).collect();
+    let drop = scenes::world(&case.shot.camera, &drop);
+    case.amounts.fill([0.0, 0.0]);
+    case.amounts.extend(drop.iter().map(|_| [0.3, 0.0]));
+    case.shot.positions.extend(drop);
+    case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
+    case.ids = None;
+    case
+}
+
+/// Foam that falls back behind other foam, past the end of the front layer.
+fn passing(t: f32) -> Foamy {
+    let mut case = block(8.0, 1);
+    let spacing = case.shot.settings.water.spacing;
+    case.shot.settings.foam.front_depth = 4.0 * spacing;
+    case.amounts.fill([0.3, 0.0]);
+    let back = scenes::block(9, spacing, [20, 14, 3], [-9.5 * spacing, -6.5 * spacing, 4.0]);
+    let behind = (2.0 + 5.0 * t) * spacing;
+    let back: Vec<_> = back.iter().map(|[x, y, z]| [*x, *y, z + behind]).collect();
+    let back = scenes::world(&case.shot.camera, &back);
+    case.amounts.extend(back.iter().map(|_| [1.0, 0.0]));
+    case.shot.positions.extend(back);
+    case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
+    case.ids = None;
+    case
+}
