@@ -16,3 +16,5 @@ mod pictures;
 mod scenes;
 #[path = "tool/sequences.rs"]
 mod sequences;
+#[path = "tool/temporal.rs"]
+mod temporal;
