@@ -15,9 +15,9 @@ layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions
 layout(set = 0, binding = 2, std430) readonly buffer Amounts { float amounts[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Velocities { float velocities[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Ids { uint ids[]; };
-layout(set = 0, binding = 5, std430) buffer CountBuffer { Counts counts; };
-layout(set = 0, binding = 6, std430) writeonly buffer Sprites { FoamSprite sprites[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 6, std430) buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 7, std430) writeonly buffer Sprites { FoamSprite sprites[]; };
 
 layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle

@@ -17,6 +17,7 @@ mod smooth;
 mod smooth_query;
 mod split;
 mod spray;
+mod sprites;
 mod thickness;
 mod tiles;
 
