@@ -8,13 +8,15 @@
 //! thickness is narrower than what its texels can hold, finer noise fades, the front layer ends softly.
 //! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
-//! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost).
+//! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost),
+//! RGBA32F where there are shadows (the third: what of that layer the sun lights; a mask apart).
 
 use ash::vk;
 use bytemuck::NoUninit;
 
 use super::Recording;
 use super::cull::{self, SphereList};
+use super::settings::Shadows;
 use super::sprites::{Over, Sprites};
 use crate::contract::{Config, Particles};
 use crate::error::Error;
@@ -137,12 +139,20 @@ impl Blended {
 fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
     let (name, format) = match kind {
         Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT),
-        Kind::Thickness => ("water/foam/thickness", vk::Format::R32G32_SFLOAT),
+        Kind::Thickness => ("water/foam/thickness", thickness_format(config)),
     };
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::COLOR_ATTACHMENT
         | vk::ImageUsageFlags::TRANSFER_SRC;
     ImageDesc::new(name, reduced(config.extent, level(config, kind)), format, usage)
+}
+
+/// With room for what the sun lights, where something casts shadows on foam.
+pub fn thickness_format(config: &Config) -> vk::Format {
+    match (config.shadow, config.cast) {
+        (None | Some(Shadows::Mask), None) => vk::Format::R32G32_SFLOAT,
+        _ => vk::Format::R32G32B32A32_SFLOAT,
+    }
 }
 
 fn level(config: &Config, kind: Kind) -> u32 {
@@ -161,9 +171,9 @@ pub struct Foam {
 
 impl Foam {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let shader = shader::WATER_FOAM_LIST_COMP;
+        let list = (shader::WATER_FOAM_LIST_COMP, &crate::light::constants(config)[..]);
         Ok(Self {
-            sprites: Sprites::new(gpu, config, "water/foam/sprites", SPRITE, shader)?,
+            sprites: Sprites::new(gpu, config, "water/foam/sprites", SPRITE, list)?,
             depth: Blended::new(gpu, config, Kind::Depth)?,
             thickness: Blended::new(gpu, config, Kind::Thickness)?,
         })
@@ -202,7 +212,8 @@ impl Foam {
             let streams =
                 [&particles.foam, &particles.velocities, &particles.ids, &particles.densities];
             let over = Over { particles, streams, binding: 1 };
-            self.sprites.record(r, list, &over, |chunk_first, positions, streams| {
+            let sunlight = r.sunlight.resources();
+            self.sprites.record(r, list, &over, &sunlight, |chunk_first, positions, streams| {
                 let [amounts, velocities, ids, densities] = streams;
                 Push {
                     position_word: positions.word,

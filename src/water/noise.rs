@@ -86,7 +86,7 @@ impl Noise {
         )?;
         let shader = shader::WATER_NOISE_LIST_COMP;
         Ok(Self {
-            sprites: Sprites::new(gpu, config, "water/noise/sprites", SPRITE, shader)?,
+            sprites: Sprites::new(gpu, config, "water/noise/sprites", SPRITE, (shader, &[]))?,
             draw,
             target,
             level,
@@ -119,14 +119,16 @@ impl Noise {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let streams = [&particles.densities, &particles.ids];
         let over = Over { particles, streams, binding: 1 };
-        self.sprites.record(r, list, &over, |chunk_first, positions, [densities, ids]| Push {
-            position_word: positions.word,
-            position_stride: positions.stride,
-            density_word: densities.word,
-            density_stride: densities.stride,
-            id_word: ids.word,
-            id_stride: ids.stride,
-            chunk_first,
+        self.sprites.record(r, list, &over, &[], |chunk_first, positions, [densities, ids]| {
+            Push {
+                position_word: positions.word,
+                position_stride: positions.stride,
+                density_word: densities.word,
+                density_stride: densities.stride,
+                id_word: ids.word,
+                id_stride: ids.stride,
+                chunk_first,
+            }
         })?;
         let to = COLOR_ATTACHMENT;
         gpu.barriers(cmd, &[access::image(self.image(), BEFORE.discarded(), to)], &[]);

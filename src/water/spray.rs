@@ -88,7 +88,7 @@ impl Spray {
         )?;
         let shader = shader::WATER_SPRAY_LIST_COMP;
         Ok(Self {
-            sprites: Sprites::new(gpu, config, "water/spray/sprites", SPRITE, shader)?,
+            sprites: Sprites::new(gpu, config, "water/spray/sprites", SPRITE, (shader, &[]))?,
             draw,
             target,
         })
@@ -123,7 +123,7 @@ impl Spray {
         if any {
             let streams = [&particles.densities, &particles.velocities, &particles.ids];
             let over = Over { particles, streams, binding: 1 };
-            self.sprites.record(r, list, &over, |chunk_first, positions, streams| {
+            self.sprites.record(r, list, &over, &[], |chunk_first, positions, streams| {
                 let [densities, velocities, ids] = streams;
                 Push {
                     position_word: positions.word,

@@ -71,32 +71,33 @@ pub struct Sprites {
 }
 
 impl Sprites {
-    /// `shader`: lists them. Its bindings are the frame's uniforms, positions, streams, `Counts`,
-    /// sprites.
+    /// `shader`, specialised by `constants`: lists them. Its bindings are the frame's uniforms, positions,
+    /// streams, `Counts`, sprites, and what is the pass' own.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
         name: &str,
         size: u64,
-        shader: Shader,
+        (shader, constants): (Shader, &[(u32, u32)]),
     ) -> Result<Self, Error> {
         let (chunk, chunks) = cull::chunks(&gpu.limits, config);
         let bytes = size * u64::from(chunk) * u64::from(chunks);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Ok(Self {
-            list: Pipeline::compute(gpu, shader, &[])?,
+            list: Pipeline::compute(gpu, shader, constants)?,
             buffer: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
             size,
         })
     }
 
-    /// Lists them. `list`: of `cull`, for its counts, which come and go as [`LIST_USE`]. `push`: as
+    /// Lists them. `list`: of `cull`, for its counts, which come and go as [`LIST_USE`]. `own`, `push`: as
     /// [`Over::record`].
     pub fn record<P: NoUninit, const N: usize>(
         &self,
         r: &Recording<'_>,
         list: &SphereList,
         over: &Over<'_, N>,
+        own: &[(u32, Resource)],
         push: impl Fn(u32, Window, [Window; N]) -> P,
     ) -> Result<(), Error> {
         let (counts, sprites) = (list.counts.handle, self.buffer.handle);
@@ -107,8 +108,10 @@ impl Sprites {
         r.gpu.barriers(r.cmd, &[], &before);
         let binding = over.next_binding();
         for index in 0..list.chunks {
-            let own = [(binding, list.chunk(index).counts), (binding + 1, self.chunk(list, index))];
-            over.record(r, &self.list, (list, index), &own, &push)?;
+            let sprites = self.chunk(list, index);
+            let mut resources = vec![(binding, list.chunk(index).counts), (binding + 1, sprites)];
+            resources.extend_from_slice(own);
+            over.record(r, &self.list, (list, index), &resources, &push)?;
         }
         let after = [
             buffer(counts, COMPUTE_READ_WRITE, LIST_USE),

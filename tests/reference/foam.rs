@@ -61,6 +61,8 @@ pub struct Sprite {
     pub age: f64,
     /// What it is known by: the noise goes by it.
     pub id: u32,
+    /// Share of the sun's light in its middle, at least and at most.
+    pub sun: [f64; 2],
 }
 
 /// What foam is drawn by.
@@ -687,7 +689,8 @@ pub fn depth_bounds(
     Between { low, high }
 }
 
-/// Bounds of both channels of [`thickness`] for single precision, of sums in any order. What may or
+/// Bounds of both channels of [`thickness`], and of what of the second the sun lights, for single
+/// precision, of sums in any order. What may or
 /// may not be there, by the ellipse's rim, the scene or the depth of the foam, is left out of `low`
 /// and in `high`. `foam_depth`: that of [`depth_bounds`], or twice the image itself if it is known.
 pub fn thickness_bounds(
@@ -697,12 +700,13 @@ pub fn thickness_bounds(
     settings: &Settings,
     scene: &Image<f64>,
     foam_depth: &Between,
-) -> [Between; 2] {
+) -> [Between; 3] {
     let (full, view, near) = (view, &view.reduced(level), view.near());
-    let mut low = Image::new(view.width, view.height, [0.0; 2]);
+    let mut low = Image::new(view.width, view.height, [0.0; 3]);
     let mut high = low.clone();
     let mut count = Image::new(view.width, view.height, 0.0);
     for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
+        let [darkest, brightest] = [sprite.sun[0] * (1.0 - U), sprite.sun[1] * (1.0 + U)];
         let ellipses = LooseEllipse::all(sprite, full, settings, AXIS);
         let ellipses: Vec<_> = ellipses.into_iter().map(|e| e.wide(view, settings)).collect();
         let reach = ellipses.iter().map(|(e, _)| e.reach()).fold(0.0, f64::max);
@@ -733,10 +737,12 @@ pub fn thickness_bounds(
                     true => 1.0,
                     false => 0.0,
                 };
-                Some(([least, surely * least], [most, maybe * most], hit.sure))
+                let front = [surely * least, maybe * most];
+                let lit = [front[0] * darkest, front[1] * brightest];
+                Some(([least, front[0], lit[0]], [most, front[1], lit[1]], hit.sure))
             });
             let Some((least, most, sure)) = found else { continue };
-            for i in 0..2 {
+            for i in 0..3 {
                 let least = if sure && drawn { least[i] } else { 0.0 };
                 low.at_mut(x, y)[i] += settings.in_steps(least, -1.0);
                 high.at_mut(x, y)[i] += settings.in_steps(most[i], 1.0);
@@ -744,8 +750,8 @@ pub fn thickness_bounds(
             *count.at_mut(x, y) += 1.0;
         }
     }
-    [0, 1].map(|i| {
-        let sum = |sums: &Image<[f64; 2]>, sign: f64| Image {
+    [0, 1, 2].map(|i| {
+        let sum = |sums: &Image<[f64; 3]>, sign: f64| Image {
             width: sums.width,
             height: sums.height,
             data: (sums.data.iter().zip(&count.data))
@@ -803,7 +809,7 @@ mod tests {
     /// A whole one at rest.
     fn sprite(center: [f64; 3]) -> Sprite {
         let center = DVec3::from(center);
-        Sprite { center, foam: 1.0, velocity: DVec3::ZERO, age: 0.0, id: 7 }
+        Sprite { center, foam: 1.0, velocity: DVec3::ZERO, age: 0.0, id: 7, sun: [1.0; 2] }
     }
 
     fn moving(center: [f64; 3], velocity: [f64; 3]) -> Sprite {
@@ -843,7 +849,7 @@ mod tests {
             let held = |v: DVec3| v.as_vec3().as_dvec3();
             let (foam, age) = (random(&mut r, 0.0, 1.1), random(&mut r, 0.0, 60.0).powi(2));
             let id = r.bits() as u32;
-            Sprite { center: held(center), foam, velocity: held(velocity), age, id }
+            Sprite { center: held(center), foam, velocity: held(velocity), age, id, sun: [1.0; 2] }
         });
         cloud.collect()
     }
@@ -1327,7 +1333,7 @@ mod tests {
             let sums = thickness(&sprites, view, level, settings, scene, &twin);
             let [all, front] = [0, 1].map(|i| sums.map(|t| t[i]));
             let bounds = depth_bounds(&sprites, view, settings, scene);
-            let [a, b] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
+            let [a, b, _] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
             let single = Single::draw(world, view, level, settings, scene);
             let images = [twin, all, front].into_iter().zip(single).zip([bounds, a, b]);
             for (i, ((twin, single), bounds)) in images.enumerate() {
