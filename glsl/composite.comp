@@ -1,5 +1,6 @@
 #version 460
-// Pass `composite`, compute: shades the pixels with water of the tiles' groups. A tile is 16 texels
+// Pass `composite`, compute: shades the pixels with water of the tiles' groups, where the
+// source draws one quad over the screen (thesis Sec. 4.9.3). A tile is 16 texels
 // of its level wide, up to 512 pixels: groups of 8x8 pixels share it. Tiles lie in the second and the
 // third dimension of the dispatch: one may be too short for all, and a loop over tiles round all this
 // took one driver ten seconds to compile.

@@ -1,6 +1,7 @@
 #version 460
-// Pass `composite`: one quad a tile that holds water.
-// Reads: tile list, levels.
+// Pass `composite`, raster: one quad a tile that holds water, where the source has one over the screen
+// (thesis Sec. 4.9.3).
+// Reads: tile list, levels. Writes: the quad's corners.
 
 #include "frame.glsl"
 #include "level.glsl"

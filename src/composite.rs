@@ -2,7 +2,7 @@
 //!
 //! Over the tiles that hold water alone: pixels outside the fluid are not touched. Two ways with
 //! the same shading: an instance a tile in a render pass, and a compute shader that stores to the
-//! output. Thesis Sec. 3.3 and 4.10; see glsl/include/shade.glsl for what differs.
+//! output. Thesis Sec. 3.2.3 and 4.9; see glsl/include/shade.glsl for what differs.
 
 use ash::vk;
 

@@ -9,7 +9,7 @@ mod allocation;
 mod bad;
 #[path = "formats/data.rs"]
 mod data;
-#[path = "formats/samples.rs"]
+#[path = "formats/samples/mod.rs"]
 mod samples;
 #[cfg(feature = "headless")]
 #[path = "formats/scenes.rs"]

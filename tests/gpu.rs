@@ -12,7 +12,7 @@ mod support;
 mod classify;
 #[path = "gpu/composite.rs"]
 mod composite;
-#[path = "gpu/contract.rs"]
+#[path = "gpu/contract/mod.rs"]
 mod contract;
 #[path = "gpu/convolution.rs"]
 mod convolution;
@@ -30,7 +30,7 @@ mod headless;
 mod invariants;
 #[path = "gpu/level.rs"]
 mod level;
-#[path = "gpu/light.rs"]
+#[path = "gpu/light/mod.rs"]
 mod light;
 #[path = "gpu/limits.rs"]
 mod limits;
@@ -46,7 +46,7 @@ mod rect;
 mod reduce;
 #[path = "gpu/shading.rs"]
 mod shading;
-#[path = "gpu/sheets.rs"]
+#[path = "gpu/sheets/mod.rs"]
 mod sheets;
 #[path = "gpu/smooth.rs"]
 mod smooth;

@@ -1,6 +1,6 @@
 #version 460
 // Pass `scene`: depth alone, of the eye or of the sun.
-// Reads: vertices.
+// Reads: vertices. Writes: depth.
 
 layout(location = 0) in vec3 position;
 layout(push_constant, std430) uniform Push { mat4 clip; } push;

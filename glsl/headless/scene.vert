@@ -1,6 +1,6 @@
 #version 460
 // Pass `scene`: opaque meshes; their vertices are in world space already.
-// Reads: vertices.
+// Reads: vertices. Writes: corners, with all that scene.frag asks of a vertex.
 
 #include "../headless/scene.glsl"
 

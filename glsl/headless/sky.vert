@@ -1,5 +1,6 @@
 #version 460
 // Pass `scene`: the sky, one triangle over everything, as far away as depth can say.
+// Reads: the view. Writes: corners with their rays.
 
 #include "../headless/scene.glsl"
 

@@ -1,4 +1,4 @@
-// What is drawn where there is no water. Needs frame.glsl.
+// What is drawn where there is no water. Needs frame.glsl. Reads: foam depth, spray.
 
 // 1: there may be some; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;

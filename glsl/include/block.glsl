@@ -1,4 +1,5 @@
-// What stands for a block of pixels in the smoothing. Needs frame.glsl and the image `depth`.
+// What stands for a block of pixels in the smoothing (thesis Sec. 4.7 scales the depth down). Needs
+// frame.glsl and the image `depth`.
 
 // The depth that stands for a block of pixels: that of its nearest surface, but where that is less
 // than a quarter of the block's water of the one behind it. A drop would hide a texel's worth of

@@ -1,4 +1,5 @@
-// One step of curvature flow at a pixel. z is the eye depth.
+// One step of curvature flow at a pixel (thesis Sec. 2.5.3 and 4.7, Listing A.13). z is the eye depth.
+// What differs stands at each step. Needs nothing.
 // `precise`: raster and compute forms must agree bit for bit.
 
 struct Stencil {

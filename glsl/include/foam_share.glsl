@@ -1,4 +1,5 @@
-// How much of the water is before the frontmost foam. Needs frame.glsl.
+// How much of the water is before the frontmost foam: T_wf of the source (thesis Sec. 3.2.2), which asks
+// once a particle (Listing A.14). Needs frame.glsl. Reads: foam depth.
 
 // 1: there may be foam; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;

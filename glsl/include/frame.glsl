@@ -1,5 +1,6 @@
 // Numbers of the frame (src/frame.rs writes them). Pixel coordinates have their centres at +0.5
 // and row 0 on top; eye space looks down -z; depth is the positive eye depth.
+// Reads: the frame's block.
 
 const float EMPTY = 1.0e10;
 

@@ -1,6 +1,6 @@
 // The resolutions of the smoothing (pass `level` writes them). Two of the front sheet share the
 // smoothing images and the plan, one above the other; mostly only the first is in use. The third,
-// of the back sheet, lies to the right of the second. Needs nothing.
+// of the back sheet, lies to the right of the second. Needs nothing. Reads: levels.
 
 struct Level {
     ivec4 rect;  // in the images: first texel, size

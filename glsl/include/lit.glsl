@@ -1,4 +1,5 @@
-// The scene with what water and foam do to the sunlight on it. Needs frame.glsl, sunlight.glsl.
+// Pass `lit`: the scene with what water and foam do to the sunlight on it. Not in the source.
+// Needs frame.glsl, sunlight.glsl. Reads: scene colour and depth, caustics, the light's maps.
 
 layout(set = 0, binding = 1) uniform sampler2D scene_color;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;

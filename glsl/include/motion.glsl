@@ -1,6 +1,7 @@
-// How far the surface in a texel has come since the frame before: sums over the particles near the
-// frontmost surface of the texel's pixels, and near the farthest of them where that is another.
-// Needs frame.glsl and the push constant `level`: how many times the texels are halved.
+// Pass `motion`, not in the sources: how far the surface in a texel has come since the frame before: sums
+// over the particles near the frontmost surface of the texel's pixels, and near the farthest of them where
+// that is another. Needs frame.glsl and the push constant `level`: how many times the texels are halved.
+// Reads and writes: fronts, sums.
 
 // Per texel the nearest and the farthest surface of its pixels; EMPTY where there is none, or no other.
 layout(set = 0, binding = 1, std430) buffer Fronts { vec2 fronts[]; };

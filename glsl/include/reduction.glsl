@@ -1,4 +1,5 @@
-// One pixel of the reduced depth and its plan, for any level of the smoothing.
+// One pixel of the reduced depth and its plan, for any level of the smoothing (thesis Sec. 3.1, Eq. 3.1
+// with the half of its viewport; Listing A.12).
 // Needs frame.glsl, plan.glsl and the constant RULE.
 
 // Iterations before the cap, and the step's share of the largest, of a surface at depth z; c: world

@@ -1,5 +1,5 @@
-// The surface noise in the picture: a height along the normal, and the baseline's foam. Needs frame.glsl,
-// surface_noise.glsl.
+// The surface noise in the picture (van der Laan et al. 2009; thesis Sec. 2.5.3): a height along the
+// normal, and the baseline's foam. Needs frame.glsl, surface_noise.glsl. Reads: noise, depth.
 
 // 1: there is some; else it is not read.
 layout(constant_id = 14) const uint NOISE = 0;
@@ -67,7 +67,7 @@ vec3 rippled(vec3 n, vec3 px, vec3 py, vec2 rise) {
     return any(notEqual(height, vec2(0.0))) ? normalize(turned) : n;
 }
 
-// Light that the baseline's foam adds: grey, by the noise's magnitude (thesis Sec. 2.5).
+// Light that the baseline's foam adds: grey, by the noise's magnitude (thesis Sec. 2.5.3).
 vec3 ripple_foam(float noise) {
     return frame.noise_color.rgb * min(frame.noise.y * abs(noise), 1.0);
 }

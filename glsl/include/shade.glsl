@@ -1,4 +1,4 @@
-// What a pixel of water looks like (thesis Sec. 3.3 and 4.10, Listing A.20), for every way to reach
+// What a pixel of water looks like (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for every way to reach
 // its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
@@ -308,7 +308,7 @@ float relief(vec2 h, float z, float sun) {
     return clamp(1.0 + sun * frame.foam_noise.z * turned, 0.3, 1.3);
 }
 
-// Thesis Sec. 4.10: the more foam right behind the frontmost, the nearer the front colour (Listing
+// Thesis Sec. 3.2.3: the more foam right behind the frontmost, the nearer the front colour (Listing
 // A.20; Eq. 3.9 has them the other way round). What of it the sun lights is the sprites' (the source asks at
 // the mean of nine depths): a sprite by itself is no surface, its outline would be a shadow's.
 Foam foam_of(vec2 pixel) {

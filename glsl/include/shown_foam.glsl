@@ -1,4 +1,4 @@
-// The foam that a pixel shows. Needs frame.glsl.
+// The foam that a pixel shows, of pass `foam`. Needs frame.glsl. Reads: foam depth and thickness.
 
 // 1: there may be foam; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;

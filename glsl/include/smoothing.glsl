@@ -1,4 +1,4 @@
-// The arithmetic of one pixel and iteration, shared by every form of the smoothing.
+// The arithmetic of one pixel and iteration, shared by every form of the smoothing (curvature.glsl).
 // Needs frame.glsl, plan.glsl, level.glsl, curvature.glsl and the constant RULE.
 
 // pixel: from the corner of its level.

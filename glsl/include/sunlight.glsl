@@ -1,5 +1,6 @@
-// How much of the sun's light reaches a point: past the host's scene, by its shadow map or its mask,
-// and through water and foam. Needs frame.glsl, convolution.glsl.
+// How much of the sun's light reaches a point: past the host's scene, by its shadow map or its mask
+// (thesis Sec. 4.9.4, which has convolution shadow maps), and through water and foam (ours).
+// Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span, light's thickness.
 
 // 0: the host says nothing, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
 layout(constant_id = 11) const uint SHADOW = 0;

@@ -1,5 +1,6 @@
-// The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.10,
-// Listings A.16-A.18). Two depths lie on one surface if they differ by the falloff at most.
+// The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.9.3,
+// Listings A.17, A.18, A.21 and A.23-A.25). Two depths lie on one surface if they differ by the falloff at
+// most.
 // - A texel's slope along an axis is the mean of its rises to those of its two neighbours that are
 //   on its surface. One that lacks any of the four is on the rim.
 // - A pixel sees those of the four texels around it that lie on the surface of its own depth, with
@@ -11,7 +12,7 @@
 // Where the source shades four neighbours at a border and blends their colours, we blend the
 // derivatives of those on the same surface and shade once: the colour of another surface never
 // bleeds in, which shows as dark seams.
-// Needs frame.glsl, level.glsl.
+// Needs frame.glsl, level.glsl. Reads: smoothed.
 
 struct Surface {
     float z;

@@ -1,4 +1,4 @@
-// The baseline's surface noise (van der Laan, Green, Sainz, I3D 2009; thesis Sec. 2.5): what its pass and
+// The baseline's surface noise (van der Laan, Green, Sainz, I3D 2009; thesis Sec. 2.5.3): what its pass and
 // `composite` agree on. Needs frame.glsl.
 
 // Parts of 1 that sums are counted in: floats hold them exactly up to 256, in any order.

@@ -1,5 +1,6 @@
 #version 460
-// Pass `convolution`, last part: the box along y, and the page's border of one texel.
+// Pass `convolution`, last part: the box along y, the filter's other half, and the page's border
+// of one texel.
 // Reads: one page, filtered along x. Writes: it into the basis.
 
 #include "frame.glsl"

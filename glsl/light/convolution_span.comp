@@ -1,6 +1,7 @@
 #version 460
 // Pass `convolution`, first part: the nearest and the farthest depth of the shadow map with something
-// there. A group looks at 128x128 texels. Reads: shadow map. Writes: span.
+// there, between which the series runs (ours, src/light/convolution.rs). A group looks at 128x128 texels.
+// Reads: shadow map. Writes: span.
 
 #include "frame.glsl"
 #include "convolution.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `light`: a quad round each particle as the sun sees it, straight from the host's streams.
-// Reads: positions, densities, foam.
+// Pass `light`: a quad round each particle as the sun sees it, straight from the host's streams. Not in
+// the source.
+// Reads: positions, densities, foam. Writes: the disc's corners, place, size and heights.
 
 #include "frame.glsl"
 #include "density.glsl"

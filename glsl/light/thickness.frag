@@ -1,6 +1,7 @@
 #version 460
 // Pass `light`: metres of water and of foam along the sun's light, and both times how far along it they
-// lie. Writes: thickness (RGBA32F), summed.
+// lie: thickness as the eye's (thesis Sec. 3.2.2, kernel.glsl), from the sun, which is ours.
+// Reads: sprites.vert's discs. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"
 #include "kernel.glsl"

@@ -1,5 +1,6 @@
 #version 460
 // Pass `back`, second part: exact depth of the spheres behind the boundary, one sample a texel.
+// Not in the source; the hit is that of pass `depth`.
 // Reads: Counts, visible, boundaries, blocks, levels. Writes: back bits.
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
 // Pass `back`, first part: which tiles of the back sheet's level have a boundary in or round them,
 // and for those the depth of what is one sheet, so that the smoothing finds its neighbours.
+// Not in the source.
 // Reads: boundaries, levels, depth. Writes: back, work of the level's tiles (1: wanted).
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
 // Pass `back`, last part: the back sheet joins the levels of the smoothing, where its tiles are
-// wanted. Reads: back, levels. Writes: both smoothing images, plan, work of the level's tiles.
+// wanted. Not in the source. Reads: back, levels. Writes: both smoothing images, plan, work of the level's
+// tiles.
 
 #include "frame.glsl"
 #include "plan.glsl"

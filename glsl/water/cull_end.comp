@@ -1,6 +1,6 @@
 #version 460
-// Pass `cull`, last part: survivors to workgroups.
-// Reads and writes: Counts of every chunk.
+// Pass `cull`, last part: survivors to workgroups. Ours: the source draws directly.
+// Reads: Counts of every chunk. Writes: their arguments.
 
 layout(local_size_x = 32) in;
 layout(set = 0, binding = 1, std430) buffer AllCounts { uint words[]; };

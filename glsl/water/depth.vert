@@ -1,7 +1,7 @@
 #version 460
-// Pass `depth`, raster path: one sprite a sphere, as a point where it fits, else as a quad. The
-// footprint is conservative; the hit test alone decides coverage.
-// Reads: visible.
+// Pass `depth`, raster path: one sprite a sphere, as a point where it fits, else as a quad (thesis Sec. 4.5,
+// 4.6.1, Listing A.8: points alone). The footprint is conservative; the hit test alone decides coverage.
+// Reads: visible. Writes: the sprite's corners.
 
 #include "frame.glsl"
 #include "sphere.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `foam`: the frontmost foam (thesis Sec. 4.6.2). MIN blending keeps the nearest.
+// Pass `foam`: the frontmost foam (thesis Sec. 4.6.2, Listing A.10). MIN blending keeps the nearest.
 // Reads: scene depth. Writes: foam depth (R32F).
 
 #include "frame.glsl"

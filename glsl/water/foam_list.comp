@@ -1,5 +1,5 @@
 #version 460
-// Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 4.5).
+// Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2).
 // Spray is none: what is turning into it is that much less foam.
 // Reads: Counts (particles), positions, foam, velocities, ids, densities, what casts shadows. Writes: Counts (foam), sprites.
 

@@ -1,5 +1,6 @@
 #version 460
-// Pass `foam`: metres of foam, of all and of the layer right behind the frontmost (thesis Sec. 4.8).
+// Pass `foam`: metres of foam, of all and of the layer right behind the frontmost (thesis Sec. 4.8.2,
+// Listing A.16).
 // A noise of its own in each sprite, that changes as it ages, breaks up the discs.
 // Reads: scene depth, foam depth. Writes: foam thickness (RG32F, or RGBA32F: what of that layer the sun
 // lights).

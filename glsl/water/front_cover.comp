@@ -2,7 +2,7 @@
 // Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing shows,
 // because one sphere covers all of it. Each small sprite tries the four cells nearest its centre.
 // The part of a sphere's front before some depth has a convex outline, so that the farthest point
-// over a cell is at one of its corners.
+// over a cell is at one of its corners. Not in the source.
 // Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY where none covers).
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // Pass `gaps`, third part: of each cell the middle of the air before the first body of water behind
 // some air, or before the first drop where there is no body. So the drops of a crown are one sheet,
-// the pool behind them the other.
+// the pool behind them the other. Not in the source.
 // Reads: nearest, marks. Writes: boundaries of the cells.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // Pass `gaps`, fourth part: cells without a boundary take one from those near, by their squared
-// distance. Reads and writes boundaries of the cells.
+// distance. Not in the source. Reads: boundaries of the cells. Writes: the same, spread.
 
 #include "frame.glsl"
 

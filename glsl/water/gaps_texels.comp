@@ -1,6 +1,6 @@
 #version 460
 // Pass `gaps`, last part: cells to texels of the thickness, bilinear between those cells that have a
-// boundary. Reads: boundaries of the cells. Writes: boundaries.
+// boundary. Not in the source. Reads: boundaries of the cells, spread. Writes: boundaries.
 
 #include "frame.glsl"
 

@@ -2,7 +2,8 @@
 // Pass `level`: chooses the resolution of the smoothing. Where more of the picture than OVER would
 // pass the cap, it goes a level coarser (a quarter of the iterations); before that the coarser
 // level fades in. By the view, not by time: a frame looks the same however it was come to.
-// The back sheet, seen through the front one alone, takes the next coarser level.
+// The back sheet, seen through the front one alone, takes the next coarser level. Not in the source, which
+// caps.
 // Reads: how many pixels pass the cap. Writes: levels, the dispatch of the coarser reduction.
 
 #include "frame.glsl"

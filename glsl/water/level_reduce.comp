@@ -1,7 +1,7 @@
 #version 460
 // Pass `level`: the reduction again, for each level in use that is coarser than the configured
-// one. Reads: levels, depth (occluded pixels emptied). Writes: both smoothing images, plan, work
-// of the level's tiles.
+// one. Not in the source. Reads: levels, depth (occluded pixels emptied). Writes: both smoothing images,
+// plan, work of the level's tiles.
 
 #include "frame.glsl"
 #include "plan.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `motion`, second part: how far each particle near a surface has come, weighted as its thickness.
-// Those that few texels see are an invocation's each; the others are done by the whole group.
+// Pass `motion`, second part, not in the sources: how far each particle near a surface has come, weighted
+// as its thickness. Those that few texels see are an invocation's each; the others are done by the whole
+// group.
 // Reads: Counts (particles), positions, velocities, densities, foam, fronts. Writes: sums.
 
 #include "frame.glsl"

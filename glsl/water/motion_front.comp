@@ -1,5 +1,5 @@
 #version 460
-// Pass `motion`, first part: the surfaces in each texel; its sums begin at nothing.
+// Pass `motion`, first part, not in the sources: the surfaces in each texel; its sums begin at nothing.
 // Reads: depth, foam depth and thickness. Writes: fronts, sums.
 
 #include "frame.glsl"

@@ -2,6 +2,7 @@
 // Pass `motion`, last part: where what a pixel shows was in the frame before, in pixels from there to
 // here. Of water and foam by their own motion and the camera's, of the scene by the camera's alone.
 // All of it is differences: nothing that moved is nothing, and small motion is as exact as large.
+// Not in the sources.
 // Reads: fronts, sums, depth, foam depth and thickness, smoothed, levels, scene depth. Writes: motion.
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `noise`: one octave a particle, fixed to it, under a kernel; less the deeper it lies below the
-// surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no water.
+// Pass `noise` (van der Laan et al. 2009): one octave a particle, fixed to it, under a kernel; less the
+// deeper it lies below the surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no
+// water.
 
 #include "frame.glsl"
 #include "random.glsl"

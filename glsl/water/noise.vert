@@ -1,5 +1,6 @@
 #version 460
-// Pass `noise`: a quad round each sprite, in the plane of its centre's depth. Reads: sprites.
+// Pass `noise`: a quad round each sprite (van der Laan et al. 2009), in the plane of its centre's depth.
+// Reads: sprites. Writes: the quad's corners.
 
 #include "frame.glsl"
 #include "random.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `smooth`, form Query: one quad a tile that holds water, gated by the block's predicate.
-// Reads: tile list, predicates.
+// Pass `smooth`, form Query: one quad a tile that holds water, gated by the block's predicate, where the
+// source draws one over the image until the CPU has seen a query (thesis Sec. 4.7, Listing A.11).
+// Reads: tile list, predicates. Writes: the quad's corners.
 
 #include "level.glsl"
 

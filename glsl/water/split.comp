@@ -1,6 +1,7 @@
 #version 460
 // Pass `split`: the tiles with water again, those of one sheet and those that hold a boundary apart,
 // so that `composite` can shade the first with a shader that knows of one sheet alone.
+// Not in the source.
 // Reads: tile list and arguments, levels, boundaries. Writes: both lists, their lengths.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // Pass `split`, last part: the arguments of `composite`, for tiles of one sheet and of two, where the
-// frame was smoothed at the configured level alone and where it was not.
+// frame was smoothed at the configured level alone and where it was not. Not in the source.
 // Reads: lengths, levels. Writes: arguments: four draws, then four dispatches of groups of 8x8 pixels.
 
 #include "frame.glsl"

@@ -1,6 +1,8 @@
 #version 460
-// Pass `spray`: a quad round each droplet, an ellipse that faces the eye, along its motion as that looks
-// from there. Reads: sprites.
+// Pass `spray` (thesis Sec. 4.9.5; several a particle are ours): a quad round each droplet, an ellipse that
+// faces the eye, along its motion as that looks from there.
+// Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, the light taken away and how much
+// of that the sun lights.
 
 #include "frame.glsl"
 #include "random.glsl"

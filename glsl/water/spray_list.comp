@@ -1,5 +1,6 @@
 #version 460
-// Pass `spray`, first part: the particles that are spray, all of them or in part, in eye space.
+// Pass `spray`, first part: the particles that are spray, all of them or in part, in eye space
+// (thesis Sec. 4.9.5).
 // Reads: Counts (particles), positions, densities, velocities, ids. Writes: Counts (droplets), sprites.
 
 #include "frame.glsl"

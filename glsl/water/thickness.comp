@@ -1,5 +1,6 @@
 #version 460
-// Pass `thickness`, compute path: sums of fixed-point numbers, so that their order is no matter.
+// Pass `thickness`, compute path: sums of fixed-point numbers, so that their order is no matter
+// (thesis Sec. 4.8.1 blends; kernel.glsl).
 // An addend is 2^26 at most (a particle of half the radius), 64 overflow a word: what they carry is
 // counted in a second one, as exact. Any number of particles may lie on one spot.
 // A second time for the front of two sheets and the window between them: for few spheres, those that

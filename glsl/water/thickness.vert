@@ -1,6 +1,6 @@
 #version 460
-// Pass `thickness`, raster path: a disc in the plane of each centre (thesis Sec. 3.2.2).
-// Reads: visible.
+// Pass `thickness`, raster path: a disc in the plane of each centre (thesis Sec. 3.2.2, 4.8.1).
+// Reads: visible. Writes: the disc's corners.
 
 #include "frame.glsl"
 #include "sphere.glsl"

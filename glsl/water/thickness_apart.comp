@@ -1,6 +1,7 @@
 #version 460
 // Pass `thickness`, compute path, with two sheets: their sums to metres. Where all water is of one
-// there is no boundary any more: there is nothing to tell apart.
+// there is no boundary any more: there is nothing to tell apart. Not in the
+// source.
 // Reads: sums, boundaries. Writes: sheets (RGBA32F: front, back, window), boundaries.
 
 #include "frame.glsl"

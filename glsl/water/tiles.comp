@@ -1,7 +1,7 @@
 #version 460
 // Pass `tiles`: sorts the tiles that hold water by their iterations, most first, so that the
 // tiles with work left in iteration i are a prefix of the list; writes the arguments of every
-// iteration's dispatch. A counting sort by one workgroup.
+// iteration's dispatch. A counting sort by one workgroup. Not in the source.
 // Reads: work of every tile (most iterations + 1), levels. Writes: list, arguments.
 
 #include "frame.glsl"

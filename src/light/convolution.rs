@@ -1,6 +1,6 @@
 //! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which whoever
 //! asks for shadows rebuilds the comparison with its own depth (Annen, Mertens, Bekaert, Seidel, Kautz,
-//! *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.10).
+//! *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
 //!
 //! What differs, and why:
 //! - Depths are taken between the nearest and the farthest texel of the map, found on the GPU: any

@@ -2,8 +2,9 @@
 //!
 //! Not in the source. One level coarser than the front sheet's smoothing and one sample a texel: it
 //! is only seen through water. It joins the levels in the smoothing images, so that every form of the
-//! smoothing takes it along. Only tiles near a boundary are made.
-//! Reads: the list of `cull`, boundaries, depth. Writes: back, and for its level both smoothing
+//! smoothing takes it along. Only tiles near a boundary are made, of those that `thickness` has left;
+//! the nearest of each block of texels comes first, so that most spheres need not look at them all.
+//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its level both smoothing
 //! images, plan, each tile's work.
 
 use ash::vk;
@@ -11,7 +12,7 @@ use ash::vk;
 use super::Recording;
 use super::cull::SphereList;
 use super::depth::dispatch_sprites;
-use super::gaps::Gaps;
+use super::gaps::{blocks_buffer, dispatch_blocks};
 use super::level::Level;
 use super::reduce::{PLAN_AFTER, rule_constant};
 use super::smooth::Smooth;
@@ -21,6 +22,7 @@ use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, buffer};
+use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
@@ -29,12 +31,15 @@ use crate::gpu::shader;
 
 /// The pass.
 pub struct Back {
+    nearest: Pipeline,
     begin: Pipeline,
     small: Pipeline,
     large: Pipeline,
     plan: Pipeline,
     /// Eye depth of the back sheet, unsmoothed.
     pub image: Image,
+    /// Of each block of 16×16 pixels the nearest boundary.
+    blocks: Buffer,
 }
 
 /// What the sheet joins.
@@ -49,11 +54,13 @@ impl Back {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let rule = [(1, rule_constant(config.rule))];
         Ok(Self {
+            nearest: Pipeline::compute(gpu, shader::WATER_GAPS_BLOCKS_COMP, &[(0, 1)])?,
             begin: Pipeline::compute(gpu, shader::WATER_BACK_BEGIN_COMP, &[])?,
             small: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 0)])?,
             large: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 1)])?,
             plan: Pipeline::compute(gpu, shader::WATER_BACK_PLAN_COMP, &rule)?,
             image: Self::image(gpu, config)?,
+            blocks: blocks_buffer(gpu, "water/back/blocks", config)?,
         })
     }
 
@@ -79,7 +86,9 @@ impl Back {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let image = Self::image(gpu, config)?;
+        let blocks = blocks_buffer(gpu, "water/back/blocks", config)?;
         retired.retire(std::mem::replace(&mut self.image, image));
+        retired.retire(std::mem::replace(&mut self.blocks, blocks));
         Ok(())
     }
 
@@ -89,13 +98,12 @@ impl Back {
         r: &mut Recording<'_>,
         depth: &Image,
         list: &SphereList,
-        gaps: &Gaps,
+        boundaries: &Buffer,
         into: &Into<'_>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"back");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let Into { smooth, plan, tiles, level } = into;
-        let boundaries = Resource::buffer(&gaps.boundaries);
         // At most; the GPU knows the level.
         let extent = self.image.extent;
         let groups = [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)];
@@ -103,7 +111,8 @@ impl Back {
             // SAFETY: outside a render pass, pipeline and set are bound.
             unsafe { gpu.device.cmd_dispatch(cmd, groups[0], groups[1], 1) };
         };
-        gaps.record_nearest(r)?;
+        dispatch_blocks(r, &self.nearest, boundaries, &self.blocks)?;
+        let boundaries = Resource::buffer(boundaries);
         gpu.barriers(
             cmd,
             &[access::image(&self.image, COMPUTE_READ.discarded(), COMPUTE_WRITE)],
@@ -127,7 +136,7 @@ impl Back {
         gpu.barriers(cmd, &[access::image(&self.image, COMPUTE_WRITE, COMPUTE_READ_WRITE)], &[]);
         let more = [
             (3, Resource::Storage(self.image.alias_view)),
-            (4, Resource::buffer(&gaps.blocks[1])),
+            (4, Resource::buffer(&self.blocks)),
             (7, level.resource()),
             (11, boundaries),
         ];
@@ -165,5 +174,10 @@ impl Back {
         );
         r.end(scope);
         Ok(())
+    }
+
+    /// Bytes of its image and of its buffer.
+    pub fn memory(&self) -> (u64, u64) {
+        (self.image.size, self.blocks.size)
     }
 }

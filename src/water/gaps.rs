@@ -5,10 +5,10 @@
 //! Each cell of 8×8 pixels has 32 slices of depth, from its nearest sphere on, half a spacing each.
 //! Every sphere marks those that it fills; the middle of the first air before a body of water, or
 //! before a drop where there is no body, is the boundary between a front sheet and a back sheet. By
-//! slices, not by sorting: atomics on two words a cell, whatever the number of particles. Boundaries are handed to
-//! the cells next to them and blended: where the sheets touch, the water that the thickness finds
-//! at the boundary makes them one, smoothly.
-//! Reads: the lists of `front` and `cull`. Writes: boundaries.
+//! slices, not by sorting: atomics on two words a cell, whatever the number of particles. Boundaries
+//! are handed to the cells next to them and blended: where the sheets touch, the water that the
+//! thickness finds at the boundary makes them one, smoothly (and removes it).
+//! Reads: the lists of `front` and `cull`. Writes: boundaries, the farthest of each block of texels.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
@@ -53,7 +53,6 @@ pub struct Gaps {
     spread: Pipeline,
     texels: Pipeline,
     farthest: Pipeline,
-    nearest_of_block: Pipeline,
     /// Nearest depth of every cell, then its marks.
     cells: Buffer,
     /// Eye depth between the two sheets of each cell, as found and as spread.
@@ -61,8 +60,8 @@ pub struct Gaps {
     spread_out: Buffer,
     /// The same of each texel of the thickness; EMPTY where there is but one.
     pub boundaries: Buffer,
-    /// Of each block of 16×16 pixels the farthest boundary, and the nearest once `thickness` is done.
-    pub blocks: [Buffer; 2],
+    /// Of each block of 16×16 pixels the farthest boundary, for `thickness`.
+    pub blocks: Buffer,
     level: u32,
 }
 
@@ -94,7 +93,7 @@ impl Gaps {
                 |large| Pipeline::compute(gpu, shader::WATER_GAPS_COMP, &[(0, large), (1, marks)]);
             Ok::<_, Error>([make(0)?, make(1)?])
         };
-        let [cells, found, spread_out, boundaries, farthest, nearest] = Self::sized(gpu, config)?;
+        let [cells, found, spread_out, boundaries, blocks] = Self::sized(gpu, config)?;
         Ok(Self {
             nearest: make(0)?,
             marks: make(1)?,
@@ -102,22 +101,19 @@ impl Gaps {
             spread: Pipeline::compute(gpu, shader::WATER_GAPS_SPREAD_COMP, &[])?,
             texels: Pipeline::compute(gpu, shader::WATER_GAPS_TEXELS_COMP, &[])?,
             farthest: Pipeline::compute(gpu, shader::WATER_GAPS_BLOCKS_COMP, &[(0, 0)])?,
-            nearest_of_block: Pipeline::compute(gpu, shader::WATER_GAPS_BLOCKS_COMP, &[(0, 1)])?,
             cells,
             found,
             spread_out,
             boundaries,
-            blocks: [farthest, nearest],
+            blocks,
             level: config.thickness_level,
         })
     }
 
-    fn sized(gpu: &Gpu, config: &Config) -> Result<[Buffer; 6], Error> {
+    fn sized(gpu: &Gpu, config: &Config) -> Result<[Buffer; 5], Error> {
         type Usage = vk::BufferUsageFlags;
         let cells = Push::new(config.extent).cells();
         let thick = reduced(config.extent, config.thickness_level);
-        let blocks = blocks(config.extent);
-        let blocks = u64::from(blocks.width) * u64::from(blocks.height);
         let texels = u64::from(thick.width) * u64::from(thick.height);
         let make = |name, size, usage| {
             let usage = usage | Usage::STORAGE_BUFFER;
@@ -128,8 +124,7 @@ impl Gaps {
             make("water/gaps/found", 4 * cells, Usage::empty())?,
             make("water/gaps/spread", 4 * cells, Usage::empty())?,
             make("water/gaps/boundaries", 4 * texels, Usage::TRANSFER_SRC)?,
-            make("water/gaps/farthest", 4 * blocks, Usage::empty())?,
-            make("water/gaps/nearest", 4 * blocks, Usage::empty())?,
+            blocks_buffer(gpu, "water/gaps/blocks", config)?,
         ])
     }
 
@@ -139,14 +134,12 @@ impl Gaps {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let [cells, found, spread_out, boundaries, farthest, nearest] = Self::sized(gpu, config)?;
-        for (old, new) in self.blocks.iter_mut().zip([farthest, nearest]) {
-            retired.retire(std::mem::replace(old, new));
-        }
+        let [cells, found, spread_out, boundaries, blocks] = Self::sized(gpu, config)?;
         retired.retire(std::mem::replace(&mut self.cells, cells));
         retired.retire(std::mem::replace(&mut self.found, found));
         retired.retire(std::mem::replace(&mut self.spread_out, spread_out));
         retired.retire(std::mem::replace(&mut self.boundaries, boundaries));
+        retired.retire(std::mem::replace(&mut self.blocks, blocks));
         Ok(())
     }
 
@@ -198,33 +191,35 @@ impl Gaps {
             r.dispatch_over(extent, pipeline.local_size);
             gpu.barriers(cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, READ)]);
         }
-        self.dispatch_blocks(r, &self.farthest, &self.blocks[0])?;
+        dispatch_blocks(r, &self.farthest, &self.boundaries, &self.blocks)?;
         r.end(scope);
         Ok(())
     }
 
-    /// The nearest boundaries, of those that are left.
-    pub fn record_nearest(&self, r: &Recording<'_>) -> Result<(), Error> {
-        self.dispatch_blocks(r, &self.nearest_of_block, &self.blocks[1])
-    }
-
-    fn dispatch_blocks(
-        &self,
-        r: &Recording<'_>,
-        pipeline: &Pipeline,
-        to: &Buffer,
-    ) -> Result<(), Error> {
-        r.gpu.barriers(r.cmd, &[], &[buffer(to.handle, COMPUTE_READ, COMPUTE_WRITE)]);
-        let bound =
-            [(0, r.uniforms), (1, Resource::buffer(to)), (11, Resource::buffer(&self.boundaries))];
-        r.descriptors.bind(r.gpu, r.cmd, pipeline, &bound)?;
-        r.dispatch_over(blocks(r.extent), pipeline.local_size);
-        r.gpu.barriers(r.cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, COMPUTE_READ)]);
-        Ok(())
-    }
-
     pub fn memory(&self) -> u64 {
-        let blocks: u64 = self.blocks.iter().map(|blocks| blocks.size).sum();
-        blocks + self.cells.size + self.found.size + self.spread_out.size + self.boundaries.size
+        let found = self.cells.size + self.found.size + self.spread_out.size;
+        found + self.boundaries.size + self.blocks.size
     }
+}
+
+/// A number for each block, for `dispatch_blocks`.
+pub fn blocks_buffer(gpu: &Gpu, name: &str, config: &Config) -> Result<Buffer, Error> {
+    let blocks = blocks(config.extent);
+    let size = 4 * u64::from(blocks.width) * u64::from(blocks.height);
+    Buffer::new(gpu, name, size, vk::BufferUsageFlags::STORAGE_BUFFER, MemoryLocation::GpuOnly)
+}
+
+/// The farthest or the nearest boundary of each block, as the pipeline has it (gaps_blocks.comp).
+pub fn dispatch_blocks(
+    r: &Recording<'_>,
+    pipeline: &Pipeline,
+    boundaries: &Buffer,
+    to: &Buffer,
+) -> Result<(), Error> {
+    r.gpu.barriers(r.cmd, &[], &[buffer(to.handle, COMPUTE_READ, COMPUTE_WRITE)]);
+    let bound = [(0, r.uniforms), (1, Resource::buffer(to)), (11, Resource::buffer(boundaries))];
+    r.descriptors.bind(r.gpu, r.cmd, pipeline, &bound)?;
+    r.dispatch_over(blocks(r.extent), pipeline.local_size);
+    r.gpu.barriers(r.cmd, &[], &[buffer(to.handle, COMPUTE_WRITE, COMPUTE_READ)]);
+    Ok(())
 }

@@ -115,6 +115,12 @@ impl Sheets {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         Ok(Self { gaps: gaps::Gaps::new(gpu, config)?, back: back::Back::new(gpu, config)? })
     }
+
+    /// Bytes of images and of buffers.
+    fn memory(&self) -> (u64, u64) {
+        let (image, blocks) = self.back.memory();
+        (image, self.gaps.memory() + blocks)
+    }
 }
 
 /// The technique: its passes in the order of the frame.
@@ -220,7 +226,7 @@ impl Water {
         if let Some(Sheets { gaps, back }) = &self.sheets {
             let depth = &self.depth.image;
             let into = back::Into { smooth: &self.smooth, plan, tiles, level };
-            back.record(r, depth, &self.cull.list, gaps, &into)?;
+            back.record(r, depth, &self.cull.list, &gaps.boundaries, &into)?;
         }
         self.tiles.record(r, level)?;
         self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
@@ -333,10 +339,7 @@ impl Water {
             &self.reduce.plan,
             &self.thickness.image,
         ];
-        let (back, gaps) = match &self.sheets {
-            Some(Sheets { gaps, back }) => (back.image.size, gaps.memory()),
-            None => (0, 0),
-        };
+        let (back, gaps) = self.sheets.as_ref().map_or((0, 0), Sheets::memory);
         let sheets = self.thickness.sheets.as_ref().map_or(0, |image| image.size);
         let (foam, sprites) = self.foam.as_ref().map_or((0, 0), foam::Foam::memory);
         let (spray, droplets) = self.spray.as_ref().map_or((0, 0), spray::Spray::memory);

@@ -1,5 +1,5 @@
 //! Pass `smooth`, form Query: the source's raster passes, ended by an occlusion query every fifth
-//! iteration (thesis Sec. 4.7, Listing A.12), decided on the GPU alone.
+//! iteration (thesis Sec. 4.7, Listing A.11), decided on the GPU alone.
 //!
 //! A block is five iterations and a copy back, so that the result always lies in the same image.
 //! Its fifth iteration counts the pixels that are still active, by a draw of its own without colour

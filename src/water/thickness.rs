@@ -254,7 +254,7 @@ impl Thickness {
                 // SAFETY: cmd is recording outside a render pass.
                 unsafe { gpu.device.cmd_fill_buffer(cmd, sums.handle, 0, vk::WHOLE_SIZE, 0) };
                 gpu.barriers(cmd, &[], &[buffer(sums.handle, CLEAR, COMPUTE_READ_WRITE)]);
-                let blocks = gaps.map_or(boundaries, |gaps| Resource::buffer(&gaps.blocks[0]));
+                let blocks = gaps.map_or(boundaries, |gaps| Resource::buffer(&gaps.blocks));
                 let bound = [
                     (3, r.scene_depth),
                     (4, Resource::buffer(sums)),

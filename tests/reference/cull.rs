@@ -1,4 +1,4 @@
-//! Twin of the culling (section 3 of the layered water's specification): bounding spheres against
+//! Twin of the culling (thesis Sec. 4.3): bounding spheres against
 //! the frustum, spray apart by density, and the radius of thin water,
 //! `r (0.5 + 0.5 smoothstep(threshold, full, density / rest))`.
 

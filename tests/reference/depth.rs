@@ -1,4 +1,4 @@
-//! Twin of the depth splats (section 4): the nearest intersection of the pixel's ray with any
+//! Twin of the depth splats (thesis Sec. 4.6.1): the nearest intersection of the pixel's ray with any
 //! sphere. With `w = (s_x, s_y, -1)` the ray, `t w` lies at the depth t, and the near root is
 //! `t = (w.c - sqrt(w^2 (r^2 - |c - w (w.c) / w^2|^2))) / w^2`.
 

@@ -1,4 +1,4 @@
-//! Twin of the reduction before the smoothing (section 5): what the scene hides is cut away, then
+//! Twin of the reduction before the smoothing (thesis Sec. 4.7): what the scene hides is cut away, then
 //! the nearest surface of each block of `2^level` pixels is kept, unless it is less than a quarter
 //! of the block's water: then the one behind it.
 

@@ -1,4 +1,4 @@
-//! Twin of the adaptive curvature flow (section 5), on the positive eye depth z of the reduced
+//! Twin of the adaptive curvature flow (thesis Sec. 3.1, 4.7), on the positive eye depth z of the reduced
 //! image.
 //!
 //! `Source`, `Fixed`: the thesis' form, without z_xy and without the ray's slope,

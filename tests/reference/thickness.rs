@@ -1,4 +1,4 @@
-//! Twin of the thickness splats (section 6): the sum over the particles of
+//! Twin of the thickness splats (thesis Sec. 3.2.2, 4.8.1): the sum over the particles of
 //! `amplitude sqrt(1 - rho^2) exp(-2 rho^2)`, rho the distance of the pixel ray's point at the
 //! centre's depth from the centre, in half-axes of two radii.
 

@@ -1,9 +1,15 @@
-//! Files out: under a temporary name in the same folder, then renamed. Ctrl-C leaves none behind.
+//! Files out: under a temporary name in the same folder, then renamed. Ctrl-C leaves none behind; what a run
+//! that was killed leaves, the next one that writes the same file takes away.
+//!
+//! A file without a name (O_TMPFILE) would leave nothing at all, but can only be linked to a name that is free,
+//! which that of a picture drawn again is not, and not all file systems have it.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use fs4::{FileExt, TryLockError};
 
 use crate::failure::{Failure, Kind, Outcome};
 use crate::out;
@@ -51,14 +57,58 @@ pub fn clean_up_on_interrupt() {
 struct Guard(PathBuf);
 
 impl Guard {
+    /// A temporary file for `path`. It is locked as long as it is open, which is how others know that it is in use.
     fn new(path: &Path) -> io::Result<(Self, File)> {
         let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let path = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+        sweep(path, &name);
+        let process = std::process::id();
         let mut files = temporary();
-        let file = OpenOptions::new().write(true).create(true).truncate(true).open(&path)?;
-        files.push(path.clone());
-        Ok((Self(path), file))
+        // A name is taken where a run of the same number has it: a killed one's, or one on another machine.
+        for number in 0..100 {
+            let path = path.with_file_name(format!(".{name}.{process}.{number}.tmp"));
+            let file = match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
+                opened => opened?,
+            };
+            // Before the lock another run may take the file for a leftover. A file system without locks has no
+            // such runs either.
+            let locked = !matches!(FileExt::try_lock(&file), Err(TryLockError::WouldBlock));
+            if locked && path.exists() {
+                files.push(path.clone());
+                return Ok((Self(path), file));
+            }
+        }
+        Err(io::Error::other("no name is free for its temporary file"))
     }
+}
+
+/// Takes away the temporary files of `path` that nobody has locked: the runs that made them were killed.
+fn sweep(path: &Path, name: &str) {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten();
+    for entry in entries.flatten() {
+        let regular = entry.file_type().is_ok_and(|kind| kind.is_file());
+        if !regular || !is_temporary(&entry.file_name().to_string_lossy(), name) {
+            continue;
+        }
+        // Opened to write: some file systems lock others only so.
+        let file = OpenOptions::new().write(true).open(entry.path());
+        if file.is_ok_and(|file| FileExt::try_lock(&file).is_ok()) {
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether a file is a temporary one of the file `of`, by its name.
+fn is_temporary(name: &str, of: &str) -> bool {
+    let numbers = name
+        .strip_prefix('.')
+        .and_then(|name| name.strip_prefix(of))
+        .and_then(|rest| rest.strip_prefix('.'))
+        .and_then(|rest| rest.strip_suffix(".tmp"))
+        .and_then(|rest| rest.split_once('.'));
+    let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
+    numbers.is_some_and(|(process, number)| digits(process) && digits(number))
 }
 
 impl Drop for Guard {
@@ -213,6 +263,50 @@ mod tests {
         for bad in ["out.jpg", "out", "o%x.png", "%04d_%04d.png", "%4d.png"] {
             assert_eq!(Target::new(Path::new(bad), true).unwrap_err().kind, Kind::Usage, "{bad}");
         }
+    }
+
+    #[test]
+    fn temporary_names_are_told_from_others() {
+        for name in [".a.exr.7.0.tmp", ".a.exr.4194304.12.tmp"] {
+            assert!(is_temporary(name, "a.exr"), "{name}");
+        }
+        let others = [
+            "a.exr",
+            ".a.exr.tmp",
+            ".a.exr.7.tmp",
+            ".a.exr..0.tmp",
+            ".a.exr.7.0",
+            ".a.exr.x.0.tmp",
+            ".a.exr.7.0.1.tmp",
+            "a.exr.7.0.tmp",
+            ".b.exr.7.0.tmp",
+            ".a.exr.png.7.0.tmp",
+        ];
+        for name in others {
+            assert!(!is_temporary(name, "a.exr"), "{name}");
+        }
+    }
+
+    #[test]
+    fn only_leftovers_of_the_same_file_are_swept() {
+        let folder = tempfile::tempdir().unwrap();
+        let leftovers = [".a.txt.1.0.tmp", ".a.txt.4194304.3.tmp"];
+        // Of another file, of another form, in use.
+        let others = [".a.txt.notes.tmp", ".b.txt.1.0.tmp", ".a.txt.2.0.tmp"];
+        for name in leftovers.iter().chain(&others) {
+            std::fs::write(folder.path().join(name), "half").unwrap();
+        }
+        std::fs::create_dir(folder.path().join(".a.txt.5.0.tmp")).unwrap();
+        let used = File::open(folder.path().join(".a.txt.2.0.tmp")).unwrap();
+        FileExt::try_lock(&used).unwrap();
+        write(&folder.path().join("a.txt"), |to| to.write_all(b"one")).unwrap();
+        for name in leftovers {
+            assert!(!folder.path().join(name).exists(), "{name}");
+        }
+        for name in others.into_iter().chain([".a.txt.5.0.tmp", "a.txt"]) {
+            assert!(folder.path().join(name).exists(), "{name}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 5);
     }
 
     #[test]

@@ -236,3 +236,43 @@ fn an_interrupt_leaves_nothing_half() {
     let trace: serde_json::Value = serde_json::from_str(&trace).unwrap();
     assert!(trace["traceEvents"].as_array().is_some_and(|events| events.len() > 20));
 }
+
+/// Killed without a word in the midst of writing: the next run takes the half file away, but not while
+/// the first still lives.
+#[test]
+#[cfg(target_os = "linux")] // signals that stop and go on
+fn a_kill_leaves_a_file_to_the_next_run() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    folder.particles("a.ply", block(3));
+    let render = "render a.ply -o out/a.exr --size 640x360";
+    let hidden = || names(&folder.path("out")).into_iter().find(|name| name.starts_with('.'));
+    let signal = |child: &std::process::Child, signal: &str| {
+        let mut kill = std::process::Command::new("kill");
+        assert!(kill.args([signal, &child.id().to_string()]).status().unwrap().success());
+    };
+    for _ in 0..20 {
+        let mut child = folder.command(render).stderr(std::process::Stdio::null()).spawn().unwrap();
+        while child.try_wait().unwrap().is_none() {
+            if hidden().is_none() {
+                continue;
+            }
+            signal(&child, "-STOP");
+            // It may have been the file that is made and removed at the start, to see that it can be.
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            let Some(name) = hidden() else {
+                signal(&child, "-CONT");
+                continue;
+            };
+            folder.run(render).ok();
+            assert_eq!(names(&folder.path("out")), [name.as_str(), "a.exr"]);
+            signal(&child, "-KILL");
+            child.wait().unwrap();
+            assert_eq!(hidden(), Some(name));
+            folder.run(render).ok();
+            assert_eq!(names(&folder.path("out")), ["a.exr"]);
+            return;
+        }
+    }
+    panic!("no run was stopped while it wrote");
+}

@@ -1,0 +1,240 @@
+//! PLY, NPY and NPZ, and tables as text.
+
+use std::io::Write;
+use whitewater::io::particles::{Extension, Format};
+
+use super::{
+    COUNT, Has, Sample, densities, floats, ids, ints, positions, sample, velocities, words,
+};
+
+/// PLY with an element and a list before and among the vertices.
+pub fn ply(format: &str, double: bool, lists: bool) -> Vec<u8> {
+    let real = if double { "double" } else { "float32" };
+    let mut out = format!("ply\nformat {format} 1.0\ncomment by hand\n");
+    if lists {
+        out += "element camera 2\nproperty uchar kind\nproperty list uchar float matrix\nelement empty 99999999999\n";
+    }
+    out += &format!("element vertex {COUNT}\n");
+    for name in ["x", "y", "z", "vx", "vy", "vz", "density"] {
+        out += &format!("property {real} {name}\n");
+    }
+    if lists {
+        out += "property list int short neighbours\n";
+    }
+    out += "property uint id\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
+    let mut out = out.into_bytes();
+    let (big, size) = (format.contains("big"), if double { 8 } else { 4 });
+    if format == "ascii" {
+        if lists {
+            out.extend(b"1 2 0.5 0.5\n1 0\n");
+        }
+        for i in 0..COUNT {
+            let (p, v, d) = (positions()[i], velocities()[i], densities()[i]);
+            let list = if lists { " 2 7 7" } else { "" };
+            out.extend(format!("{} {} {d}{list} {}\n", words(p), words(v), ids()[i]).as_bytes());
+        }
+        return out;
+    }
+    if lists {
+        out.extend([1, 2]);
+        out.extend(floats(&[0.5, 0.5], 4, big));
+        out.extend([1, 0]);
+    }
+    for i in 0..COUNT {
+        out.extend(floats(&positions()[i], size, big));
+        out.extend(floats(&velocities()[i], size, big));
+        out.extend(floats(&densities()[i..=i], size, big));
+        if lists {
+            out.extend(ints(&[1], 4, big));
+            out.extend([9, 9]);
+        }
+        out.extend(ints(&ids()[i..=i], 4, big));
+    }
+    out
+}
+
+pub fn npy(descr: &str, shape: &str, fortran: bool, version: u8, raw: &[u8]) -> Vec<u8> {
+    let order = if fortran { "True" } else { "False" };
+    let header =
+        format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}   \n");
+    let mut out = b"\x93NUMPY".to_vec();
+    out.extend([version, 0]);
+    if version == 1 {
+        out.extend((header.len() as u16).to_le_bytes());
+    } else {
+        out.extend((header.len() as u32).to_le_bytes());
+    }
+    out.extend(header.as_bytes());
+    out.extend(raw);
+    out
+}
+
+pub fn npz(arrays: &[(&str, Vec<u8>)], deflate: bool) -> Vec<u8> {
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let method =
+        if deflate { zip::CompressionMethod::Deflated } else { zip::CompressionMethod::Stored };
+    let options = zip::write::SimpleFileOptions::default().compression_method(method);
+    for (name, bytes) in arrays {
+        archive.start_file(format!("{name}.npy"), options).unwrap();
+        archive.write_all(bytes).unwrap();
+    }
+    archive.finish().unwrap().into_inner()
+}
+
+/// All values of the first component, then all of the second ...
+pub fn columns(vectors: &[[f32; 3]]) -> Vec<f32> {
+    (0..3).flat_map(|c| vectors.iter().map(move |v| v[c])).collect()
+}
+
+fn csv(header: &str, separator: &str, quote: &str) -> String {
+    let mut out = String::new();
+    if !header.is_empty() {
+        let names: Vec<_> = header.split(' ').map(|n| format!("{quote}{n}{quote}")).collect();
+        out += &(names.join(separator) + "\r\n");
+    }
+    for i in 0..COUNT {
+        let row = format!(
+            "{} {} {} {}",
+            words(velocities()[i]),
+            densities()[i],
+            ids()[i],
+            words(positions()[i])
+        );
+        out += &(row.replace(' ', separator) + "\r\n");
+    }
+    out
+}
+
+fn rows() -> String {
+    positions().iter().map(|p| words(p) + "\n").collect()
+}
+
+pub fn numpy_samples(list: &mut Vec<Sample>) {
+    let p = positions();
+    let p = p.as_flattened();
+    let shape = format!("({COUNT}, 3)");
+    let arrays = [
+        ("<f4, C", npy("<f4", &shape, false, 1, &floats(p, 4, false))),
+        (">f8, C, version 2", npy(">f8", &shape, false, 2, &floats(p, 8, true))),
+        ("<f4, Fortran", npy("<f4", &shape, true, 1, &floats(&columns(&positions()), 4, false))),
+        (
+            ">f4, Fortran, version 3",
+            npy(">f4", &shape, true, 3, &floats(&columns(&positions()), 4, true)),
+        ),
+    ];
+    for (name, bytes) in arrays {
+        list.push(sample(
+            &format!("npy {name}"),
+            Extension::Npy,
+            bytes,
+            Has::Positions,
+            Format::Npy,
+        ));
+    }
+    let row = format!("({COUNT},)");
+    let velocity = velocities();
+    let common = [
+        ("rho", npy("<f8", &row, false, 1, &floats(&densities(), 8, false))),
+        ("ids", npy("<i8", &row, false, 1, &ints(&ids(), 8, false))),
+        ("time", npy("<f8", "()", false, 1, &floats(&[0.5], 8, false))),
+    ];
+    for deflate in [false, true] {
+        let mut arrays = common.to_vec();
+        arrays.push(("pos", npy("<f4", &shape, false, 1, &floats(p, 4, false))));
+        arrays.push((
+            "vel",
+            npy("<f8", &shape, false, 1, &floats(velocity.as_flattened(), 8, false)),
+        ));
+        list.push(sample(
+            &format!("npz deflate {deflate}"),
+            Extension::Npz,
+            npz(&arrays, deflate),
+            Has::All,
+            Format::Npz,
+        ));
+    }
+    let mut arrays = common.to_vec();
+    for (c, (pos, vel)) in [("x", "vx"), ("y", "vy"), ("z", "vz")].into_iter().enumerate() {
+        let pick = |v: &[[f32; 3]]| floats(&v.iter().map(|v| v[c]).collect::<Vec<_>>(), 4, false);
+        arrays.push((pos, npy("<f4", &row, false, 1, &pick(&positions()))));
+        arrays.push((vel, npy("<f4", &row, false, 1, &pick(&velocity))));
+    }
+    list.push(sample(
+        "npz of components",
+        Extension::Npz,
+        npz(&arrays, true),
+        Has::All,
+        Format::Npz,
+    ));
+}
+
+pub fn text_samples(list: &mut Vec<Sample>) {
+    use Has::{All, Positions};
+    let csvs = [
+        (
+            "paraview",
+            "velocity:0 velocity:1 velocity:2 density id Points:0 Points:1 Points:2",
+            ",",
+            "\"",
+        ),
+        (
+            "underscores",
+            "Velocity_0 Velocity_1 Velocity_2 Density ID Points_0 Points_1 Points_2",
+            ",",
+            "",
+        ),
+        ("short", "vx vy vz rho particle_id x y z", ";", ""),
+        ("uvw, tabs", "u v w densities ids X Y Z", "\t", ""),
+        ("long", "velocity_x velocity_y velocity_z rho Index pos_x pos_y pos_z", ",", "\""),
+    ];
+    for (name, header, separator, quote) in csvs {
+        list.push(sample(
+            &format!("csv {name}"),
+            Extension::Csv,
+            csv(header, separator, quote),
+            All,
+            Format::Csv,
+        ));
+    }
+    let hashed = format!("# {}", csv("vx vy vz rho id x y z", ",", ""));
+    list.push(sample("csv with a hashed header", Extension::Csv, hashed, All, Format::Csv));
+    let named_csv = csv("vx vy vz rho id x y z", ",", "");
+    list.push(sample("csv named .xyz", Extension::Xyz, named_csv, All, Format::Csv));
+    list.push(sample(
+        "csv without names",
+        Extension::Csv,
+        rows().replace(' ', ","),
+        Positions,
+        Format::Csv,
+    ));
+    list.push(sample("xyz", Extension::Xyz, rows(), Positions, Format::Xyz));
+    let variants = [
+        ("with comments", format!("# x y z\n% more\n\n{}\n", rows())),
+        ("with a count", format!("{COUNT}\n{}", rows())),
+        ("with a count and a comment", format!("{COUNT}\ntime 0.5 s\n{}", rows())),
+        ("with commas", rows().replace(' ', ", ")),
+        ("with more columns", rows().replace('\n', " 9 9\n")),
+        ("with a byte order mark", format!("\u{feff}{}", rows())),
+    ];
+    for (name, text) in variants {
+        list.push(sample(&format!("xyz {name}"), Extension::Xyz, text, Positions, Format::Xyz));
+    }
+    let table = csv("vx vy vz rho id x y z", "  ", "");
+    list.push(sample("xyz with names", Extension::Xyz, table, All, Format::Xyz));
+    let raw = floats(positions().as_flattened(), 4, false);
+    list.push(sample("xyz raw", Extension::Xyz, raw, Positions, Format::RawF32));
+    let array = |v: &[[f32; 3]]| {
+        let rows: Vec<_> = v.iter().map(|p| format!("[{}]", words(p).replace(' ', ","))).collect();
+        format!("[{}]", rows.join(", "))
+    };
+    let flat = |text: String| format!("[{}]", text.replace(' ', ", "));
+    list.push(sample("json array", Extension::Json, array(&positions()), Positions, Format::Json));
+    let object = format!(
+        "{{\"time\": 0.5, \"Positions\": {}, \"v\": {}, \"density\": {}, \"id\": {}, \"p\": [1]}}",
+        array(&positions()),
+        array(&velocities()),
+        flat(words(densities())),
+        flat(words(ids()))
+    );
+    list.push(sample("json object", Extension::Unknown, object, All, Format::Json));
+}

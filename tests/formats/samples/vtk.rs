@@ -1,0 +1,265 @@
+//! Legacy VTK, and VTU and VTP in all encodings.
+
+use base64::Engine;
+use std::io::Write;
+use whitewater::io::particles::{Compression, Storage};
+
+use super::{COUNT, densities, floats, ids, ints, positions, velocities, words};
+
+/// Legacy VTK. `double` writes double and 64-bit ids.
+pub fn vtk(version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8> {
+    let mut out = format!(
+        "# vtk DataFile Version {version}\na title\n{}\nDATASET {}\n",
+        if binary { "BINARY" } else { "ASCII" },
+        if polydata { "POLYDATA" } else { "UNSTRUCTURED_GRID" }
+    )
+    .into_bytes();
+    let size = if double { 8 } else { 4 };
+    // All three are 32 bits wide.
+    let id_32 = match (polydata, version) {
+        (true, "4.2") => "vtkIdType",
+        (true, _) => "int",
+        (false, _) => "unsigned_int",
+    };
+    let (real, id) = if double { ("double", "vtktypeint64") } else { ("float", id_32) };
+    let put = |out: &mut Vec<u8>, head: String, raw: Vec<u8>, text: String| {
+        out.extend(head.as_bytes());
+        out.extend(if binary { raw } else { text.into_bytes() });
+        out.push(b'\n');
+    };
+    let numbers: Vec<u32> = (0..COUNT as u32).collect();
+    // Something of no use before the points, as ParaView has with time values.
+    put(
+        &mut out,
+        "FIELD FieldData 1\nTIME 1 1 double\n".into(),
+        floats(&[0.5], 8, true),
+        "0.5".into(),
+    );
+    put(
+        &mut out,
+        format!("POINTS {COUNT} {real}\n"),
+        floats(positions().as_flattened(), size, true),
+        words(positions().as_flattened()),
+    );
+    out.extend(
+        b"METADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 2\n\n",
+    );
+    let cells = if polydata { "VERTICES" } else { "CELLS" };
+    if version.starts_with('5') {
+        let offsets: Vec<u32> = (0..=COUNT as u32).collect();
+        out.extend(format!("{cells} {} {COUNT}\n", COUNT + 1).as_bytes());
+        put(&mut out, "OFFSETS vtktypeint64\n".into(), ints(&offsets, 8, true), words(&offsets));
+        put(
+            &mut out,
+            "CONNECTIVITY vtktypeint64\n".into(),
+            ints(&numbers, 8, true),
+            words(&numbers),
+        );
+    } else {
+        let list: Vec<u32> = numbers.iter().flat_map(|i| [1, *i]).collect();
+        put(
+            &mut out,
+            format!("{cells} {COUNT} {}\n", 2 * COUNT),
+            ints(&list, 4, true),
+            words(&list),
+        );
+    }
+    if !polydata {
+        let types = [1_u32; COUNT];
+        put(&mut out, format!("CELL_TYPES {COUNT}\n"), ints(&types, 4, true), words(types));
+    }
+    // Of the cells: must not be taken for those of the points.
+    out.extend(format!("CELL_DATA {COUNT}\n").as_bytes());
+    put(
+        &mut out,
+        "SCALARS density float 1\nLOOKUP_TABLE default\n".into(),
+        floats(&[1.0; COUNT], 4, true),
+        words([1.0; COUNT]),
+    );
+    out.extend(format!("POINT_DATA {COUNT}\n").as_bytes());
+    put(
+        &mut out,
+        format!("SCALARS id {id} 1\nLOOKUP_TABLE id_table\n"),
+        ints(&ids(), size, true),
+        words(ids()),
+    );
+    put(
+        &mut out,
+        format!("VECTORS velocity {real}\n"),
+        floats(velocities().as_flattened(), size, true),
+        words(velocities().as_flattened()),
+    );
+    out.extend(b"FIELD FieldData 3\n");
+    put(&mut out, "my%20flags 1 11 bit\n".into(), vec![0xff, 0xe0], words([1; COUNT]));
+    out.extend(b"METADATA\nCOMPONENT_NAMES\nflag\n\n");
+    let texts: Vec<u8> = (0..COUNT).flat_map(|i| [0xc0 | 2, b'a', b'a' + i as u8]).collect();
+    put(&mut out, format!("label 1 {COUNT} string\n"), texts, ["ab"; COUNT].join("\n"));
+    put(
+        &mut out,
+        format!("density 1 {COUNT} {real}\n"),
+        floats(&densities(), size, true),
+        words(densities()),
+    );
+    out
+}
+
+pub struct Xml {
+    pub vtp: bool,
+    pub storage: Storage,
+    pub compression: Compression,
+    pub big: bool,
+    pub wide: bool,
+    /// Where the particles are cut into two pieces.
+    pub pieces: bool,
+    pub double: bool,
+}
+
+fn pack(block: &[u8], compression: Compression) -> Vec<u8> {
+    match compression {
+        Compression::Zlib => {
+            let mut out = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+            out.write_all(block).unwrap();
+            out.finish().unwrap()
+        }
+        // One run of literals.
+        Compression::Lz4 => {
+            let mut out = Vec::new();
+            if block.len() < 15 {
+                out.push((block.len() as u8) << 4);
+            } else {
+                out.extend([0xf0, (block.len() - 15) as u8]);
+            }
+            out.extend(block);
+            out
+        }
+        _ => unreachable!("a file is checked in for LZMA"),
+    }
+}
+
+impl Xml {
+    fn word(&self, n: usize) -> Vec<u8> {
+        ints(&[n as u32], if self.wide { 8 } else { 4 }, self.big)
+    }
+
+    fn encoded(&self, raw: &[u8]) -> Vec<u8> {
+        let base64 = |b: &[u8]| base64::engine::general_purpose::STANDARD.encode(b).into_bytes();
+        let (head, data) = if self.compression == Compression::None {
+            (self.word(raw.len()), raw.to_vec())
+        } else {
+            const BLOCK: usize = 48;
+            let blocks: Vec<_> = raw.chunks(BLOCK).map(|b| pack(b, self.compression)).collect();
+            let mut head =
+                [self.word(blocks.len()), self.word(BLOCK), self.word(raw.len() % BLOCK)].concat();
+            blocks.iter().for_each(|b| head.extend(self.word(b.len())));
+            (head, blocks.concat())
+        };
+        match (self.storage, self.compression) {
+            (Storage::AppendedRaw, _) => [head, data].concat(),
+            (_, Compression::None) => base64(&[head, data].concat()),
+            _ => [base64(&head), base64(&data)].concat(),
+        }
+    }
+
+    fn array(
+        &self,
+        appended: &mut Vec<u8>,
+        ty: &str,
+        name: &str,
+        components: usize,
+        raw: &[u8],
+        text: &str,
+    ) -> String {
+        let head =
+            format!("<DataArray type=\"{ty}\" Name=\"{name}\" NumberOfComponents=\"{components}\"");
+        let key = "<InformationKey name=\"L2_NORM_RANGE\" location=\"vtkDataArray\" length=\"1\"><Value index=\"0\">1</Value></InformationKey>";
+        match self.storage {
+            Storage::Ascii => format!("{head} format=\"ascii\">\n{text}\n{key}</DataArray>\n"),
+            Storage::InlineBase64 => {
+                let data = String::from_utf8(self.encoded(raw)).unwrap();
+                format!("{head} format=\"binary\">{key}\n {data}\n</DataArray>\n")
+            }
+            _ => {
+                let offset = appended.len();
+                appended.extend(self.encoded(raw));
+                format!("{head} format=\"appended\" offset=\"{offset}\"/>\n")
+            }
+        }
+    }
+
+    pub fn bytes(&self) -> Vec<u8> {
+        let kind = if self.vtp { "PolyData" } else { "UnstructuredGrid" };
+        let compressor = match self.compression {
+            Compression::Zlib => " compressor=\"vtkZLibDataCompressor\"",
+            Compression::Lz4 => " compressor=\"vtkLZ4DataCompressor\"",
+            _ => "",
+        };
+        let mut out = format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"{}\" header_type=\"{}\"{compressor}>\n<{kind}>\n",
+            if self.big { "BigEndian" } else { "LittleEndian" },
+            if self.wide { "UInt64" } else { "UInt32" },
+        );
+        let (size, real, id) =
+            if self.double { (8, "Float64", "UInt64") } else { (4, "Float32", "Int32") };
+        let mut appended = Vec::new();
+        let cuts: &[usize] = if self.pieces { &[0, 4, 4, COUNT] } else { &[0, COUNT] };
+        for (from, to) in cuts.iter().zip(&cuts[1..]) {
+            let range = *from..*to;
+            out += &format!(
+                "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"0\">\n<PointData>\n",
+                range.len()
+            );
+            let v = &velocities()[range.clone()];
+            let v = v.as_flattened();
+            out += &self.array(
+                &mut appended,
+                real,
+                "velocity",
+                3,
+                &floats(v, size, self.big),
+                &words(v),
+            );
+            let unused = vec![1.0; range.len()];
+            out += &self.array(
+                &mut appended,
+                real,
+                "pressure",
+                1,
+                &floats(&unused, size, self.big),
+                &words(&unused),
+            );
+            let d = &densities()[range.clone()];
+            out += &self.array(
+                &mut appended,
+                real,
+                "density",
+                1,
+                &floats(d, size, self.big),
+                &words(d),
+            );
+            let i = &ids()[range.clone()];
+            out += &self.array(&mut appended, id, "id", 1, &ints(i, size, self.big), &words(i));
+            let p = &positions()[range];
+            let p = p.as_flattened();
+            out += "</PointData>\n<CellData/>\n<Points>\n";
+            out += &self.array(
+                &mut appended,
+                real,
+                "Points",
+                3,
+                &floats(p, size, self.big),
+                &words(p),
+            );
+            out += "</Points>\n</Piece>\n";
+        }
+        out += &format!("</{kind}>\n");
+        let encoding = match self.storage {
+            Storage::AppendedRaw => "raw",
+            Storage::AppendedBase64 => "base64",
+            _ => return format!("{out}</VTKFile>\n").into_bytes(),
+        };
+        let mut out = format!("{out}<AppendedData encoding=\"{encoding}\">\n   _").into_bytes();
+        out.extend(appended);
+        out.extend(b"\n  </AppendedData>\n</VTKFile>\n");
+        out
+    }
+}

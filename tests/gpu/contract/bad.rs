@@ -1,0 +1,408 @@
+//! Bad frames and configurations: an error that names the field, before any command is recorded.
+
+use ash::vk;
+use whitewater::water::{Convolution, Shading, Shadows};
+use whitewater::{
+    Config, Count, Error, Frame, Packets, Previous, Recorded, Region, Renderer, Settings, Shadow,
+    Slot, Stream,
+};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, config, extent};
+use crate::support::scenes::Lens;
+use crate::support::{compare, spy};
+
+use super::life::convolved;
+use super::water;
+
+/// A good frame to spoil.
+struct Good<'a> {
+    frame: Frame<'a>,
+    settings: Settings,
+}
+
+type Spoil = (&'static str, &'static str, fn(&mut Good<'_>));
+
+/// Every way a frame can be wrong, with the field that the error names.
+fn spoils() -> Vec<Spoil> {
+    vec![
+        ("slot", "Frame.slot", |g| g.frame.slot = Slot(3)),
+        ("too large", "Frame.output.rect", |g| {
+            g.frame.output.extent.width += 1;
+            g.frame.output.rect.extent.width += 1;
+        }),
+        ("beyond", "HostImage.rect", |g| g.frame.output.rect.offset.x = 1),
+        ("before", "HostImage.rect", |g| g.frame.scene_depth.rect.offset.y = -1),
+        ("no part", "HostImage.rect", |g| g.frame.scene_color.rect.extent.width = 0),
+        ("format", "Frame.output.format", |g| g.frame.output.format = vk::Format::R8G8B8A8_UNORM),
+        ("lost output", "Frame.output.before", |g| {
+            g.frame.output.before.layout = vk::ImageLayout::UNDEFINED;
+        }),
+        ("lost colour", "Frame.scene_color.before", |g| {
+            g.frame.scene_color.before.layout = vk::ImageLayout::UNDEFINED;
+        }),
+        ("lost depth", "Frame.scene_depth.before", |g| {
+            g.frame.scene_depth.before.layout = vk::ImageLayout::UNDEFINED;
+        }),
+        ("left undefined", "HostImage.after", |g| {
+            g.frame.output.after.layout = vk::ImageLayout::UNDEFINED;
+        }),
+        ("left preinitialized", "HostImage.after", |g| {
+            g.frame.scene_depth.after.layout = vk::ImageLayout::PREINITIALIZED;
+        }),
+        ("no extent", "HostImage.rect", |g| g.frame.scene_depth.extent.height = 0),
+        ("no width", "HostImage.rect", |g| g.frame.scene_color.extent.width = 0),
+        ("too many", "Frame.particles.count", |g| g.frame.particles.count = Count::Cpu(4097)),
+        ("short buffer", "Frame.particles.positions", |g| {
+            g.frame.particles.count = Count::Cpu(4000);
+        }),
+        ("stride of 8", "Frame.particles.positions", |g| g.frame.particles.positions.stride = 8),
+        ("stride of 13", "Frame.particles.positions", |g| g.frame.particles.positions.stride = 13),
+        ("stride of 0", "Frame.particles.positions", |g| g.frame.particles.positions.stride = 0),
+        ("offset of 2", "Frame.particles.positions", |g| g.frame.particles.positions.offset = 2),
+        ("long stride", "Frame.particles.positions", |g| g.frame.particles.positions.stride = 20),
+        ("offset beyond", "Frame.particles.positions", |g| {
+            g.frame.particles.positions.offset = 1 << 40;
+        }),
+        ("offset overflow", "Frame.particles.positions", |g| {
+            g.frame.particles.positions.offset = u64::MAX - 3;
+        }),
+        ("density stride", "Frame.particles.densities", |g| {
+            let positions = g.frame.particles.positions;
+            g.frame.particles.densities = Some(Stream { stride: 2, ..positions });
+        }),
+        ("density buffer", "Frame.particles.densities", |g| {
+            let positions = g.frame.particles.positions;
+            g.frame.particles.densities = Some(Stream { size: 8, ..positions });
+        }),
+        ("count offset", "Frame.particles.count.offset", |g| {
+            let buffer = g.frame.particles.positions.buffer;
+            g.frame.particles.count = Count::Gpu { buffer, offset: 6 };
+        }),
+        ("packet offset", "Frame.particles.packets.offset", |g| {
+            let buffer = g.frame.particles.positions.buffer;
+            g.frame.particles.packets = Some(Packets { buffer, offset: 6, count: 1 });
+        }),
+        ("many packets", "Frame.particles.packets.count", |g| {
+            let buffer = g.frame.particles.positions.buffer;
+            g.frame.particles.packets = Some(Packets { buffer, offset: 0, count: 65_536 });
+        }),
+        ("view", "Frame.camera.view", |g| g.frame.camera.view = glam::Mat4::ZERO),
+        ("view of NaN", "Frame.camera.view", |g| g.frame.camera.view.x_axis.y = f32::NAN),
+        ("no projection", "Frame.camera.projection", |g| {
+            g.frame.camera.projection = glam::Mat4::ZERO;
+        }),
+        ("infinite projection", "Frame.camera.projection", |g| {
+            g.frame.camera.projection.x_axis.x = f32::INFINITY;
+        }),
+        ("orthographic", "Frame.camera.projection", |g| {
+            g.frame.camera.projection =
+                glam::Mat4::orthographic_rh(-1.0, 1.0, -1.0, 1.0, 0.1, 10.0);
+        }),
+        ("flat projection", "Frame.camera.projection", |g| {
+            g.frame.camera.projection.y_axis.y = 0.0;
+        }),
+        ("spacing", "Settings.water.spacing", |g| g.settings.water.spacing = 0.0),
+        ("spacing of NaN", "Settings.water.spacing", |g| g.settings.water.spacing = f32::NAN),
+        ("rest density", "Settings.water.rest_density", |g| g.settings.water.rest_density = -1.0),
+        ("threshold", "Settings.water.density_threshold", |g| {
+            g.settings.water.density_threshold = -0.1;
+        }),
+        ("full density", "Settings.water.density_full", |g| {
+            g.settings.water.density_full = 0.1;
+        }),
+        ("width", "Settings.water.smoothing_width", |g| {
+            g.settings.water.smoothing_width = f32::INFINITY;
+        }),
+        ("falloff", "Settings.water.depth_falloff", |g| g.settings.water.depth_falloff = -1.0),
+        ("refraction", "Settings.water.refraction", |g| g.settings.water.refraction = f32::NAN),
+        ("specular", "Settings.water.specular", |g| g.settings.water.specular = -1.0),
+        ("shininess", "Settings.water.shininess", |g| g.settings.water.shininess = 0.0),
+        ("medium", "Settings.water.medium", |g| {
+            g.settings.water.medium = whitewater::water::Medium::Physical {
+                absorption: [0.0, f32::NAN, 0.0],
+                scattering: [0.0; 3],
+            };
+        }),
+        ("fresnel", "Settings.water.fresnel", |g| {
+            g.settings.water.fresnel = whitewater::water::Fresnel::Schlick { f0: f32::NAN };
+        }),
+        ("fresnel power", "Settings.water.fresnel", |g| {
+            g.settings.water.fresnel =
+                whitewater::water::Fresnel::Source { bias: 0.1, scale: 0.4, power: -2.0 };
+        }),
+        ("sun", "Settings.light", |g| g.settings.light.direction[0] = f32::NAN),
+        ("light", "Settings.light", |g| g.settings.light.color[1] = -1.0),
+        ("ambient", "Settings.light", |g| g.settings.light.ambient[2] = f32::INFINITY),
+        ("irradiance", "Settings.light", |g| g.settings.light.irradiance[0] = f32::NAN),
+        ("foam", "Frame.particles.foam", |g| {
+            g.frame.particles.foam = Some(g.frame.particles.positions);
+        }),
+        ("foam stride", "Frame.particles.foam", |g| {
+            g.frame.particles.foam = Some(Stream { stride: 4, ..g.frame.particles.positions });
+        }),
+        ("velocities", "Frame.particles.velocities", |g| {
+            let velocities = Stream { stride: 8, ..g.frame.particles.positions };
+            g.frame.particles.velocities = Some(velocities);
+        }),
+        ("ids", "Frame.particles.ids", |g| {
+            g.frame.particles.ids = Some(Stream { offset: 1 << 40, ..g.frame.particles.positions });
+        }),
+        ("opacity", "Settings.spray.opacity", |g| g.settings.spray.opacity = 1.0),
+        ("size", "Settings.spray.size", |g| g.settings.spray.size = 0.0),
+        ("droplets", "Settings.spray.droplets", |g| g.settings.spray.droplets = 65),
+        ("densities", "Settings.spray.densities", |g| g.settings.spray.densities[1] = 0.1),
+        ("spread", "Settings.spray.spread", |g| g.settings.spray.spread = f32::NAN),
+        ("shutter", "Settings.spray.shutter", |g| g.settings.spray.shutter = -1.0),
+        ("weight", "Settings.noise.weight", |g| g.settings.noise.weight = f32::NAN),
+        ("falloff of noise", "Settings.noise.falloff", |g| g.settings.noise.falloff = -1.0),
+        ("size of noise", "Settings.noise.size", |g| g.settings.noise.size = 0.0),
+        ("cells", "Settings.noise.cells", |g| g.settings.noise.cells = 17.0),
+        ("grey", "Settings.noise.foam", |g| g.settings.noise.foam = -0.1),
+        ("grey's color", "Settings.noise.color", |g| g.settings.noise.color[0] = 1.5),
+        ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),
+        ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
+        ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
+        ("threshold", "Settings.foam.motion_threshold", |g| {
+            g.settings.foam.motion_threshold = 0.0;
+        }),
+        ("white", "Settings.foam.front_color", |g| g.settings.foam.front_color[1] = 1.1),
+        ("foam's shadow", "Settings.foam.shadow", |g| g.settings.foam.shadow = f32::NAN),
+        ("shade", "Settings.light", |g| g.settings.light.shade[0] = -1.0),
+        ("region", "Frame.sun.region", |g| {
+            g.frame.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
+        }),
+        ("shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = Some(shadow(&g.frame))),
+        ("box", "Settings.shadow.width", |g| g.settings.shadow.width = -1.0),
+        ("damping", "Settings.shadow.damping", |g| g.settings.shadow.damping = f32::NAN),
+        ("offset", "Settings.shadow.offset", |g| g.settings.shadow.offset = 1.5),
+        ("scale", "Settings.shadow.scale", |g| g.settings.shadow.scale = 0.5),
+        ("previous", "Frame.previous", |g| {
+            g.frame.previous = Some(Previous { camera: g.frame.camera, dt: 0.1 });
+        }),
+    ]
+}
+
+/// The scene's depth as it were the light's.
+fn shadow(frame: &Frame<'_>) -> Shadow {
+    Shadow { image: frame.scene_depth, view_projection: glam::Mat4::IDENTITY, bias: 0.0 }
+}
+
+/// The sun's way where the configuration has it.
+fn sunny_spoils() -> Vec<Spoil> {
+    fn shadow_of<'a>(g: &'a mut Good<'_>) -> &'a mut Shadow {
+        g.frame.sun.shadow.as_mut().expect("a good one")
+    }
+    fn region_of<'a>(g: &'a mut Good<'_>) -> &'a mut Region {
+        g.frame.sun.region.as_mut().expect("a good one")
+    }
+    vec![
+        ("no shadow", "Frame.sun.shadow", |g| g.frame.sun.shadow = None),
+        ("no region", "Frame.sun.region", |g| g.frame.sun.region = None),
+        ("radius", "Frame.sun.region", |g| region_of(g).radius = 0.0),
+        ("radius of NaN", "Frame.sun.region", |g| region_of(g).radius = f32::NAN),
+        ("center", "Frame.sun.region", |g| region_of(g).center[1] = f32::INFINITY),
+        ("bias", "Frame.sun.shadow.bias", |g| shadow_of(g).bias = f32::NAN),
+        ("matrix", "Frame.sun.shadow.view_projection", |g| {
+            shadow_of(g).view_projection = glam::Mat4::ZERO;
+        }),
+        ("part", "HostImage.rect", |g| shadow_of(g).image.rect.offset.x = 1),
+        ("lost shadow", "Frame.sun.shadow.image.before", |g| {
+            shadow_of(g).image.before.layout = vk::ImageLayout::UNDEFINED;
+        }),
+    ]
+}
+
+#[test]
+fn bad_frames_in_the_sun_are_errors_before_any_command() {
+    for kind in [Shadows::Map, Shadows::Convolution(Convolution::default())] {
+        bad_frames_in_the_sun(kind);
+    }
+}
+
+fn bad_frames_in_the_sun(kind: Shadows) {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let size = extent(32, 16);
+    let config = Config { shadow: Some(kind), cast: Some(16), ..config(size) };
+    let mut rig = Rig::with_slots(&gpu, &config, 1);
+    let mut shot = water(size, Lens::Standard);
+    shot.sun.region = Some(Region { center: [0.0; 3], radius: 4.0 });
+    let ((color, depth), (_, map)) = (rig.scene(&shot), rig.scene(&shot));
+    let cloud = rig.particles(&shot);
+    shot.sun.shadow =
+        Some(Shadow { image: map.host_image(), view_projection: glam::Mat4::IDENTITY, bias: 0.0 });
+    let cmd = rig.stub.begin(0);
+    let good = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    for (name, field, spoil) in sunny_spoils() {
+        let mut bad = Good { frame: good, settings: shot.settings.clone() };
+        spoil(&mut bad);
+        let Good { frame, settings } = bad;
+        spy::reset();
+        // SAFETY: nothing of a bad frame may be used.
+        let result = unsafe { rig.renderer().record(cmd, &Frame { settings: &settings, ..frame }) };
+        let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
+        match result {
+            Err(Error::BadInput { field: found, why }) => {
+                assert!(
+                    found == field && !why.is_empty() && commands == 0,
+                    "{name}: {found}, {why}"
+                );
+            }
+            other => panic!("{name}: {:?}", other.map(|_| "no error")),
+        }
+    }
+    // SAFETY: a good frame.
+    unsafe { rig.renderer().record(cmd, &good) }.expect("record");
+    rig.stub.end(0);
+    rig.stub.wait(0);
+}
+
+/// Each is found before the first command; the command buffer is still good for the next record.
+#[test]
+fn bad_frames_are_errors_before_any_command() {
+    let mut gpu = Gpu::own();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let size = extent(32, 16);
+    let mut rig = Rig::with_slots(&gpu, &config(size), 3);
+    let shot = water(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let mut cmd = rig.stub.begin(1);
+    let good = Frame {
+        slot: Slot(1),
+        ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
+    };
+    let mut wrong = Vec::new();
+    for (name, field, spoil) in spoils() {
+        let mut bad = Good { frame: good, settings: shot.settings.clone() };
+        spoil(&mut bad);
+        let Good { frame, settings } = bad;
+        let frame = Frame { settings: &settings, ..frame };
+        spy::reset();
+        let renderer = rig.renderer();
+        let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            // SAFETY: nothing of a bad frame may be used.
+            unsafe { renderer.record(cmd, &frame) }
+        }));
+        let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
+        match result {
+            Ok(Err(Error::BadInput { field: found, why })) => {
+                if found != field || why.is_empty() || commands > 0 {
+                    wrong.push(format!("{name}: {found} ({why}), {commands} commands"));
+                }
+            }
+            Ok(other) => {
+                let found = other.map(|_| "no error");
+                wrong.push(format!("{name}: {found:?} with {commands} commands"));
+                rig.stub.throw_away(1);
+                rig.renderer().abandon(Slot(1));
+                cmd = rig.stub.begin(1);
+            }
+            Err(_) => wrong.push(format!("{name}: a panic")),
+        }
+    }
+    rig.stub.throw_away(1);
+    let cmd = rig.stub.begin(1);
+    // SAFETY: a good frame.
+    unsafe { rig.renderer().record(cmd, &good) }.expect("record");
+    rig.stub.end(1);
+    rig.stub.wait(1);
+    let found = rig.read(&color.host_image(), &Recorded::default());
+    compare::same_color("after-bad-input", &found.output, &expected.output);
+    assert!(wrong.is_empty(), "not found as they should be:\n{}", wrong.join("\n"));
+}
+
+/// The output as its own scene needs a renderer that copies it.
+#[test]
+fn the_output_as_scene_needs_in_place() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    let mut rig = Rig::new(&gpu, &Config { in_place: false, ..config(size) });
+    let shot = water(size, Lens::Standard);
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    let cmd = rig.stub.begin(0);
+    // SAFETY: cmd is recording.
+    let result = unsafe { rig.renderer().record(cmd, &frame) };
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    assert!(matches!(result, Err(Error::BadInput { field: "Frame.scene_color", .. })));
+}
+
+#[test]
+fn bad_configurations_are_errors() {
+    let gpu = Gpu::shared();
+    let of_texels =
+        |texels| Some(Shadows::Convolution(Convolution { texels, ..Convolution::default() }));
+    let size = extent(32, 16);
+    let good = config(size);
+    let most = gpu.limits().max_image_dimension2_d;
+    let bad = [
+        ("Config.extent", Config { extent: extent(0, 4), ..good }),
+        ("Config.extent", Config { extent: extent(4, 0), ..good }),
+        ("Config.extent", Config { extent: extent(most + 1, 1), ..good }),
+        ("Config.max_particles", Config { max_particles: 0, ..good }),
+        ("Config.max_stride", Config { max_stride: 0, ..good }),
+        ("Config.max_stride", Config { max_stride: 18, ..good }),
+        ("Config.smoothing_level", Config { smoothing_level: 3, thickness_level: 0, ..good }),
+        ("Config.thickness_level", Config { thickness_level: 4, ..good }),
+        ("Config.max_iterations", Config { max_iterations: 0, ..good }),
+        ("Config.max_iterations", Config { max_iterations: 257, ..good }),
+        ("Config.coarsening", Config { coarsening: 4, ..good }),
+        ("Config.sheets", Config { sheets: 0, ..good }),
+        ("Config.sheets", Config { sheets: 3, ..good }),
+        ("Config.noise", Config { noise: Some(4), ..good }),
+        ("Config.cast", Config { cast: Some(0), ..good }),
+        ("Config.cast", Config { cast: Some(24), ..good }),
+        ("Config.cast", Config { cast: Some(4112), ..good }),
+        ("Config.shadow", Config { shadow: convolved(5, 8), ..good }),
+        ("Config.shadow", Config { shadow: convolved(8, 12), ..good }),
+        ("Config.shadow", Config { shadow: of_texels(15), ..good }),
+        ("Config.shadow", Config { shadow: of_texels(4097), ..good }),
+        ("Config.environment_size", Config { environment_size: 8, ..good }),
+        ("Config.environment_size", Config { environment_size: 100, ..good }),
+        ("Config.environment_size", Config { environment_size: 4096, ..good }),
+    ];
+    for (field, bad) in bad {
+        match Rig::try_new(&gpu, &bad, 1) {
+            Err(Error::BadInput { field: found, .. }) => assert_eq!(found, field),
+            Err(other) => panic!("{field}: {other}"),
+            Ok(_) => panic!("{field}: no error for {bad:?}"),
+        }
+    }
+    for slots in [0, 9] {
+        let host = gpu.host(slots);
+        // SAFETY: live handles.
+        let result = unsafe { Renderer::new(&host, &good) };
+        assert!(matches!(result, Err(Error::BadInput { field: "Host.frames_in_flight", .. })));
+    }
+    let host = whitewater::Host { queue_family: 77, ..gpu.host(1) };
+    // SAFETY: live handles; the family is only looked up.
+    let result = unsafe { Renderer::new(&host, &good) };
+    assert!(matches!(result, Err(Error::BadInput { field: "Host.queue_family", .. })));
+    let depth = Config { output_format: vk::Format::D32_SFLOAT, ..good };
+    assert!(matches!(Rig::try_new(&gpu, &depth, 1), Err(Error::Missing { .. })));
+    let srgb = vk::Format::R8G8B8A8_SRGB;
+    let stored = Config { output_format: srgb, composite: Some(Shading::Compute), ..good };
+    let storage = vk::FormatFeatureFlags::STORAGE_IMAGE;
+    if !gpu.format_features(srgb).contains(storage) {
+        assert!(matches!(Rig::try_new(&gpu, &stored, 1), Err(Error::Missing { .. })));
+        let mut rig = Rig::new(&gpu, &good);
+        assert!(matches!(rig.renderer().reconfigure(&stored), Err(Error::Missing { .. })));
+    }
+
+    let mut rig = Rig::new(&gpu, &good);
+    for size in [extent(0, 4), extent(most + 1, 4)] {
+        let result = rig.renderer().resize(size);
+        assert!(matches!(result, Err(Error::BadInput { field: "Config.extent", .. })));
+    }
+    // As it was.
+    let shot = water(size, Lens::Standard);
+    let expected = Rig::new(&gpu, &good).draw(&shot);
+    compare::same_color("after-bad-resize", &rig.draw(&shot).output, &expected.output);
+}

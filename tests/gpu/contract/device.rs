@@ -1,0 +1,272 @@
+//! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
+
+use ash::vk;
+use whitewater::water::{Gate, Shading, Shadows, Smoothing};
+use whitewater::{Config, Enabled, Error, Renderer, Slot};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, config, extent};
+use crate::support::scenes::Lens;
+use crate::support::{compare, slow};
+
+use super::life::convolved;
+use super::{sunny, water};
+
+#[test]
+fn a_device_with_nothing_optional_draws_the_same() {
+    let size = extent(64, 48);
+    let shot = water(size, Lens::Standard);
+    let expected = {
+        let gpu = Gpu::shared();
+        Rig::new(&gpu, &config(size)).draw(&shot)
+    };
+    let options = whitewater::headless::DeviceOptions { bare: true, ..Default::default() };
+    let mut gpu = Gpu::own_with(&options);
+    gpu.leaks = false;
+    let found = Rig::new(&gpu, &config(size)).draw(&shot);
+    compare::same_color("bare", &found.output, &expected.output);
+}
+
+/// A mocked offer: what this device has may not be there elsewhere.
+#[test]
+fn what_a_device_lacks_is_named() {
+    let gpu = Gpu::shared();
+    let config = config(extent(32, 16));
+    let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
+    offer.check(&config).expect("this device will do");
+    let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
+    let foam = Config { foam: true, ..config };
+    let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
+    let lit_foam = Config { shadow: Some(Shadows::Map), ..foam };
+    let motion = Config { motion: true, ..config };
+    let noise = Config { noise: Some(1), ..config };
+    let unsummed = whitewater::Offer { blend_floats: false, foam_floats: false, ..offer };
+    let bare = whitewater::Offer { optional: Enabled::default(), ..offer };
+    let gate = |gate| Config { smoothing: Some(Smoothing::Query(gate)), ..config };
+    let drawn = Config { composite: Some(Shading::Raster), ..config };
+    let stored = Config { composite: Some(Shading::Compute), ..config };
+    let lacking = [
+        (whitewater::Offer { api_version: vk::API_VERSION_1_2, ..offer }, config, "Vulkan 1.3"),
+        (whitewater::Offer { synchronization2: false, ..offer }, config, "synchronization2"),
+        (
+            whitewater::Offer { output_attachment: false, ..offer },
+            drawn,
+            "attachment use of the output",
+        ),
+        (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
+        (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
+        (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
+        (whitewater::Offer { blend_floats: false, ..offer }, lit_foam, "R32G32B32A32_SFLOAT"),
+        (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
+        (
+            whitewater::Offer { basis: [true, false], ..offer },
+            convolving(16),
+            "R16G16B16A16_SFLOAT",
+        ),
+        (whitewater::Offer { motion_floats: false, ..offer }, motion, "R32G32_SFLOAT"),
+        (unsummed, noise, "R32_SFLOAT"),
+        (bare, gate(Gate::DrawCount), "drawIndirectCount"),
+        (bare, gate(Gate::Predicate), "VK_EXT_conditional_rendering"),
+    ];
+    for (offer, config, needle) in lacking {
+        match offer.check(&config) {
+            Err(Error::Missing { what, why }) => {
+                assert!(what.contains(needle) && !why.is_empty(), "{what}: {why}");
+            }
+            other => panic!("{needle}: {other:?}"),
+        }
+    }
+    let unblended = whitewater::Offer { blend_floats: false, ..offer };
+    unblended.check(&config).expect("the compute paths need no blending");
+    let masked = Config { shadow: Some(Shadows::Mask), ..foam };
+    unblended.check(&masked).expect("a mask is the pixels', not the sprites'");
+    let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
+    unfoamed.check(&raster).expect("water needs nothing of foam's");
+    let other = whitewater::Offer { basis: [true, false], ..offer };
+    other.check(&convolving(8)).expect("eight bits are there");
+    let mut small = offer;
+    small.limits.max_image_dimension2_d = 99;
+    let shown = Config { extent: extent(32, 16), ..convolving(8) };
+    assert!(matches!(small.check(&shown), Err(Error::BadInput { field: "Config.shadow", .. })));
+    unfoamed.check(&noise).expect("what the raster splats blend is enough for noise");
+    // Foam's chunks are 64 particles at least.
+    let mut narrow = offer;
+    narrow.limits.max_storage_buffer_range = (1 << 20) + 256;
+    let wide = |foam| Config { foam, max_stride: 1 << 16, ..config };
+    narrow.check(&wide(false)).expect("sixteen particles are bound at once");
+    assert!(matches!(narrow.check(&wide(true)), Err(Error::BadInput { .. })));
+    let unattached = whitewater::Offer { output_attachment: false, ..offer };
+    unattached.check(&stored).expect("nothing is drawn into the output");
+    let unstored = whitewater::Offer { output_storage: false, ..offer };
+    unstored.check(&drawn).expect("nothing is stored to the output");
+}
+
+/// 64 bytes of device memory a particle beside the input is the promise.
+#[test]
+fn ten_million_particles_have_room() {
+    let gpu = Gpu::shared();
+    let count = 10_000_000;
+    let config = Config { max_particles: count, ..config(extent(64, 48)) };
+    // SAFETY: live handles.
+    let renderer = unsafe { whitewater::Renderer::new(&gpu.host(1), &config) }.expect("room");
+    let memory = renderer.memory();
+    // SAFETY: nothing was recorded.
+    unsafe { renderer.destroy() };
+    assert!(memory.buffers > 32 * u64::from(count), "{memory:?} holds no spheres");
+    assert!(memory.buffers < 64 * u64::from(count), "{memory:?}");
+}
+
+/// The memory table of the crate's documentation: bytes a pixel and a particle. Images are padded
+/// and aligned as the driver likes; that is a hundredth, and some KiB an object.
+#[test]
+fn memory_is_as_documented() {
+    let gpu = Gpu::shared();
+    let needed = |width: u32, height: u32, count: u32, (sheets, coarsening, foam, spray)| {
+        let format = vk::Format::R16G16B16A16_SFLOAT;
+        let size = extent(width, height);
+        let config = Config { sheets, coarsening, foam, spray, ..Config::new(size, format, count) };
+        // SAFETY: live handles.
+        let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+        let memory = renderer.memory();
+        // SAFETY: nothing was recorded.
+        unsafe { renderer.destroy() };
+        (memory.images + memory.buffers) as f64
+    };
+    for (width, height, count) in [(1280, 720, 65_536), (1920, 1080, 1 << 20)] {
+        // Of the larger size a part, and all in the long tests.
+        let whole = slow() || width == 1280;
+        let (pixels, n) = (f64::from(width * height), f64::from(count));
+        let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
+        // The light's maps, and a lit scene in place of the copied one, which is of half precision
+        // too; in a texel of foam 8 bytes more.
+        let ways = [(None, false), (Some(256), false), (Some(256), true), (Some(1024), false)];
+        for (cast, foam) in ways.into_iter().filter(|_| whole) {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let config = Config { cast, foam, ..Config::new(extent(width, height), format, count) };
+            // SAFETY: live handles.
+            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let memory = renderer.memory();
+            // SAFETY: nothing was recorded.
+            unsafe { renderer.destroy() };
+            let maps = cast.map_or(0.0, |n| 36.0 * f64::from(n * n));
+            let found = (memory.images + memory.buffers) as f64;
+            let lit = if cast.is_some() && foam { 0.5 * pixels } else { 0.0 };
+            let said = needed(width, height, count, (2, 3, foam, false)) + maps + lit;
+            let off = (found - said).abs();
+            assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}, {foam}: {found}, said {said}");
+        }
+        // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
+        for (thickness_level, said) in
+            [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)].into_iter().filter(|_| whole)
+        {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let of = |motion| {
+                let size = extent(width, height);
+                let config = Config { motion, thickness_level, ..Config::new(size, format, count) };
+                // SAFETY: live handles.
+                let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+                let memory = renderer.memory();
+                // SAFETY: nothing was recorded.
+                unsafe { renderer.destroy() };
+                (memory.images + memory.buffers) as f64
+            };
+            let found = of(true) - of(false);
+            let off = (found - said * pixels).abs();
+            assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
+        }
+        // Noise: a number a texel of its own, and its sprites.
+        for level in (0..4).filter(|_| whole) {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let config =
+                Config { noise: Some(level), ..Config::new(extent(width, height), format, count) };
+            // SAFETY: live handles.
+            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let memory = renderer.memory();
+            // SAFETY: nothing was recorded.
+            unsafe { renderer.destroy() };
+            let texels = f64::from(width.div_ceil(1 << level) * height.div_ceil(1 << level));
+            let found = (memory.images + memory.buffers) as f64;
+            let plain = needed(width, height, count, (2, 3, false, false));
+            let (more, said) = (found - plain, 4.0 * texels + 16.0 * n);
+            assert!(
+                (more - said).abs() < 0.01 * said + 64.0 * 1024.0,
+                "{level}: {more}, said {said}"
+            );
+        }
+        // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
+        // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
+        // Foam has its depth; of a texel 8 bytes of thickness, 4 of water before it, 8 of sums.
+        for (sheets, coarsening, foam, spray, smoothing, more) in [
+            (1, 3, false, false, 4.5, 0.0),
+            (1, 0, false, false, 3.0, 0.0),
+            (2, 3, false, false, 4.5, 2.5),
+            (2, 0, false, false, 4.5, 2.5),
+            (1, 3, true, false, 4.5, 5.25),
+            (2, 3, true, false, 4.5, 7.75),
+            (1, 3, false, true, 4.5, 4.0),
+            (2, 3, true, true, 4.5, 11.75),
+        ]
+        .into_iter()
+        .step_by(if whole { 1 } else { 7 })
+        {
+            let each = 32.0 + if foam { 52.0 } else { 0.0 } + if spray { 32.0 } else { 0.0 };
+            let said = pixels * (4.0 + smoothing + 0.5 + 0.25 + 8.0 + more) + each * n + cube;
+            let found = needed(width, height, count, (sheets, coarsening, foam, spray));
+            let off = (found - said).abs();
+            let name = format!("{width}x{height}, {sheets} sheets, foam {foam}, spray {spray}");
+            assert!(off < 0.01 * said + 512.0 * 1024.0, "{name}: {found}, said {said}");
+        }
+    }
+}
+
+/// Every pass has a scope; starts never fall, nothing is negative. Durations are no matter.
+#[test]
+fn timings_name_every_pass() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    let config =
+        Config { sheets: 2, foam: true, spray: true, motion: true, noise: Some(1), ..config(size) };
+    let mut rig = Rig::with_slots(&gpu, &config, 2);
+    let mut shot = water(size, Lens::Standard);
+    assert!(rig.renderer().timings(Slot(0)).is_empty(), "before the first frame");
+    assert!(rig.renderer().timings(Slot(9)).is_empty(), "no such slot");
+    for _ in 0..3 {
+        rig.draw(&shot);
+        let timings = rig.renderer().timings(Slot(0)).to_vec();
+        let names: Vec<&str> = timings.iter().map(|t| t.name).collect();
+        let wanted = [
+            "cull",
+            "front",
+            "depth",
+            "foam",
+            "spray",
+            "gaps",
+            "thickness",
+            "reduce",
+            "level",
+            "back",
+            "tiles",
+            "smooth",
+            "split",
+            "motion",
+            "noise",
+            "scene",
+            "composite",
+        ];
+        assert_eq!(names, wanted);
+        for t in &timings {
+            assert!(t.start >= 0.0 && t.nanoseconds >= 0.0 && t.nanoseconds < 6e10, "{t:?}");
+        }
+        let falls = timings.windows(2).any(|w| w[1].start < w[0].start);
+        assert!(!falls, "{timings:?}");
+    }
+    assert!(rig.renderer().timings(Slot(1)).is_empty(), "a slot without a frame");
+    let mut rig = Rig::new(&gpu, &Config { cast: Some(16), ..config });
+    sunny(&rig, &mut shot);
+    rig.draw(&shot);
+    let names: Vec<&str> = rig.renderer().timings(Slot(0)).iter().map(|t| t.name).collect();
+    let at = |name| names.iter().position(|n| *n == name);
+    let (light, caustics, lit) = (at("light"), at("caustics"), at("lit"));
+    assert!(light.is_some() && light < caustics && caustics < lit, "{names:?}");
+    assert!(lit < at("composite"), "{names:?}");
+}

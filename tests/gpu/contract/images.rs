@@ -1,0 +1,123 @@
+//! Every kind of host image: formats of the scene's depth, in place and apart, any layout and access.
+
+use ash::vk;
+use whitewater::water::Shading;
+use whitewater::{Access, Config, HostImage, Recorded};
+
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::COLOR;
+use crate::support::rig::{OUTPUT, Rig, Shot, config, extent};
+use crate::support::scenes::Lens;
+
+use super::water;
+
+/// Every depth format there is, sizes that differ, and a device with nothing optional.
+#[test]
+fn every_kind_of_scene_depth() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &config(size));
+    let mut shot = water(size, Lens::Standard);
+    let mut wall = |shot: &mut Shot, depth_extent: vk::Extent2D| {
+        shot.depth_extent = depth_extent;
+        let half = depth_extent.width / 2;
+        shot.scene_depth(|x, _| Some(if x < half { 2.0 } else { 30.0 }));
+        rig.draw(shot)
+    };
+    for depth_extent in [size, extent(48, 32), extent(192, 128)] {
+        shot.depth_format = vk::Format::D32_SFLOAT;
+        let expected = wall(&mut shot, depth_extent);
+        for format in [
+            vk::Format::D16_UNORM,
+            vk::Format::X8_D24_UNORM_PACK32,
+            vk::Format::D24_UNORM_S8_UINT,
+            vk::Format::D32_SFLOAT_S8_UINT,
+        ] {
+            let needed = vk::FormatFeatureFlags::SAMPLED_IMAGE
+                | vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT
+                | vk::FormatFeatureFlags::TRANSFER_DST;
+            if !gpu.format_features(format).contains(needed) {
+                eprintln!("skipped: {format:?} is not to be had here");
+                continue;
+            }
+            shot.depth_format = format;
+            // The wall is far from the water on both sides: its rounding is no matter.
+            let found = wall(&mut shot, depth_extent);
+            let name = format!("scene-depth-{}-{}", format.as_raw(), depth_extent.width);
+            compare::same_color(&name, &found.output, &expected.output);
+        }
+    }
+}
+
+#[test]
+fn in_place_and_apart_give_the_same_picture() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for (output_format, composite) in [
+        (OUTPUT, Shading::Raster),
+        (OUTPUT, Shading::Compute),
+        (vk::Format::R16G16B16A16_SFLOAT, Shading::Raster),
+        (vk::Format::R16G16B16A16_SFLOAT, Shading::Compute),
+    ] {
+        let shot = water(size, Lens::Reversed);
+        let composite = Some(composite);
+        let make = |in_place| Config { in_place, output_format, composite, ..config(size) };
+        let inside = Rig::lit(&gpu, &make(true), 1).draw(&shot);
+        let apart = Rig::lit(&gpu, &make(false), 1).draw(&shot);
+        compare::same_color("in-place", &inside.output, &apart.output);
+        // A renderer for in-place frames draws others too.
+        let mut rig = Rig::lit(&gpu, &make(true), 1);
+        rig.config.in_place = false;
+        compare::same_color("in-place-apart", &rig.draw(&shot).output, &apart.output);
+    }
+}
+
+/// The host's images come back in the state that was asked for, from any they were in.
+#[test]
+fn images_are_taken_from_and_left_in_any_state() {
+    for composite in [Shading::Raster, Shading::Compute] {
+        in_any_state(composite);
+    }
+}
+
+fn in_any_state(composite: Shading) {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    let config = Config { composite: Some(composite), ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let shot = water(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    let sampled = Access::new(
+        vk::PipelineStageFlags2::FRAGMENT_SHADER,
+        vk::AccessFlags2::SHADER_SAMPLED_READ,
+        vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+    );
+    let general = Access::new(
+        vk::PipelineStageFlags2::ALL_COMMANDS,
+        vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE,
+        vk::ImageLayout::GENERAL,
+    );
+    let read_only = Access { layout: vk::ImageLayout::DEPTH_STENCIL_READ_ONLY_OPTIMAL, ..sampled };
+    for (before, after) in [(COLOR, sampled), (sampled, general), (general, COLOR)] {
+        let (mut color, mut depth) = rig.scene(&shot);
+        rig.stub.run(|cmd| {
+            rig.stub.barrier(cmd, color.image, color.aspect, color.state, before);
+            let to = if before == COLOR { depth.state } else { read_only };
+            rig.stub.barrier(cmd, depth.image, depth.aspect, depth.state, to);
+            depth.state = to;
+        });
+        color.state = before;
+        let cloud = rig.particles(&shot);
+        let output = HostImage { after, ..color.host_image() };
+        let scene_depth = HostImage { after: general, ..depth.host_image() };
+        let frame = shot.frame(output, scene_depth, cloud.particles());
+        let cmd = rig.stub.begin(0);
+        // SAFETY: cmd is recording; the handles live to the end of this.
+        unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+        rig.stub.end(0);
+        rig.stub.wait(0);
+        let found = rig.read(&output, &Recorded::default());
+        compare::same_color("states", &found.output, &expected.output);
+    }
+}

@@ -1,0 +1,167 @@
+//! A renderer's life: resize, reconfigure, an abandoned frame, a plain drop and `destroy`.
+
+use ash::vk;
+use whitewater::water::{Convolution, Rule, Shading, Shadows, Smoothing, Splat};
+use whitewater::{Config, Error, Frame, Slot};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, config, extent};
+use crate::support::scenes::Lens;
+use crate::support::{compare, slow};
+
+use super::flight::{launch, output_of};
+use super::{sunny, water};
+
+#[test]
+fn resize_gives_what_a_new_renderer_gives() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::new(&gpu, &config(extent(96, 64)));
+    for size in [extent(33, 17), extent(1, 1), extent(200, 3), extent(96, 64)] {
+        rig.resize(size);
+        assert_eq!(rig.renderer().config().extent, size);
+        assert_eq!(rig.renderer().retired(), 0, "no frame is out");
+        let shot = water(size, Lens::Standard);
+        let expected = Rig::new(&gpu, &config(size)).draw(&shot);
+        let name = format!("resize-{}", size.width);
+        compare::same_color(&name, &rig.draw(&shot).output, &expected.output);
+    }
+    let config = |size| Config {
+        cast: Some(32),
+        shadow: Some(Shadows::Map),
+        foam: true,
+        noise: Some(1),
+        ..config(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config(extent(96, 64)), 1);
+    for size in [extent(33, 17), extent(1, 1), extent(96, 64)] {
+        rig.resize(size);
+        let mut shot = water(size, Lens::Standard);
+        let _shade = sunny(&rig, &mut shot);
+        let expected = Rig::lit(&gpu, &config(size), 1).draw(&shot);
+        let name = format!("resize-sun-{}", size.width);
+        compare::same_color(&name, &rig.draw(&shot).output, &expected.output);
+    }
+}
+
+pub fn convolved(terms: u32, bits: u32) -> Option<Shadows> {
+    Some(Shadows::Convolution(Convolution { terms, texels: 48, bits }))
+}
+
+/// Every part of the configuration changes while frames of the old one are in flight.
+#[test]
+fn reconfigure_gives_what_a_new_renderer_gives() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let base = config(size);
+    let configs = [
+        base,
+        Config { smoothing_level: 0, thickness_level: 0, ..base },
+        Config { depth_splat: Some(Splat::Raster), ..base },
+        Config { in_place: true, extent: extent(33, 17), max_particles: 1000, ..base },
+        Config { environment_size: 32, rule: Rule::Fixed(12), ..base },
+        Config { output_format: vk::Format::R16G16B16A16_SFLOAT, ..base },
+        Config { composite: Some(Shading::Compute), ..base },
+        Config { smoothing: Some(Smoothing::Fused), max_iterations: 9, ..base },
+        Config { sheets: 2, ..base },
+        Config { sheets: 2, smoothing_level: 0, depth_splat: Some(Splat::Raster), ..base },
+        Config { foam: true, sheets: 2, extent: extent(50, 40), ..base },
+        Config { foam: true, depth_splat: Some(Splat::Raster), ..base },
+        Config { spray: true, ..base },
+        Config { spray: true, foam: true, composite: Some(Shading::Compute), ..base },
+        Config { noise: Some(1), sheets: 2, ..base },
+        Config { noise: Some(0), composite: Some(Shading::Compute), spray: true, ..base },
+        Config { cast: Some(32), ..base },
+        Config { cast: Some(64), shadow: Some(Shadows::Map), foam: true, spray: true, ..base },
+        Config { cast: Some(64), composite: Some(Shading::Compute), sheets: 2, ..base },
+        Config { shadow: Some(Shadows::Mask), extent: extent(50, 40), ..base },
+        Config { shadow: convolved(4, 8), spray: true, foam: true, ..base },
+        Config { shadow: convolved(16, 16), cast: Some(32), ..base },
+        Config { shadow: convolved(8, 8), composite: Some(Shading::Compute), ..base },
+        Config { motion: true, ..base },
+        Config { motion: true, foam: true, thickness_level: 0, extent: extent(50, 40), ..base },
+    ];
+    let mut rig = Rig::lit(&gpu, &base, 2);
+    let mut flight = None;
+    // Each takes two renderers: every other one, and all in the long tests.
+    let some = configs.into_iter().step_by(if slow() { 1 } else { 2 });
+    for (i, config) in some.chain([base]).enumerate() {
+        let anew = rig.renderer().reconfigure(&config).expect("reconfigure");
+        assert_eq!(anew, rig.config.environment_size != config.environment_size);
+        assert_eq!(*rig.renderer().config(), config);
+        rig.config = config;
+        if anew {
+            rig.set_up();
+            rig.light();
+        }
+        let mut shot = water(config.extent, Lens::Standard);
+        let _shade = sunny(&rig, &mut shot);
+        let expected = Rig::lit(&gpu, &config, 1).draw(&shot);
+        let name = format!("reconfigure-{i}");
+        let now = launch(&mut rig, i as u32 % 2, &shot, expected);
+        // The frame before is still out when the configuration changes.
+        rig.stub.wait(i as u32 % 2);
+        compare::same_color(&name, &output_of(&rig, &now), &now.expected.output);
+        drop(flight.replace(now));
+        rig.renderer().collect(Slot((i as u32 + 1) % 2));
+    }
+    rig.renderer().collect(Slot(0));
+    rig.renderer().collect(Slot(1));
+    assert_eq!(rig.renderer().retired(), 0);
+    let bad = Config { max_particles: 0, ..base };
+    assert!(matches!(rig.renderer().reconfigure(&bad), Err(Error::BadInput { .. })));
+    assert_eq!(*rig.renderer().config(), base, "as it was");
+}
+
+#[test]
+fn an_abandoned_frame_does_no_harm() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::with_slots(&gpu, &config(size), 2);
+    let shot = water(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    for slot in [1, 0, 1] {
+        let (color, depth) = rig.scene(&shot);
+        let cloud = rig.particles(&shot);
+        let frame = Frame {
+            slot: Slot(slot),
+            ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
+        };
+        let cmd = rig.stub.begin(slot);
+        // SAFETY: cmd is recording; the slot's work is done.
+        unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+        rig.stub.throw_away(slot);
+        rig.renderer().resize(size).expect("resize");
+        assert!(rig.renderer().retired() > 0);
+        rig.renderer().abandon(Slot(slot));
+        assert_eq!(rig.renderer().retired(), 0);
+        assert!(rig.renderer().timings(Slot(slot)).len() < 64, "and its timings do not wait");
+        compare::same_color("abandoned", &rig.draw(&shot).output, &expected.output);
+    }
+}
+
+#[test]
+fn a_plain_drop_is_safe() {
+    let mut gpu = Gpu::own();
+    gpu.leaks = true;
+    let size = extent(32, 16);
+    let mut rig = Rig::new(&gpu, &config(size));
+    rig.draw(&water(size, Lens::Standard));
+    rig.leak();
+    let mut rig = Rig::new(&gpu, &config(size));
+    rig.draw(&water(size, Lens::Standard));
+}
+
+/// The layer reports what is left at the end of the device; the allocator is empty.
+#[test]
+fn destroy_leaves_nothing() {
+    let gpu = Gpu::own();
+    for in_place in [true, false] {
+        let size = extent(32, 16);
+        let mut rig = Rig::with_slots(&gpu, &Config { in_place, ..config(size) }, 3);
+        rig.draw(&water(size, Lens::Standard));
+        rig.resize(extent(16, 8));
+        rig.draw(&water(extent(16, 8), Lens::Standard));
+        drop(rig);
+        assert_eq!(gpu.allocations(), Vec::<String>::new());
+    }
+}

@@ -1,0 +1,37 @@
+//! The contract: frames in flight, resize, retired objects, bad input, abandoned frames, every kind of
+//! host image, and what the renderer says of itself.
+
+mod bad;
+mod device;
+mod flight;
+mod images;
+mod life;
+
+use ash::vk;
+use whitewater::water::Shadows;
+use whitewater::{Region, Shadow};
+
+use crate::support::host::Texture;
+use crate::support::rig::{Rig, Shot};
+use crate::support::scenes::{self, Lens};
+
+fn water(size: vk::Extent2D, lens: Lens) -> Shot {
+    let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
+    Shot::new(size, lens, 0.2, &points)
+}
+
+/// The sun's way as a rig's configuration asks for it, by the depth of a scene. It lies before the
+/// water: a shot is in the shade where the map says so.
+pub fn sunny(rig: &Rig<'_>, shot: &mut Shot) -> Option<Texture> {
+    let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
+    shot.sun.region = rig.config.cast.map(|_| Region { center, radius: 4.0 });
+    let kind = rig.config.shadow?;
+    let (color, depth) = rig.scene(shot);
+    let image = match kind {
+        Shadows::Mask => color,
+        Shadows::Map | Shadows::Convolution(_) => depth,
+    };
+    let view_projection = shot.camera.projection * shot.camera.view;
+    shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
+    Some(image)
+}

@@ -1,0 +1,220 @@
+//! The scene behind the water and the highlights on it are lit by what the maps let pass.
+
+use glam::{DVec3, Vec3};
+use whitewater::water::{Shading, Shadows};
+use whitewater::{Config, Region, Shadow};
+
+use crate::foam::Foamy;
+use crate::reference::Image;
+use crate::reference::light::{ShadowMap, lit};
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config};
+use crate::support::rounded::{Rounded, exact};
+use crate::support::scenes::{self, Lens, Random};
+use crate::support::tolerance::U;
+
+use super::shade::{light_views, shadows};
+use super::{SIZE, casting, even, halves, maps, twin, water};
+
+/// Particles about a tilted ground of the world at a height; they are at 0.8 to 1.2.
+fn grounded(lens: Lens, height: f64) -> Foamy {
+    let mut shot = Shot::new(SIZE, lens, 0.06, &[]);
+    let mut random = Random(8);
+    shot.positions = (0..90)
+        .map(|_| {
+            let mut at = |middle: f32, by: f32| middle + random.between(-by, by);
+            [at(3.1, 0.6), at(1.0, 0.2), at(0.2, 0.6)]
+        })
+        .collect();
+    let view = shot.view(SIZE);
+    let back = view.view.inverse();
+    let (eye, n) = (back.w_axis.truncate(), DVec3::new(0.1, 1.0, 0.05).normalize());
+    shot.scene_depth(|x, y| {
+        let along = back.transform_vector3(view.ray(x as usize, y as usize));
+        let depth = n.dot(DVec3::new(3.1, height, 0.2) - eye) / n.dot(along);
+        (depth > 0.0 && depth < 60.0).then_some(depth)
+    });
+    shot.settings.foam.shadow = 8.0;
+    // Half precision does not hold these.
+    shot.color.iter_mut().for_each(|c| *c = c.map(|v| v * 1.0309));
+    shot.sun.region = Some(Region { center: [2.9, 0.7, 0.1], radius: 1.3 });
+    let mut case = water(shot);
+    for amount in case.amounts.iter_mut().step_by(3) {
+        amount[0] = random.between(0.0, 1.0);
+    }
+    case
+}
+
+/// The scene's point in a pixel, and metres that it may be off: by the depth's quotient, whose
+/// divisor is a difference, and by the way to the world.
+fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
+    let view = shot.view(SIZE);
+    let back = view.view.inverse();
+    let p = back.transform_point3(view.ray(x, y) * depth);
+    let eye = back.w_axis.truncate().length();
+    (p, U * (8.0 * depth + 2.0 * depth * depth / view.near() + 24.0 * (p.length() + 2.0 * eye)))
+}
+
+/// Pixels without fluid are the scene in the light that the maps leave, to half precision.
+fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Past<'_>) {
+    let (shot, light, maps) = (&case.shot, twin(&case.shot, config), maps(drawn));
+    let scene = shot.scene_eye();
+    let foam = drawn.foam.as_ref().map(|foam| &foam.depth);
+    let sun = &shot.settings.light;
+    let (mut outside, mut darker, mut lighter, mut wrong) = (0, 0, 0, String::new());
+    for (i, found) in drawn.output.data.iter().enumerate() {
+        let (x, y) = (i % drawn.output.width, i / drawn.output.width);
+        if drawn.depth.data[i] < 1e9 || foam.is_some_and(|d| d.data[i] < 1e9) {
+            continue;
+        }
+        let color = shot.color[i];
+        let (p, by) = seen(shot, scene.data[i].min(1e6), (x, y));
+        let (through, gain) = match scene.data[i] {
+            depth if depth < 99.0 => light.at(&maps, p, by),
+            _ => ([exact(1.0); 3], exact(1.0)),
+        };
+        if through.iter().chain([&gain]).all(|v| v.v == 1.0 && v.e == 0.0) {
+            outside += 1;
+            if color.iter().zip(found).any(|(c, found)| !is_half(*c, *found)) {
+                wrong += &format!("({x}, {y}) outside: {found:?}, not {color:?}\n");
+            }
+            continue;
+        }
+        for c in 0..3 {
+            let shade = f64::from(sun.shade[c]) / f64::from(sun.irradiance[c]);
+            let past = past(p, by, (x, y));
+            let end = lit(f64::from(color[c]), shade, past, through[c], gain);
+            let v = f64::from(found[c]);
+            let [low, high] = halves(end.v - end.e, end.v + end.e);
+            darker += usize::from(v < 0.97 * f64::from(color[c]));
+            lighter += usize::from(v > 1.01 * f64::from(color[c]));
+            if v < low || v > high {
+                wrong += &format!("({x}, {y}) {c}: {v}, not {end:?}\n");
+            }
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{name}: {} lines\n{}",
+        wrong.lines().count(),
+        &wrong[..wrong.len().min(900)]
+    );
+    assert!(
+        outside > 500 && darker >= 10,
+        "{name}: {outside} outside, {darker} darker, {lighter} lighter"
+    );
+}
+
+/// A number in half precision.
+fn is_half(scene: f32, found: f32) -> bool {
+    halves(f64::from(scene), f64::from(scene)).contains(&f64::from(found))
+}
+
+/// Where nothing casts within the maps the light is a mean of ones, whose weights are rounded.
+pub fn is_nearly_half(scene: f32, found: f32) -> bool {
+    let scene = f64::from(scene);
+    let [low, high] = halves(scene * (1.0 - 16.0 * U), scene * (1.0 + 16.0 * U));
+    (low..=high).contains(&f64::from(found))
+}
+
+/// The sun past the scene at a point, and in a pixel.
+type Past<'a> = dyn Fn(DVec3, f64, (usize, usize)) -> Rounded + 'a;
+
+#[test]
+fn the_lit_scene_is_what_the_maps_say() {
+    let gpu = Gpu::shared();
+    for shading in [Shading::Raster, Shading::Compute] {
+        for in_place in [true, false] {
+            let config = Config { composite: Some(shading), in_place, ..casting(64) };
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            for (lens, height) in [
+                (Lens::Standard, 0.4),
+                (Lens::OffAxis, 0.4),
+                (Lens::LeftHanded, 0.4),
+                // What shows lies in the midst of what casts.
+                (Lens::Standard, 1.0),
+                (Lens::Infinite, 0.9),
+            ] {
+                let mut case = grounded(lens, height);
+                // So dark that it shows, in one channel more than in the others.
+                case.shot.settings.light.shade = [0.0, 0.875, 5.0];
+                let drawn = case.draw(&mut rig);
+                let name = format!("lit-{shading:?}-{in_place}-{lens:?}-{height}");
+                check_lit(&name, &case, &config, &drawn, &|_, _, _| exact(1.0));
+            }
+            // Nothing casts: the scene, to half precision.
+            let mut none = grounded(Lens::Standard, 0.4);
+            (none.shot.positions, none.amounts, none.velocities) = Default::default();
+            let drawn = none.draw(&mut rig);
+            for (found, scene) in drawn.output.data.iter().zip(&none.shot.color) {
+                let near = scene.iter().zip(found).all(|(c, found)| is_nearly_half(*c, *found));
+                assert!(near, "{found:?}, not {scene:?}");
+            }
+        }
+    }
+}
+
+/// A mask and a map over what the fluid casts: where the scene is in shade nothing is darker.
+#[test]
+fn the_lit_scene_is_past_the_scene() {
+    let gpu = Gpu::shared();
+    for kind in [Shadows::Mask, Shadows::Map] {
+        let config = Config { shadow: Some(kind), ..casting(64) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut case = grounded(Lens::Reversed, 0.4);
+        case.shot.settings.light.shade = [0.0, 0.875, 5.0];
+        let sun = Vec3::from(case.shot.settings.light.direction);
+        let (name, view_projection, reversed) = light_views(sun, Vec3::new(2.7, 0.4, 0.0))[1];
+        let texels = Image::from_fn(8, 8, |x, y| ((x * 5 + y * 3) % 7) as f32 / 6.0);
+        let image = shadows(&rig, kind, &texels);
+        let bias = 0.05;
+        case.shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias });
+        let drawn = case.draw(&mut rig);
+        let map = ShadowMap {
+            depth: &texels,
+            view_projection: view_projection.as_dmat4(),
+            bias: f64::from(bias),
+            sun: sun.as_dvec3(),
+            reversed,
+        };
+        let past = |p: DVec3, by: f64, (x, y): (usize, usize)| match kind {
+            Shadows::Mask => {
+                exact(f64::from(texels.at((2 * x + 1) * 8 / 194, (2 * y + 1) * 8 / 122)))
+            }
+            Shadows::Map | Shadows::Convolution(_) => map.past(p, by),
+        };
+        check_lit(&format!("lit-{kind:?}-{name}"), &case, &config, &drawn, &past);
+    }
+}
+
+/// Where the sun does not come, neither its highlight on water nor the relief of foam is seen.
+#[test]
+fn highlights_and_relief_are_the_suns() {
+    let gpu = Gpu::shared();
+    let config = Config { shadow: Some(Shadows::Mask), foam: true, sheets: 2, ..config(SIZE) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = Foamy::new(SIZE, Lens::Standard, 0.0);
+    // A pane behind them all: the farther sheet shines too.
+    let pane = scenes::block(3, 0.3, [40, 28, 3], [-6.0, -4.2, 12.0]);
+    case.shot.positions.extend(scenes::world(&case.shot.camera, &pane));
+    case.amounts.resize(case.shot.positions.len(), [0.0; 2]);
+    case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
+    case.ids = None;
+    case.amounts.iter_mut().step_by(2).for_each(|amount| amount[0] = 0.0);
+    let view = case.shot.camera_view().inverse();
+    // From behind the eye: the spheres shine in their middle.
+    let sun = view.transform_vector3(DVec3::new(0.1, 0.2, 1.0)).normalize();
+    case.shot.settings.light.direction = sun.as_vec3().to_array();
+    for (lit, seen) in [(1.0, true), (0.0, false)] {
+        let (_texture, shadow) = even(&rig, lit);
+        case.shot.sun.shadow = Some(shadow);
+        let mut drawn = |specular: f32, relief: f32| {
+            case.shot.settings.water.specular = specular;
+            case.shot.settings.foam.relief = relief;
+            case.draw(&mut rig).output.data
+        };
+        let [plain, shining, raised] = [drawn(0.0, 0.0), drawn(1.0, 0.0), drawn(0.0, 0.6)];
+        assert_eq!(plain != shining, seen, "highlights, sun {lit}");
+        assert_eq!(plain != raised, seen, "relief, sun {lit}");
+    }
+}

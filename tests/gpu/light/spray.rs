@@ -1,0 +1,44 @@
+//! Spray in the sun and in the shade.
+
+use whitewater::Config;
+
+use crate::foam::Foamy;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::Rig;
+use crate::support::scenes::Lens;
+
+use super::{SIZE, even, everything};
+
+/// What of the spray the sun lights: all of it, nothing, or of each droplet the same part.
+#[test]
+fn spray_is_lit_by_the_sun_that_comes() {
+    let gpu = Gpu::shared();
+    let mut case = Foamy::new(SIZE, Lens::Standard, 10.0);
+    let config = Config { cast: None, ..everything(&mut case) };
+    case.shot.sun.region = None;
+    // So few that no two droplets share a pixel often.
+    case.shot.settings.spray.droplets = 1;
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let draw = |case: &mut Foamy, rig: &mut Rig<'_>, sun| {
+        let (_image, shadow) = even(rig, sun);
+        case.shot.sun.shadow = Some(shadow);
+        let drawn = case.draw(rig);
+        (drawn.spray.expect("spray"), drawn.lit_spray.expect("spray"), drawn.output)
+    };
+    let (all, lit, bright) = draw(&mut case, &mut rig, 1.0);
+    compare::same("spray-in-the-sun", &lit, &all);
+    let (same, lit, dark) = draw(&mut case, &mut rig, 0.0);
+    compare::same("spray", &same, &all);
+    assert!(lit.data.iter().all(|l| *l == 0.0), "spray in the shade is lit");
+    let darker = dark.data.iter().zip(&bright.data).filter(|(d, b)| d[0] < b[0]).count();
+    assert!(darker > 50, "{darker} pixels are darker in the shade");
+    let (_, lit, _) = draw(&mut case, &mut rig, 0.25);
+    let mut some = 0;
+    for (lit, all) in lit.data.iter().zip(&all.data) {
+        // Each droplet to the nearest step, of which ten at most share a pixel.
+        assert!((lit - 0.25 * all).abs() <= 10.0 * 0.75 / 512.0, "{lit} of {all}");
+        some += usize::from(*lit > 0.02);
+    }
+    assert!(some > 50, "{some} pixels with spray");
+}

@@ -1,0 +1,103 @@
+//! What must not change the light: the particles' order, the frame's size.
+
+use whitewater::water::Shading;
+use whitewater::{Config, Region};
+
+use crate::foam::Foamy;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, extent};
+use crate::support::scenes::{Lens, Random};
+use crate::support::tolerance::U;
+
+use super::lit::is_nearly_half;
+use super::{SIZE, casting, even, everything, maps, pool, toward};
+
+/// Sums in whole steps: neither maps nor pictures go by the order of the particles, bit for bit.
+#[test]
+fn the_order_of_particles_does_not_show_in_light() {
+    let gpu = Gpu::shared();
+    let mut case = Foamy::new(SIZE, Lens::Reversed, 30.0);
+    let config = everything(&mut case);
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let (_image, shadow) = even(&rig, 0.625);
+    case.shot.sun.shadow = Some(shadow);
+    let expected = case.draw(&mut rig);
+    for seed in 0..3 {
+        let drawn = permuted(&case, seed).draw(&mut rig);
+        let (a, b) = (maps(&drawn), maps(&expected));
+        compare::same("order-front", a.front, b.front);
+        compare::same_color("order-thickness", a.thickness, b.thickness);
+        compare::same("order-caustics", a.caustics, b.caustics);
+        let spray = |drawn: &Drawn| drawn.lit_spray.clone().expect("spray");
+        compare::same("order-spray", &spray(&drawn), &spray(&expected));
+        compare::same_color("order-output", &drawn.output, &expected.output);
+    }
+}
+
+/// Far from the region's middle what a texel holds times its distance has more digits than single
+/// precision: it is what it is to a rounding an addend, the thickness itself bit for bit.
+#[test]
+fn the_order_of_particles_does_not_show_in_far_light() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &casting(64), 1);
+    let mut case = pool(toward(0.2, 1.0, 0.1), 0.06, 12);
+    case.shot.sun.region = Some(Region { center: [0.0, 40.0, 0.0], radius: 45.0 });
+    let expected = case.draw(&mut rig);
+    for seed in 0..3 {
+        let drawn = permuted(&case, seed).draw(&mut rig);
+        let mut differ = 0;
+        for (a, b) in maps(&drawn).thickness.data.iter().zip(&maps(&expected).thickness.data) {
+            assert_eq!(a[..2], b[..2]);
+            differ += usize::from(a != b);
+            let most = U * case.shot.positions.len() as f64 * f64::from(b[2].abs());
+            assert!(f64::from((a[2] - b[2]).abs()) <= most, "{a:?}, not {b:?}");
+        }
+        if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+            eprintln!("order-far: {differ} texels differ");
+        }
+    }
+}
+
+/// The same particles in another order.
+fn permuted(case: &Foamy, seed: u64) -> Foamy {
+    let order = Random(seed).order(case.shot.positions.len());
+    fn turn<T: Copy>(all: &[T], order: &[usize]) -> Vec<T> {
+        order.iter().map(|i| all[*i]).collect()
+    }
+    let mut other = case.clone();
+    other.shot.positions = turn(&case.shot.positions, &order);
+    other.shot.densities = case.shot.densities.as_ref().map(|d| turn(d, &order));
+    other.amounts = turn(&case.amounts, &order);
+    other.velocities = turn(&case.velocities, &order);
+    other.ids = case.ids.as_ref().map(|ids| turn(ids, &order));
+    other
+}
+
+/// Frames of one pixel, of odd sizes and within a wider image.
+#[test]
+fn light_on_frames_of_any_size() {
+    let gpu = Gpu::shared();
+    for (width, height) in [(1, 1), (1, 7), (17, 33), (130, 9)] {
+        for composite in [Shading::Raster, Shading::Compute] {
+            let size = extent(width, height);
+            let mut case = Foamy::new(size, Lens::Reversed, 20.0);
+            case.shot.margin = [3, 1, 2, 4];
+            let config =
+                Config { extent: size, composite: Some(composite), ..everything(&mut case) };
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            let (_image, shadow) = even(&rig, 0.5);
+            case.shot.sun.shadow = Some(shadow);
+            case.draw(&mut rig);
+            (case.shot.positions, case.amounts, case.velocities) = Default::default();
+            (case.ids, case.shot.densities) = (None, None);
+            let drawn = case.draw(&mut rig);
+            for (found, scene) in drawn.output.data.iter().zip(&case.shot.color) {
+                let near = scene.iter().zip(found).all(|(c, found)| is_nearly_half(*c, *found));
+                assert!(near, "{found:?}, not {scene:?}");
+            }
+            let around = crate::support::rig::AROUND;
+            assert!(drawn.whole.data.iter().filter(|c| **c == around).count() > 8);
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! The boundaries between two sheets against the twin, which says where rounding decides.
+
+use glam::Vec3;
+
+use crate::harness::fails;
+use crate::reduce::wide;
+use crate::reference::sheets::{self, CELL, GROWN, Known, Part};
+use crate::reference::{EMPTY, Image, Sphere, is_surface};
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, extent};
+use crate::support::scenes::{self, LENSES, Lens, Random};
+use crate::support::tolerance::{self, U};
+
+use super::{of, shot, spacing, unpruned, visible};
+
+/// What the texels of frames were.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Texels {
+    touched: usize,
+    split: usize,
+    unsure: usize,
+}
+
+impl std::ops::AddAssign for Texels {
+    fn add_assign(&mut self, other: Self) {
+        self.touched += other.touched;
+        self.split += other.split;
+        self.unsure += other.unsure;
+    }
+}
+
+impl Texels {
+    /// Asserts that there were gaps, and that rounding left hardly any texel open.
+    fn suffice(&self, name: &str) {
+        assert!(self.split * 10 > self.touched, "{name}: hardly a gap in {self:?}");
+        assert!(self.unsure * 20 < self.touched, "{name}: too many are open of {self:?}");
+    }
+}
+
+/// What is known of the boundaries of a shot.
+fn judged(shot: &Shot, level: u32) -> Image<Known> {
+    let (spheres, view) = (visible(shot), shot.view(shot.size));
+    let rounded = |sphere: &Sphere| tolerance::span(sphere, &view);
+    let cells = sheets::judged(&spheres, &view, spacing(shot), rounded);
+    sheets::judged_texels(&cells, &view, level)
+}
+
+/// Asserts that the boundaries are the twin's. The sum that makes a cell's boundary adds 4u of it. Of
+/// the mean of eight cells products and sums make 9u, the quotient 5u, of that of four 5u and 5u, and
+/// of its weights 5u. Where the answer depends on rounding it must still be one of those that may come
+/// out.
+pub fn check_boundaries(name: &str, found: &Image<f32>, shot: &Shot, level: u32) -> Texels {
+    let texels = judged(shot, level);
+    assert_eq!((found.width, found.height), (texels.width, texels.height), "{name}");
+    let (mut count, mut wrong) = (Texels::default(), Vec::new());
+    for (i, (found, texel)) in found.data.iter().zip(&texels.data).enumerate() {
+        let split = is_surface(texel.boundary);
+        count.touched += usize::from(texel.touched);
+        count.split += usize::from(texel.certain && split);
+        count.unsure += usize::from(!texel.certain);
+        let found = f64::from(*found);
+        let (low, high) = (texel.low * (1.0 - 33.0 * U), texel.high * (1.0 + 33.0 * U));
+        let sound = match is_surface(found) {
+            true => texel.maybe_one && found >= low && found <= high,
+            // Exactly so: other passes compare with it.
+            false => texel.maybe_none && found == EMPTY,
+        };
+        if !sound {
+            wrong.push(format!("({}, {}): {found}, {texel:?}", i % texels.width, i / texels.width));
+        }
+    }
+    if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+        eprintln!("{name}: {count:?}");
+    }
+    let few = wrong.iter().take(8).cloned().collect::<Vec<_>>().join("\n");
+    assert!(wrong.is_empty(), "{name}: {} texels of {count:?}\n{few}", wrong.len());
+    count
+}
+
+/// The definition of the cells in single precision, as plainly as it can be put.
+fn single_precision(shot: &Shot) -> Image<f32> {
+    let view = shot.view(shot.size);
+    let (width, height) = (view.width as f32, view.height as f32);
+    let s = shot.settings.water.spacing;
+    let p = shot.camera.projection;
+    let (radius, columns) = (shot.settings.water.radius(), view.width.div_ceil(CELL));
+    let mut touching = vec![Vec::new(); columns * view.height.div_ceil(CELL)];
+    for position in &shot.positions {
+        let c = shot.camera.view.transform_point3(Vec3::from(*position));
+        let z = -c.z;
+        if z <= 1.01 * radius {
+            continue;
+        }
+        let h = z * z - radius * radius;
+        // First pixel and last.
+        let along = |across: f32, focal: f32, shift: f32, extent: f32| {
+            let reach = radius * (across * across + h).sqrt();
+            let slopes = [(across * z - reach) / h, (across * z + reach) / h];
+            let [a, b] = slopes.map(|slope| (slope * focal - shift + 1.0) * 0.5 * extent);
+            let beside = (0.35 * s * 0.5 * extent * focal.abs() / z - 4.0).max(0.0);
+            let grown = GROWN as f32 + beside;
+            let (low, high) = (a.min(b) - grown, a.max(b) + grown);
+            ((low - 0.5).ceil().max(0.0), (high - 0.5).floor().min(extent - 1.0))
+        };
+        let (left, right) = along(c.x, p.x_axis.x, p.z_axis.x, width);
+        let (top, bottom) = along(c.y, p.y_axis.y, p.z_axis.y, height);
+        if left > right || top > bottom {
+            continue;
+        }
+        for row in top as usize / CELL..=bottom as usize / CELL {
+            for column in left as usize / CELL..=right as usize / CELL {
+                touching[row * columns + column].push(z);
+            }
+        }
+    }
+    let boundary = |depths: &Vec<f32>| {
+        let nearest = depths.iter().copied().fold(f32::INFINITY, f32::min);
+        let slice = |z: f32| ((z - nearest) / (0.5 * s)).floor().clamp(0.0, 31.0) as u32;
+        let mark = |z: &f32| (slice(z - 0.75 * s)..=slice(z + 0.75 * s)).map(|k| 1_u32 << k);
+        let marks = depths.iter().flat_map(mark).fold(0, |all, mark| all | mark);
+        let marked = |k: usize| k < 32 && marks >> k & 1 == 1;
+        let next = |from: usize, of: bool| (from..32).find(|k| marked(*k) == of).unwrap_or(32);
+        let mut air = Vec::new();
+        let mut a = next(0, false);
+        while next(a, true) < 32 {
+            let (w, e) = (next(a, true), next(next(a, true), false));
+            air.push(((a + w) as f32 * 0.25 * s, e - w >= 6 || e == 32));
+            a = e;
+        }
+        let chosen = air.iter().find(|(_, body)| *body).or(air.first());
+        chosen.map_or(EMPTY as f32, |(behind, _)| nearest + behind)
+    };
+    Image {
+        width: columns,
+        height: touching.len() / columns,
+        data: touching.iter().map(boundary).collect(),
+    }
+}
+
+/// The twin's certainty is what it says: neither single precision nor anything in the slack makes
+/// another answer of a texel, and an answer that is off is seen.
+#[test]
+fn certain_texels_stay_in_all_of_the_slack() {
+    let mut random = Random(77);
+    let mut signed = |most: f64| f64::from(random.between(-1.0, 1.0)) * most;
+    let mut count = Texels::default();
+    let mut shots = near_shots().to_vec();
+    for size in [extent(96, 64), extent(160, 110), extent(33, 17), extent(192, 120)] {
+        shots.extend([Lens::Standard, Lens::OffAxis].map(|lens| shot(size, lens)));
+    }
+    for (i, shot) in shots.into_iter().enumerate() {
+        let (spheres, view) = (visible(&shot), shot.view(shot.size));
+        let level = i as u32 % 4;
+        let texels = |cells: &Image<f64>| sheets::of_texels(cells, &view, level).map(|b| *b as f32);
+        let name = format!("slack-{i}");
+        let found = texels(&wide(&single_precision(&shot)));
+        count += check_boundaries(&name, &found, &shot, level);
+        for _ in 0..20 {
+            let mut moved = |sphere: &Sphere| -> (f64, Option<Part>) {
+                let mut sphere = *sphere;
+                let slack = tolerance::span(&sphere, &view);
+                sphere.center.z -= signed(slack.depth);
+                let grown = GROWN + signed(slack.pixels);
+                (-sphere.center.z, sheets::counted(&sphere, &view, spacing(&shot), grown))
+            };
+            let moved: Vec<_> = spheres.iter().map(&mut moved).collect();
+            let other = sheets::boundaries_of(moved.into_iter(), &view, spacing(&shot));
+            check_boundaries(&name, &texels(&other), &shot, level);
+        }
+        let split = found.data.iter().position(|b| *b < 1e9).expect("a gap");
+        // A texel of one sheet, if there is any.
+        let one = found.data.iter().position(|b| *b >= 1e9).unwrap_or(split);
+        for (texel, other) in [
+            (split, EMPTY as f32),
+            (split, found.data[split] + 0.25 * shot.settings.water.spacing),
+            (split, found.data[split] * 1.0001),
+            (one, 50.0),
+            (one, f32::INFINITY),
+            (one, f32::NAN),
+        ] {
+            let mut planted = found.clone();
+            planted.data[texel] = other;
+            let seen = fails(|| {
+                check_boundaries(&name, &planted, &shot, level);
+            });
+            // Where rounding decides either answer may pass.
+            let certain = judged(&shot, level).data[texel].certain;
+            assert!(seen || !certain, "{name}: {other} in texel {texel}");
+        }
+    }
+    count.suffice("slack");
+}
+
+#[test]
+fn the_boundaries_are_the_twins() {
+    let gpu = Gpu::shared();
+    let mut count = Texels::default();
+    for (width, height) in [(96, 64), (97, 61), (160, 110), (33, 17)] {
+        let size = extent(width, height);
+        for level in 0..4 {
+            let mut rig = Rig::new(&gpu, &unpruned(size, level));
+            for lens in LENSES.into_iter().skip(level as usize).step_by(2) {
+                let shot = shot(size, lens);
+                let name = format!("boundaries-{lens:?}-{width}-{level}");
+                count += check_boundaries(&name, &of(&rig.draw(&shot)).boundaries, &shot, level);
+            }
+        }
+    }
+    count.suffice("boundaries");
+}
+
+/// Smaller spheres of thin water, and those that are set aside as spray.
+#[test]
+fn the_boundaries_are_of_the_drawn_spheres() {
+    let gpu = Gpu::shared();
+    let (size, mut count) = (extent(160, 110), Texels::default());
+    let mut rig = Rig::new(&gpu, &unpruned(size, 1));
+    for (seed, lens) in (4..).zip(LENSES) {
+        let (mut shot, mut random) = (shot(size, lens), Random(seed));
+        let densities = shot.positions.iter().map(|_| random.between(250.0, 600.0));
+        shot.densities = Some(densities.collect());
+        let drawn = rig.draw(&shot);
+        count += check_boundaries("boundaries-thin", &of(&drawn).boundaries, &shot, 1);
+    }
+    count.suffice("boundaries-thin");
+}
+
+/// Spheres round the eye, whose projections have no bounds or large ones; many layers behind them.
+fn near_shots() -> [Shot; 2] {
+    [(Lens::Standard, 90.0), (Lens::ReversedInfinite, 400.0)].map(|(lens, far)| {
+        let mut near = scenes::cloud(6, 12, 0.4, 2.0);
+        near.extend([[0.1, 0.0, 0.3], [0.0, 0.2, -0.2], [0.3, 0.1, 0.05], [0.0, 0.0, 0.495]]);
+        near.extend(scenes::block(2, 0.7, [20, 12, 2], [-7.0, -4.0, 12.0]));
+        near.extend(scenes::cloud(9, 60, 20.0, far));
+        Shot::new(extent(97, 61), lens, 0.5, &near)
+    })
+}
+
+#[test]
+fn spheres_at_the_eye_take_no_part() {
+    let gpu = Gpu::shared();
+    let mut count = Texels::default();
+    for shot in near_shots() {
+        let drawn = Rig::new(&gpu, &unpruned(shot.size, 0)).draw(&shot);
+        count += check_boundaries("boundaries-near", &of(&drawn).boundaries, &shot, 0);
+    }
+    count.suffice("boundaries-near");
+}

@@ -1,0 +1,343 @@
+//! The picture of two sheets against the twin, and the faults that its check must see.
+
+use ash::vk;
+use glam::{DVec2, DVec3, Mat4, Vec3};
+use whitewater::water::{Fresnel, Medium, Shading, Splat};
+use whitewater::{Camera, Config};
+
+use crate::composite::{FLAT, Sky, noise_look, twin_settings};
+use crate::harness::fails;
+use crate::reduce::wide;
+use crate::reference::composite::{
+    self as twin, Behind, Inputs, Two, cut_look_up, hidden, look_up_both, scene_at,
+};
+use crate::reference::noise::{Look, Ripples};
+use crate::reference::{Image, is_surface};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, extent};
+use crate::support::scenes::{self, Lens};
+use crate::support::shaded::{Filter, Shaded, shaded_both};
+use crate::support::tolerance::U;
+
+use super::back::{back_level, twins_frame};
+use super::{SPACING, of, shot, shot_of, some, two};
+
+/// A slab before a slanted one, seen from above: what is mirrored is above the horizon.
+fn slabs(size: vk::Extent2D) -> Shot {
+    let mut points = scenes::block(6, SPACING, [8, 6, 3], [-1.3, -0.7, 3.0]);
+    let slanted = scenes::block(7, SPACING, [34, 20, 4], [-4.2, -2.4, 6.0]);
+    points.extend(slanted.into_iter().map(|[x, y, z]| [x, y, z + 0.3 * x]));
+    let mut shot = shot_of(size, Lens::Standard, &points);
+    let view = Mat4::look_to_rh(Vec3::new(1.0, 9.0, 2.0), Vec3::NEG_Y, Vec3::NEG_Z);
+    shot.camera = Camera { view, ..shot.camera };
+    shot.positions = scenes::world(&shot.camera, &points);
+    shot.settings.water.specular = 0.0;
+    shot
+}
+
+/// What the twins of a picture take.
+pub struct Layers {
+    depth: Image<f64>,
+    smoothed: Image<f64>,
+    all: Image<f64>,
+    color: Image<[f64; 4]>,
+    scene: Image<f64>,
+    boundaries: Image<f64>,
+    back_surface: Image<f64>,
+    parts: Image<[f64; 3]>,
+    noise: Option<(Image<f64>, Look)>,
+}
+
+impl Layers {
+    pub fn new(drawn: &Drawn, shot: &Shot) -> Self {
+        let (width, height) = (shot.size.width as usize, shot.size.height as usize);
+        let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
+        Self {
+            depth: wide(&drawn.depth),
+            smoothed: wide(&drawn.surface),
+            all: drawn.thickness.map(|t| f64::from(*t)),
+            color: Image::from_vec(width, height, color).expect("the output's size"),
+            scene: shot.scene_eye(),
+            boundaries: wide(&of(drawn).boundaries),
+            back_surface: wide(&of(drawn).surface),
+            parts: of(drawn).thickness.map(|t| t.map(f64::from)),
+            noise: drawn.noise.as_ref().map(|image| (wide(image), noise_look(shot, image))),
+        }
+    }
+
+    pub fn inputs(&self, level: u32, thickness_level: u32) -> Inputs<'_> {
+        Inputs {
+            depth: &self.depth,
+            smoothed: &self.smoothed,
+            level,
+            thickness: &self.all,
+            thickness_level,
+            scene_color: &self.color,
+            scene_depth: &self.scene,
+            noise: self.noise.as_ref().map(|(image, look)| Ripples { image, look: *look }),
+        }
+    }
+
+    pub fn behind(&self, level: u32) -> Behind<'_> {
+        Behind {
+            boundaries: &self.boundaries,
+            thickness: &self.parts,
+            smoothed: &self.back_surface,
+            level,
+        }
+    }
+}
+
+/// How many pixels were of each kind.
+#[derive(Clone, Copy, Debug, Default)]
+struct Kinds {
+    /// No boundary, and the back sheet itself.
+    one: usize,
+    behind: usize,
+    /// The front sheet over the back one: that is there, partly, or not found.
+    both: usize,
+    partly: usize,
+    unfound: usize,
+    /// There is not only air between them.
+    touching: usize,
+    /// The surface is of the back sheet's image, in part.
+    mixed: usize,
+    unsure: usize,
+}
+
+impl std::ops::AddAssign for Kinds {
+    fn add_assign(&mut self, other: Self) {
+        self.one += other.one;
+        self.behind += other.behind;
+        self.both += other.both;
+        self.partly += other.partly;
+        self.unfound += other.unfound;
+        self.touching += other.touching;
+        self.mixed += other.mixed;
+        self.unsure += other.unsure;
+    }
+}
+
+/// Asserts that a picture under an even sky is the twin's, of the layers that were read back. Bounds
+/// and what is undecided are as in tests of `composite`.
+fn check_picture(
+    name: &str,
+    drawn: &Drawn,
+    shot: &Shot,
+    thickness_level: u32,
+    bits: u32,
+    fault: fn(&mut Layers),
+) -> Kinds {
+    let view = shot.view(shot.size);
+    let settings = twin_settings(shot, &view);
+    let back_level = back_level(name, drawn, shot);
+    let mut layers = Layers::new(drawn, shot);
+    fault(&mut layers);
+    let inputs = layers.inputs(back_level - 1, thickness_level);
+    let behind = layers.behind(back_level);
+    let (sky, falloff) = (Sky::Even.radiance(DVec3::Y), settings.falloff * settings.radius);
+    let mut expected = twin::shade_sheets(&inputs, &behind, &settings, |_| sky, &view);
+    let mut bounds = Image::new(view.width, view.height, [0.0; 4]);
+    let filter = Filter { bits, sky_slope: 0.0, sky_error: 0.0 };
+    let two = Two::new(&inputs, &behind, &settings, &view);
+    let (mut kinds, mut decisions) = (Kinds::default(), 0);
+    let pixels = (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y)));
+    for (x, y) in pixels {
+        let Some(shown) = two.at(x, y) else { continue };
+        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let (displaced, z) = look_up_both(&settings, &shown, &view, pixel);
+        let (q, asked) = cut_look_up(&inputs, z, pixel, displaced);
+        let seen = (scene_at(&inputs, q), [sky; 2]);
+        let Shaded { color, moved } =
+            shaded_both(&inputs, &behind, &settings, &shown, &view, (x, y), seen, &filter);
+        for (i, c) in color.iter().enumerate() {
+            let twin = expected.at(x, y)[i];
+            let same = (c.v - twin).abs() <= 16.0 * U * (1.0 + twin);
+            assert!(same, "{name} at ({x}, {y}): two orders, {} and {twin}, {shown:?}", c.v);
+        }
+        let moved = moved + 2.0 / f64::from(1 << bits);
+        decisions += asked.len();
+        let sides = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
+        let either_way = |q: &DVec2| {
+            let either = sides.map(|(dx, dy)| hidden(&inputs, z, *q + DVec2::new(dx, dy) * moved));
+            either.iter().any(|h| *h != either[0])
+        };
+        // Depths are means of 13u, mixed once more; the falloff a product.
+        let front = -shown.front.position.z;
+        let mut unsure = shown.front.parts.margin <= 40.0 * U * (front + falloff);
+        if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
+            let (z, scene) = (-back.surface.position.z, inputs.scene(x, y));
+            let near = 40.0 * U * (back.nearest + falloff);
+            unsure |= shown.front.parts.margin <= near || (z - scene).abs() <= 40.0 * U * z;
+        }
+        unsure |= shown.barely || asked.iter().any(either_way);
+        if unsure {
+            kinds.unsure += 1;
+            *expected.at_mut(x, y) = drawn.output.at(x, y).map(f64::from);
+        } else {
+            let kind = match &shown.back {
+                Some(back) if back.covered == 0.0 => &mut kinds.unfound,
+                Some(back) if back.covered < 1.0 => &mut kinds.partly,
+                Some(_) => &mut kinds.both,
+                None if shown.parted => &mut kinds.behind,
+                None => &mut kinds.one,
+            };
+            *kind += 1;
+            let apart = shown.back.map_or(1.0, |back| back.apart);
+            kinds.touching += usize::from(apart < 0.999);
+            kinds.mixed += usize::from(shown.front.parts.mixed > 0.01);
+        }
+        *bounds.at_mut(x, y) = [color[0].e, color[1].e, color[2].e, 0.0];
+    }
+    let census = compare::close_color(name, &drawn.output, &expected, |x, y| bounds.at(x, y));
+    if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+        eprintln!("{name}: {kinds:?}, {census}");
+    }
+    let unsure = kinds.unsure;
+    assert!(unsure * 50 <= decisions, "{name}: {unsure} undecided of {decisions} decisions");
+    kinds
+}
+
+const MEDIA: [(&str, Medium); 3] = [
+    ("pool", Medium::POOL),
+    ("milk", Medium::MILK),
+    ("none", Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] }),
+];
+
+/// An environment that is the same in all directions.
+fn even(gpu: &Gpu, config: Config) -> Rig<'_> {
+    let mut rig = Rig::new(gpu, &config);
+    let [r, g, b] = Sky::Even.radiance(DVec3::Y).as_vec3().to_array();
+    rig.environment(extent(4, 2), &[[r, g, b, 1.0]; 8]);
+    rig
+}
+
+/// A highlight that is wide, and a scene of one colour or the gradient.
+fn look(mut shot: Shot, flat: bool) -> Shot {
+    let water = &mut shot.settings.water;
+    (water.specular, water.shininess) = (0.3, 20.0);
+    // Where there is any: on the front sheet alone.
+    shot.settings.noise.foam = 1.0;
+    if flat {
+        shot.color.fill(FLAT);
+    }
+    shot
+}
+
+/// Two sheets, at all resolutions and by both ways of shading; what is not only air between them, and
+/// surfaces that only the back sheet's image has.
+#[test]
+fn the_picture_of_two_sheets_is_the_twins() {
+    let gpu = Gpu::shared();
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let size = extent(160, 100);
+    let mut kinds = Kinds::default();
+    let levels = [(0, 0), (1, 2), (2, 3), (1, 1), (0, 1), (2, 1)];
+    for (smoothing_level, thickness_level) in levels.into_iter().take(some(3)) {
+        for (way, splat) in [(Shading::Raster, Splat::Compute), (Shading::Compute, Splat::Raster)] {
+            let config = Config {
+                smoothing_level,
+                thickness_level,
+                coarsening: 0,
+                composite: Some(way),
+                thickness_splat: Some(splat),
+                noise: (way == Shading::Compute).then_some(1),
+                ..two(size)
+            };
+            let mut rig = even(&gpu, config);
+            for (scene, lens) in
+                [("torn", Lens::Standard), ("torn", Lens::OffAxis), ("slabs", Lens::Standard)]
+            {
+                for flat in [true, false] {
+                    let shot = if scene == "torn" { shot(size, lens) } else { slabs(size) };
+                    let shot = look(shot, flat);
+                    let name = format!(
+                        "picture-{smoothing_level}{thickness_level}-{way:?}-{scene}-{lens:?}-{flat}"
+                    );
+                    let drawn = rig.draw(&shot);
+                    kinds += check_picture(&name, &drawn, &shot, thickness_level, bits, |_| ());
+                }
+            }
+        }
+    }
+    let Kinds { one, behind, both, partly, unfound, touching, mixed, .. } = kinds;
+    let least = [one, behind, both, partly, unfound, touching, mixed];
+    assert!(least.iter().all(|pixels| *pixels >= 100), "{kinds:?}");
+}
+
+#[test]
+fn the_front_sheet_lies_over_the_back_one() {
+    let gpu = Gpu::shared();
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let size = extent(96, 64);
+    for way in [Shading::Raster, Shading::Compute].into_iter().take(some(1)) {
+        let mut rig = even(&gpu, Config { coarsening: 0, composite: Some(way), ..two(size) });
+        for (medium_name, medium) in MEDIA.into_iter().chain([("source", Medium::source(0.3))]) {
+            for bias in [0.0, 0.3] {
+                for flat in [true, false] {
+                    let mut shot = look(slabs(size), flat);
+                    shot.settings.water.medium = medium;
+                    shot.settings.water.fresnel = Fresnel::Source { bias, scale: 0.2, power: 2.0 };
+                    let name = format!("over-{medium_name}-{bias}-{flat}-{way:?}");
+                    let kinds = check_picture(&name, &rig.draw(&shot), &shot, 2, bits, |_| ());
+                    assert!(kinds.both > 100, "{name}: {kinds:?}");
+                }
+            }
+        }
+    }
+}
+
+/// What stands between the sheets or behind both hides and is not refracted.
+#[test]
+fn the_scene_stands_among_the_sheets() {
+    let gpu = Gpu::shared();
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let size = extent(160, 100);
+    let mut kinds = Kinds::default();
+    for (smoothing_level, thickness_level) in [(0, 0), (1, 2)] {
+        let config = Config { smoothing_level, thickness_level, coarsening: 0, ..two(size) };
+        let mut rig = even(&gpu, config);
+        for lens in [Lens::Standard, Lens::OffAxis] {
+            let mut shot = look(shot(size, lens), false);
+            shot.settings.water.refraction = 0.6;
+            shot.scene_depth(|x, y| ((x / 9 + y / 5) % 2 == 0).then_some(3.2 + f64::from(y % 9)));
+            let name = format!("among-{smoothing_level}{thickness_level}-{lens:?}");
+            kinds += check_picture(&name, &rig.draw(&shot), &shot, thickness_level, bits, |_| ());
+        }
+    }
+    assert!(kinds.unfound > 100 && kinds.both > 100, "{kinds:?}");
+}
+
+type Fault = fn(&mut Layers);
+
+/// Faults of the layers that a picture's check must see.
+const FAULTS: [(&str, Fault); 7] = [
+    ("order", |layers| layers.parts.data.iter_mut().for_each(|t| t.swap(0, 1))),
+    ("front", |layers| layers.parts.data.iter_mut().for_each(|t| t[0] *= 1.001)),
+    ("back", |layers| layers.parts.data.iter_mut().for_each(|t| t[1] *= 1.001)),
+    ("window", |layers| layers.parts.data.iter_mut().for_each(|t| t[2] *= 1.05)),
+    ("all", |layers| layers.all.data.iter_mut().for_each(|t| *t *= 1.001)),
+    ("depth", |layers| layers.back_surface.data.iter_mut().for_each(|z| *z *= 1.05)),
+    ("boundary", |layers| layers.boundaries.data.iter_mut().for_each(|b| *b -= 1.0)),
+];
+
+/// The checker of the picture passes the twins' own, and sees what is off by little.
+#[test]
+fn a_planted_fault_of_the_picture_is_seen() {
+    let size = extent(160, 100);
+    for (smoothing_level, thickness_level) in [(0, 0), (1, 2)] {
+        for flat in [true, false].into_iter().take(some(1)) {
+            let shot = look(shot(size, Lens::Standard), flat);
+            let drawn = twins_frame(&shot, smoothing_level, thickness_level);
+            let check = |fault| {
+                check_picture("planted-picture", &drawn, &shot, thickness_level, 8, fault);
+            };
+            check(|_| ());
+            for (name, fault) in FAULTS {
+                let seen = fails(|| check(fault));
+                assert!(seen, "{name} passes at {smoothing_level}{thickness_level}, {flat}");
+            }
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! The thickness of each sheet against the twin, and boundaries where there is nothing to tell apart.
+
+use whitewater::Config;
+use whitewater::water::Splat;
+
+use crate::harness::fails;
+use crate::reduce::wide;
+use crate::reference::sheets;
+use crate::reference::{EMPTY, Image, Sphere, View, is_surface};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Sheets, Shot, extent};
+use crate::support::scenes::{LENSES, Lens};
+use crate::support::tolerance::{self, Between, Sum, U};
+
+use super::{of, shot, spacing, two, unpruned, visible};
+
+/// Whether a sphere surely belongs, and whether it may belong, to the back sheet: its depth is
+/// rounded, the boundary is as it was read.
+pub fn is_behind(sphere: &Sphere, boundary: f64, view: &View) -> (bool, bool) {
+    let (z, e) = (-sphere.center.z, tolerance::eye_space(sphere.center, view));
+    (z - e >= boundary, z + e >= boundary)
+}
+
+/// Least and greatest shares of a splat: in the front sheet, in the back one and in the window. Each
+/// falls or rises with the depth, which is rounded with its differences from the boundary; the cubic
+/// makes 5u, of a quotient of 5u that counts one and a half times, the difference from 1 one more.
+fn share_bounds(sphere: &Sphere, boundary: f64, spacing: f64, view: &View) -> [(f64, f64); 3] {
+    let z = -sphere.center.z;
+    let e = tolerance::eye_space(sphere.center, view) + 4.0 * U * (z + boundary + spacing);
+    let front = |z: f64| sheets::shares(z, boundary, spacing).0;
+    let window = |away: f64| sheets::shares(boundary + away.max(0.0), boundary, spacing).1;
+    let away = (z - boundary).abs();
+    // What is cut to 0 or 1 rounds nothing.
+    let open = |(low, high): (f64, f64)| match (low, high) {
+        (_, 0.0) => (0.0, 0.0),
+        (1.0, _) => (1.0, 1.0),
+        _ => ((low - 14.0 * U).max(0.0), (high + 14.0 * U).min(1.0)),
+    };
+    let (least, most) = (front(z + e), front(z - e));
+    [(least, most), (1.0 - most, 1.0 - least), (window(away + e), window(away - e))].map(open)
+}
+
+/// Bounds of the thickness of the front sheet, of the back one and of the window, by the boundaries
+/// that were found; of no texel without one.
+fn thickness_bounds(shot: &Shot, boundaries: &Image<f32>, level: u32, sum: Sum) -> [Between; 3] {
+    let (spheres, view, boundaries) = (visible(shot), shot.view(shot.size), wide(boundaries));
+    [0, 1, 2].map(|i| {
+        let rest = i == 1 && sum == Sum::Fixed;
+        tolerance::thickness_where(
+            &spheres,
+            &view,
+            level,
+            &shot.scene_at(shot.size, level),
+            spacing(shot).powi(3),
+            f64::from(shot.settings.water.radius()),
+            if rest { Sum::FixedRest } else { sum },
+            |x, y, sphere| match boundaries.at(x, y) {
+                boundary if is_surface(boundary) => {
+                    share_bounds(sphere, boundary, spacing(shot), &view)[i]
+                }
+                _ => (0.0, 0.0),
+            },
+        )
+    })
+}
+
+/// Asserts that all water is the twin's and each part of it, by the boundaries that were found;
+/// returns how many texels hold water of both sheets.
+pub fn check_thickness(
+    name: &str,
+    all: &Image<f32>,
+    found: &Sheets,
+    shot: &Shot,
+    level: u32,
+    sum: Sum,
+) -> usize {
+    let (spheres, view) = (visible(shot), shot.view(shot.size));
+    let bounds = tolerance::thickness(
+        &spheres,
+        &view,
+        level,
+        &shot.scene_at(shot.size, level),
+        spacing(shot).powi(3),
+        f64::from(shot.settings.water.radius()),
+        sum,
+    );
+    compare::between(&format!("{name}-all"), all, &bounds);
+    let bounds = thickness_bounds(shot, &found.boundaries, level, sum);
+    let parts = ["front", "back", "window"];
+    for (i, (part, mut bounds)) in parts.into_iter().zip(bounds).enumerate() {
+        for (j, boundary) in found.boundaries.data.iter().enumerate() {
+            let all = f64::from(all.data[j]);
+            let (low, high) = (&mut bounds.low.data[j], &mut bounds.high.data[j]);
+            if is_surface(f64::from(*boundary)) {
+                // A difference of two sums, each rounded once.
+                let rounding = if i == 1 { 2.0 * U * all } else { 0.0 };
+                (*low, *high) = ((*low - rounding).max(0.0), *high + rounding);
+                continue;
+            }
+            // One sheet: the same sums; blended, each of as many roundings as there are splats.
+            let whole = [all, 0.0, sheets::ONE_SHEET * all][i];
+            let rounding = match (sum, i) {
+                (Sum::Float, 2) => 2.0 * spheres.len() as f64 * U * whole,
+                (_, 2) => U * whole,
+                _ => 0.0,
+            };
+            (*low, *high) = (whole - rounding, whole + rounding);
+        }
+        let found = found.thickness.map(|texel| texel[i]);
+        compare::between(&format!("{name}-{part}"), &found, &bounds);
+    }
+    let both = found.thickness.data.iter().filter(|[x, y, _]| *x > 0.0 && *y > 0.0);
+    both.count()
+}
+
+#[test]
+fn each_sheets_thickness_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for (splat, sum) in [(Splat::Raster, Sum::Float), (Splat::Compute, Sum::Fixed)] {
+        for level in 0..4 {
+            let (thickness_splat, thickness_level) = (Some(splat), level);
+            let config = Config { thickness_splat, thickness_level, ..two(size) };
+            let mut rig = Rig::new(&gpu, &config);
+            let lenses = if level == 1 { &LENSES[..] } else { &[Lens::Reversed, Lens::OffAxis] };
+            for lens in lenses {
+                let mut shot = shot(size, *lens);
+                let name = format!("sheets-thickness-{splat:?}-{level}-{lens:?}");
+                let drawn = rig.draw(&shot);
+                let both = check_thickness(&name, &drawn.thickness, of(&drawn), &shot, level, sum);
+                // A tenth of the picture.
+                assert!(both * 10 > drawn.thickness.data.len(), "{name}: {both} texels of both");
+                shot.scene_depth(|x, y| {
+                    ((x / 9 + y / 5) % 2 == 0).then_some(2.0 + f64::from(y % 9))
+                });
+                let drawn = rig.draw(&shot);
+                let name = format!("{name}-cut");
+                check_thickness(&name, &drawn.thickness, of(&drawn), &shot, level, sum);
+            }
+        }
+    }
+}
+
+/// Asserts that the boundaries are those that were found, but where all water is of one sheet;
+/// returns of how many texels that was.
+fn check_pruned(
+    name: &str,
+    pruned: &Image<f32>,
+    found: &Image<f32>,
+    shot: &Shot,
+    level: u32,
+) -> [usize; 2] {
+    let [front, back, _] = thickness_bounds(shot, found, level, Sum::Fixed);
+    let (mut gone, mut kept) = (0, 0);
+    for (i, (pruned, found)) in pruned.data.iter().zip(&found.data).enumerate() {
+        let at = (i % front.low.width, i / front.low.width);
+        if f64::from(*found) == EMPTY || f64::from(*pruned) != EMPTY {
+            assert_eq!(pruned.to_bits(), found.to_bits(), "{name} at {at:?}: another boundary");
+        }
+        if f64::from(*found) == EMPTY {
+            continue;
+        }
+        // All of the addends may round to nothing, and what lies between the bounds.
+        let none = front.low.data[i] == 0.0 || back.low.data[i] == 0.0;
+        let some = front.high.data[i] > 0.0 && back.high.data[i] > 0.0;
+        match f64::from(*pruned) == EMPTY {
+            true => assert!(none, "{name} at {at:?}: two sheets made one"),
+            false => assert!(some, "{name} at {at:?}: one sheet parted"),
+        }
+        gone += usize::from(!some);
+        kept += usize::from(!none);
+    }
+    [gone, kept]
+}
+
+#[test]
+fn where_nothing_is_to_be_told_apart_there_is_one_sheet() {
+    let gpu = Gpu::shared();
+    let size = extent(160, 110);
+    let (mut gone, mut kept) = (0, 0);
+    for level in 0..4 {
+        let config = unpruned(size, level);
+        let mut found = Rig::new(&gpu, &config);
+        let compute = Config { thickness_splat: Some(Splat::Compute), ..config };
+        let mut pruned = Rig::new(&gpu, &compute);
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            let shot = shot(size, lens);
+            let [found, pruned] = [&mut found, &mut pruned].map(|rig| rig.draw(&shot));
+            let [found, pruned] = [&found, &pruned].map(|drawn| &of(drawn).boundaries);
+            let name = format!("pruned-{level}-{lens:?}");
+            let [some_gone, some_kept] = check_pruned(&name, pruned, found, &shot, level);
+            gone += some_gone;
+            kept += some_kept;
+            let planted = |from: f32, to: f32| {
+                let at = |i: &usize| pruned.data[*i] == from && found.data[*i] != from;
+                let Some(i) = (0..found.data.len()).find(at) else { return };
+                let mut planted = pruned.clone();
+                planted.data[i] = to;
+                let seen = fails(|| {
+                    check_pruned(&name, &planted, found, &shot, level);
+                });
+                assert!(seen, "{name}: {to} in texel {i}");
+            };
+            planted(EMPTY as f32, 5.0);
+        }
+    }
+    assert!(gone > 100 && kept > 100, "{gone} texels were of one sheet, {kept} of two");
+}

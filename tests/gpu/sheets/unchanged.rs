@@ -1,0 +1,285 @@
+//! What must not change the picture: order, chunks, unit, size, an earlier frame, a gap far away.
+
+use ash::vk;
+use whitewater::Config;
+use whitewater::water::{Gate, Shading, Smoothing, Splat};
+
+use crate::invariants::{exact, same_drawn, scaled};
+use crate::reference::{EMPTY, Image, is_surface};
+use crate::shading::close;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, OUTPUT, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens, Random};
+use crate::support::tolerance::Sum;
+
+use super::back::{back_level, check_back};
+use super::boundaries::check_boundaries;
+use super::thickness::check_thickness;
+use super::{
+    SPACING, drop_at, gaps, of, pool, same_where, shot, shot_of, some, two, unpruned, unsmoothed,
+};
+
+#[test]
+fn one_sheet_is_the_default_where_there_is_no_gap() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    assert_eq!(Config::new(size, vk::Format::R16G16B16A16_SFLOAT, 1).sheets, 2);
+    let points = scenes::block(3, 0.25, [14, 8, 4], [-1.8, -1.0, 4.0]);
+    let levels = [(1, 2), (0, 0), (2, 1), (1, 1), (0, 3)];
+    for (smoothing_level, thickness_level) in levels.into_iter().take(some(2)) {
+        for way in [Shading::Raster, Shading::Compute] {
+            let base =
+                Config { smoothing_level, thickness_level, composite: Some(way), ..config(size) };
+            let mut rigs = [1, 2].map(|sheets| Rig::lit(&gpu, &Config { sheets, ..base }, 1));
+            for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+                let shot = Shot::new(size, lens, 0.2, &points);
+                let [one, two] = rigs.each_mut().map(|rig| {
+                    // The second frame starts from what the first one left.
+                    rig.draw(&shot);
+                    rig.draw(&shot)
+                });
+                let name = format!("one-sheet-{smoothing_level}{thickness_level}-{way:?}-{lens:?}");
+                let none = of(&two).boundaries.data.iter().all(|b| f64::from(*b) == EMPTY);
+                assert!(none, "{name}: a gap");
+                same_drawn(&name, &two, &one);
+                let all = one.thickness.map(|t| [*t, 0.0, 1e6 * t, 1.0]);
+                let found = of(&two).thickness.map(|[x, y, z]| [*x, *y, *z, 1.0]);
+                compare::same_color(&format!("{name}-parts"), &found, &all);
+                assert!(one.sheets.is_none(), "{name}: boundaries of one sheet");
+                assert_eq!(one.levels.level[2].texel[3], 0.0, "{name}: a back sheet in use");
+            }
+        }
+    }
+}
+
+/// The farthest, in pixels, that what a pixel shows may come from by the smoothing of the front
+/// image: a texel an iteration, and those round it that the surface is rebuilt of.
+fn smoothing_reach(drawn: &Drawn) -> u32 {
+    let most = drawn.plan.data.iter().map(|p| p & 511).max().unwrap_or(0);
+    (most + 3) * drawn.levels.finer().texel[2] as u32
+}
+
+/// The pixels farther than 64 from all texels with two sheets.
+fn far_from_gaps(boundaries: &Image<f32>, level: u32, width: usize, height: usize) -> Image<bool> {
+    const FAR: usize = 64;
+    let mut far = Image::new(width, height, true);
+    for (i, boundary) in boundaries.data.iter().enumerate() {
+        if !is_surface(f64::from(*boundary)) {
+            continue;
+        }
+        let (x, y, edge) =
+            ((i % boundaries.width) << level, (i / boundaries.width) << level, 1 << level);
+        for row in y.saturating_sub(FAR)..(y + edge + FAR).min(height) {
+            for column in x.saturating_sub(FAR)..(x + edge + FAR).min(width) {
+                *far.at_mut(column, row) = false;
+            }
+        }
+    }
+    far
+}
+
+/// What is in front of the pool somewhere is no matter elsewhere.
+#[test]
+fn a_drop_before_a_pool_leaves_the_rest_as_it_is() {
+    let gpu = Gpu::shared();
+    let size = extent(320, 192);
+    let (mut drop, pool) = (drop_at(&mut Random(3), [-0.9, -0.45, 2.6]), pool(0.0));
+    drop.extend(&pool);
+    for way in [Shading::Raster, Shading::Compute] {
+        let config = Config {
+            // Sums of integers: blending rounds in the order of the particles.
+            thickness_splat: Some(Splat::Compute),
+            composite: Some(way),
+            coarsening: 0,
+            ..two(size)
+        };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let [without, with] = [&pool, &drop].map(|points| {
+            let mut shot = shot_of(size, Lens::Standard, points);
+            shot.settings.water.smoothing_width = 0.5;
+            let drawn = rig.draw(&shot);
+            let reach = smoothing_reach(&drawn);
+            assert!(reach <= 64, "the smoothing reaches {reach} pixels");
+            drawn
+        });
+        let name = format!("drop-{way:?}");
+        let far = |drawn: &Drawn| far_from_gaps(&of(drawn).boundaries, 2, 320, 192);
+        let (before, after) = (far(&without), far(&with));
+        let fewer = before.data.iter().filter(|far| **far).count();
+        let more = after.data.iter().filter(|far| **far).count();
+        assert!(fewer > more, "{name}: no gap at the drop");
+        let both = Image::from_fn(320, 192, |x, y| before.at(x, y) && after.at(x, y));
+        let water = (0..both.data.len())
+            .filter(|i| both.data[*i] && is_surface(f64::from(with.depth.data[*i])))
+            .count();
+        assert!(water > 4000, "{name}: {water} pixels of the pool are away from it");
+        same_where(&name, &with.depth, &without.depth, &both);
+        for channel in 0..4 {
+            let of = |drawn: &Drawn| drawn.output.map(|c| c[channel]);
+            same_where(&name, &of(&with), &of(&without), &both);
+        }
+        let near = with.output.data.iter().zip(&without.output.data).filter(|(a, b)| a != b);
+        assert!(near.count() > 100, "{name}: the drop is not seen");
+    }
+}
+
+#[test]
+fn the_order_of_the_particles_is_no_matter() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let shot = shot(size, Lens::OffAxis);
+    let order = Random(99).order(shot.positions.len());
+    let positions = order.iter().map(|i| shot.positions[*i]).collect();
+    let mixed = Shot { positions, ..shot.clone() };
+    let mut rig = Rig::lit(&gpu, &Config { sheets: 2, ..exact(size) }, 1);
+    let (first, second) = (rig.draw(&shot), rig.draw(&mixed));
+    same_drawn("sheets-permutation", &second, &first);
+}
+
+/// The stride there may be decides how many particles are worked on at a time.
+#[test]
+fn chunks_do_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let shot = shot(size, Lens::OffAxis);
+    let mut few = shot.clone();
+    few.positions.truncate(100);
+    for splat in [Splat::Compute, Splat::Raster] {
+        let config = Config { depth_splat: Some(splat), sheets: 2, ..exact(size) };
+        for max_stride in [1 << 17, 1 << 19] {
+            let [whole, chunks] = [config, Config { max_stride, ..config }].map(|config| {
+                let mut rig = Rig::lit(&gpu, &config, 1);
+                [rig.draw(&shot), rig.draw(&few), rig.draw(&shot)]
+            });
+            for (i, (found, expected)) in chunks.iter().zip(&whole).enumerate() {
+                let name = format!("sheets-chunks-{splat:?}-{max_stride}-{i}");
+                same_drawn(&name, found, expected);
+            }
+        }
+    }
+}
+
+const TINY: [(u32, u32); 6] = [(96, 64), (1, 1), (1, 7), (3, 5), (17, 33), (8, 8)];
+
+#[test]
+fn no_particles_are_no_sheet() {
+    let gpu = Gpu::shared();
+    for (width, height) in TINY {
+        let size = extent(width, height);
+        for way in [Shading::Raster, Shading::Compute] {
+            let mut rig = Rig::lit(&gpu, &Config { composite: Some(way), ..two(size) }, 1);
+            let mut none = shot(size, Lens::Standard);
+            none.positions.clear();
+            // Another frame's water must not come back.
+            rig.draw(&shot(size, Lens::Standard));
+            let drawn = rig.draw(&none);
+            let (width, height) = (width as usize, height as usize);
+            let scene = Image { width, height, data: none.color.clone() };
+            compare::same_color(&format!("sheets-zero-{width}-{way:?}"), &drawn.output, &scene);
+            assert!(of(&drawn).boundaries.data.iter().all(|b| f64::from(*b) == EMPTY));
+            assert!(of(&drawn).thickness.data.iter().all(|t| *t == [0.0; 3]));
+            assert!(of(&drawn).surface.data.iter().all(|z| f64::from(*z) == EMPTY));
+        }
+    }
+}
+
+#[test]
+fn small_images_have_sheets_too() {
+    let gpu = Gpu::shared();
+    for (width, height) in TINY {
+        let size = extent(width, height);
+        let levels = [(1, 2), (0, 0), (2, 3)];
+        for (smoothing_level, thickness_level) in levels.into_iter().take(some(1)) {
+            let config = Config { smoothing_level, ..unpruned(size, thickness_level) };
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            // A drop before a wall.
+            let mut points = scenes::block(5, SPACING, [24, 16, 2], [-3.0, -2.0, 5.0]);
+            points.extend(drop_at(&mut Random(8), [0.05, 0.0, 2.0]));
+            let shot = unsmoothed(&shot_of(size, Lens::Reversed, &points));
+            let drawn = rig.draw(&shot);
+            let name = format!("tiny-{width}x{height}-{smoothing_level}{thickness_level}");
+            check_boundaries(&name, &of(&drawn).boundaries, &shot, thickness_level);
+            assert!(gaps(&drawn) > 0, "{name}: no gap");
+            let (all, level) = (&drawn.thickness, back_level(&name, &drawn, &shot));
+            check_thickness(&name, all, of(&drawn), &shot, thickness_level, Sum::Float);
+            check_back(&name, &drawn.depth, of(&drawn), &shot, thickness_level, level);
+            for (color, depth) in drawn.output.data.iter().zip(&drawn.depth.data) {
+                let sound =
+                    color.iter().all(|v| v.is_finite()) && (*depth >= 1e9 || color[3] == 1.0);
+                assert!(sound, "{name}: {color:?}");
+            }
+        }
+    }
+}
+
+/// A frame looks the same whatever was drawn before it.
+#[test]
+fn what_an_earlier_frame_left_is_not_seen() {
+    let gpu = Gpu::shared();
+    let size = extent(320, 192);
+    let mut points = drop_at(&mut Random(3), [-0.9, -0.45, 2.6]);
+    points.extend(pool(0.0));
+    // Sheets everywhere, at other depths.
+    let mut other = scenes::block(1, 0.4, [16, 10, 1], [-3.0, -2.0, 2.0]);
+    other.extend(scenes::block(2, 0.4, [40, 26, 1], [-8.0, -5.0, 7.0]));
+    let other = Shot::new(size, Lens::OffAxis, 0.3, &other);
+    for (smoothing, smoothing_width) in [
+        (Smoothing::Tiles, 0.5),
+        (Smoothing::Tiles, 2.0),
+        (Smoothing::Fused, 2.0),
+        (Smoothing::Query(Gate::VertexCull), 2.0),
+    ] {
+        let config =
+            Config { smoothing: Some(smoothing), smoothing_level: 0, coarsening: 0, ..two(size) };
+        let mut shot = shot_of(size, Lens::Standard, &points);
+        shot.settings.water.smoothing_width = smoothing_width;
+        let fresh = Rig::lit(&gpu, &config, 1).draw(&shot);
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        rig.draw(&other);
+        let drawn = rig.draw(&shot);
+        let name = format!("earlier-{smoothing:?}-{smoothing_width}").replace(['(', ')'], "");
+        assert!(gaps(&drawn) > 10, "{name}: no gap");
+        let undrawn = of(&drawn).surface.data.iter().filter(|z| f64::from(**z) == EMPTY);
+        assert!(undrawn.count() > 500, "{name}: sheets everywhere");
+        same_drawn(&name, &drawn, &fresh);
+    }
+}
+
+/// Powers of two scale every number without rounding.
+#[test]
+fn the_unit_of_length_does_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::lit(&gpu, &Config { sheets: 2, ..exact(size) }, 1);
+    let shot = shot(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    assert!(gaps(&expected) > 10);
+    for scale in [1024.0, 1.0 / 1024.0] {
+        let drawn = rig.draw(&scaled(&shot, scale));
+        let same = |a: &f32, b: &f32| *a == *b * scale || (*a >= 1e9 && *b >= 1e9);
+        let [found, wanted] = [&drawn, &expected].map(|drawn| &of(drawn).boundaries.data);
+        assert!(found.iter().zip(wanted).all(|(a, b)| same(a, b)), "boundaries at {scale}");
+        compare::same_color(&format!("sheets-unit-{scale}"), &drawn.output, &expected.output);
+    }
+}
+
+#[test]
+fn both_ways_of_shading_give_the_same_picture() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let levels = [(0, 2), (1, 1), (0, 0), (2, 3)];
+    for (smoothing_level, thickness_level) in levels.into_iter().take(some(2)) {
+        let mut rigs = [Shading::Raster, Shading::Compute].map(|way| {
+            let levels = Config { smoothing_level, thickness_level, ..two(size) };
+            Rig::lit(&gpu, &Config { composite: Some(way), ..levels }, 1)
+        });
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            let shot = shot(size, lens);
+            let [drawn, stored] = rigs.each_mut().map(|rig| rig.draw(&shot));
+            let name = format!("sheets-ways-{smoothing_level}{thickness_level}-{lens:?}");
+            close(&name, OUTPUT, &stored, &drawn);
+            assert!(gaps(&drawn) > 10, "{name}: no gaps");
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! The composite of two sheets: the front one over the back one over the scene, with what of the air
+//! between them is there (not in the source).
+
+use glam::{DVec2, DVec3};
+
+use super::super::surface::{Surface, Surfaces};
+use super::super::{Image, View, is_surface, smoothstep};
+
+use super::{Inputs, Settings, before, bent, cut_look_up, displacement, scene_at};
+
+/// What a frame with two sheets has besides the [`Inputs`], whose thickness is that of all water.
+#[derive(Clone, Copy, Debug)]
+pub struct Behind<'a> {
+    /// The depth between the sheets, for each texel of the thickness.
+    pub boundaries: &'a Image<f64>,
+    /// Thickness of the front sheet, of the back one and of the window between them.
+    pub thickness: &'a Image<[f64; 3]>,
+    /// The smoothed depth of the back sheet at its level.
+    pub smoothed: &'a Image<f64>,
+    /// That level.
+    pub level: u32,
+}
+
+/// The sheet behind the surface of a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Back {
+    /// Its thickness is T2.
+    pub surface: Surface,
+    /// How much of the pixel it is found in, whole, and how much air there is before it.
+    pub covered: f64,
+    pub apart: f64,
+    /// Depth of the nearest of the four texels round the pixel.
+    pub nearest: f64,
+}
+
+impl Back {
+    /// How much of its mirror image and highlight shows.
+    pub fn part(&self) -> f64 {
+        self.covered * self.apart
+    }
+}
+
+/// What a pixel shows.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    pub front: Surface,
+    pub back: Option<Back>,
+    /// The texels that its thickness is of, with their weights.
+    pub texels: Vec<(usize, usize, f64)>,
+    /// Thickness by sheets: not of all water alone.
+    pub parted: bool,
+    /// What lies in the window, but neither is no water nor tells the sheets apart, decides.
+    pub barely: bool,
+}
+
+/// How much of the water in the window is air.
+pub fn air(window: f64, spacing: f64) -> f64 {
+    1.0 - smoothstep(0.1 * spacing, 0.6 * spacing, window)
+}
+
+/// How much of the air between two sheets so far apart is left to tell them apart.
+pub fn open(gap: f64, spacing: f64) -> f64 {
+    smoothstep(1.0, 4.0, gap / spacing)
+}
+
+/// The two images of surfaces of a frame with two sheets, ready to be asked pixel by pixel.
+pub struct Two<'a> {
+    inputs: Inputs<'a>,
+    behind: Behind<'a>,
+    spacing: f64,
+    fronts: Surfaces<'a>,
+    backs: Surfaces<'a>,
+}
+
+impl<'a> Two<'a> {
+    pub fn new(
+        inputs: &Inputs<'a>,
+        behind: &Behind<'a>,
+        settings: &Settings,
+        view: &'a View,
+    ) -> Self {
+        let Behind { smoothed, level, .. } = *behind;
+        Self {
+            inputs: *inputs,
+            behind: *behind,
+            spacing: settings.radius / 0.656,
+            fronts: Surfaces::new(inputs, settings, view),
+            backs: Surfaces::new(
+                &Inputs { smoothed, level, noise: None, ..*inputs },
+                settings,
+                view,
+            ),
+        }
+    }
+
+    /// What a pixel shows, if there is water.
+    pub fn at(&self, x: usize, y: usize) -> Option<Shown> {
+        let Behind { boundaries, thickness, .. } = self.behind;
+        let Self { inputs, fronts, backs, .. } = self;
+        let one = fronts.at(x, y)?;
+        let (f, mut margin) = (inputs.depth.at(x, y), one.parts.margin);
+        let mut smooth = fronts.smooth(x, y, f, &mut margin);
+        let (texels, borrowed) = fronts.texels_of_thickness(x, y, smooth.z, &mut margin);
+        let level = inputs.thickness_level;
+        let boundary = boundaries.at(x >> level, y >> level);
+        let parted = is_surface(boundary);
+        let (mut t, mut apart, mut t2, mut barely) = (one.parts.full, 0.0, 0.0, false);
+        if parted {
+            t = 0.0;
+            for (i, j, weight) in texels.iter().copied() {
+                let [front, back, window] = thickness.at(i, j);
+                let air = air(window, self.spacing);
+                let before = f < boundaries.at(i, j);
+                let (own, other) = if before { (front, back) } else { (back, front) };
+                t += weight * (own + (1.0 - air) * other);
+                apart += weight * air;
+                t2 += weight * air * back;
+                barely |= air > 0.0 && air < 1e-4;
+            }
+        }
+        let mut back = None;
+        let mut mixed = 0.0;
+        if parted && f < boundary && t2 > 0.0 {
+            let nearest = backs.nearest(x, y);
+            let there = is_surface(nearest);
+            let own = if there { nearest } else { f };
+            let found = backs.smooth(x, y, own, &mut margin);
+            // As the air between closes they become one.
+            let open = if there { open(found.z - smooth.z - t, self.spacing) } else { 1.0 };
+            t += (1.0 - open) * t2;
+            (t2, apart) = (open * t2, open * apart);
+            let mut surface = backs.made_of((x, y), &found, t2, None, f64::INFINITY);
+            // Without a depth of its own it has all the room.
+            surface.thickness = if there { surface.thickness } else { t2 };
+            let hidden = found.z >= inputs.scene(x, y);
+            let covered = if there && !hidden { found.found } else { 0.0 };
+            back = Some(Back { surface, covered, apart, nearest });
+        } else if fronts.is_covered(x, y, f, &mut margin) {
+            let behind = backs.smooth(x, y, f, &mut margin);
+            mixed = (1.0 - smooth.found) * behind.found;
+            // Slopes per texel of the front image.
+            let finer = 0.5_f64.powi(self.behind.level as i32 - inputs.level as i32);
+            let slopes = behind.slope.map(|slope| slope * finer);
+            smooth.found += mixed;
+            smooth.z += mixed * (behind.z - smooth.z);
+            let [slope, rises] = smooth.slope;
+            let turned = slopes[0] - slope;
+            smooth.slope = [slope + mixed * turned, rises.lerp(slopes[1], mixed) + turned.abs()];
+            barely |= mixed > 0.0 && parted && t2 > 0.0 && t2 < 1e-6 * self.spacing;
+        }
+        let mut front = fronts.made_of((x, y), &smooth, t, Some(f), margin);
+        (front.parts.borrowed, front.parts.mixed) = (borrowed, mixed);
+        Some(Shown { front, back, texels, parted, barely })
+    }
+}
+
+/// Where the scene is looked up through both sheets, before it is cut, and the depth that nothing may
+/// stand before.
+pub fn look_up_both(settings: &Settings, shown: &Shown, view: &View, pixel: DVec2) -> (DVec2, f64) {
+    let (mut by, mut z) = (displacement(settings, &shown.front, view), -shown.front.position.z);
+    // What hides it at the pixel hides all of it.
+    if let Some(back) = shown.back.filter(|back| is_surface(back.nearest)) {
+        by += back.covered * displacement(settings, &back.surface, view);
+        z = z.max(z + (-back.surface.position.z - z) * back.apart);
+    }
+    (pixel + bent(by, view), z)
+}
+
+/// The colour of a pixel that shows water: the front sheet over the back one over the scene, which is
+/// looked up once, by the sum of both offsets. The back sheet is no drop.
+pub fn shade_shown(
+    inputs: &Inputs<'_>,
+    shown: &Shown,
+    settings: &Settings,
+    env: impl Fn(DVec3) -> DVec3,
+    view: &View,
+    pixel: DVec2,
+) -> DVec3 {
+    let (displaced, z) = look_up_both(settings, shown, view, pixel);
+    let (q, _) = cut_look_up(inputs, z, pixel, displaced);
+    let mut color = scene_at(inputs, q);
+    if let Some(back) = &shown.back {
+        color = before(settings, &back.surface, back.part(), color, &env, view);
+    }
+    before(settings, &shown.front, 1.0, color, &env, view)
+}
+
+/// The picture of two sheets.
+pub fn shade_sheets(
+    inputs: &Inputs<'_>,
+    behind: &Behind<'_>,
+    settings: &Settings,
+    env: impl Fn(DVec3) -> DVec3 + Sync,
+    view: &View,
+) -> Image<[f64; 4]> {
+    let two = Two::new(inputs, behind, settings, view);
+    Image::from_fn(view.width, view.height, |x, y| {
+        let Some(shown) = two.at(x, y) else {
+            return inputs.scene_color.at(x, y);
+        };
+        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        shade_shown(inputs, &shown, settings, &env, view, pixel).extend(1.0).to_array()
+    })
+}

@@ -1,0 +1,319 @@
+//! What a frame gave: the picture and every kept layer, read back.
+
+use ash::vk;
+use whitewater::{HostImage, Layer, Recorded, SmoothingLevel, SmoothingLevels};
+
+use super::Rig;
+use crate::reference::Image;
+use crate::support::host;
+
+/// What a frame gave.
+#[derive(Clone)]
+pub struct Drawn {
+    pub output: Image<[f32; 4]>,
+    /// The output's image with what lies beside the view.
+    pub whole: Image<[f32; 4]>,
+    pub depth: Image<f32>,
+    /// Of the finest level in use.
+    pub surface: Image<f32>,
+    pub plan: Image<u32>,
+    /// Of the coarser level, while it fades in.
+    pub coarser: Option<(Image<f32>, Image<u32>)>,
+    pub levels: SmoothingLevels,
+    /// Of all water.
+    pub thickness: Image<f32>,
+    /// With two sheets.
+    pub sheets: Option<Sheets>,
+    /// With foam.
+    pub foam: Option<Foaming>,
+    /// Optical depth, with spray.
+    pub spray: Option<Image<f32>>,
+    /// What of it the sun lights.
+    pub lit_spray: Option<Image<f32>>,
+    /// With motion vectors.
+    pub motion: Option<Image<[f32; 2]>>,
+    /// Height of the surface noise, where it is drawn.
+    pub noise: Option<Image<f32>>,
+    /// The light's maps: metres along the light to the first fluid; metres of water and foam, and both
+    /// times where they lie; light over what comes without water.
+    pub light_front: Option<Image<f32>>,
+    /// As above.
+    pub light_thickness: Option<Image<[f32; 4]>>,
+    /// As above.
+    pub caustics: Option<Image<f32>>,
+    /// The host's shadow map as a Fourier basis, all pages.
+    pub shadow_basis: Option<Image<[f32; 4]>>,
+    pub work: Work,
+}
+
+/// What a frame worked on.
+#[derive(Clone, Debug, Default)]
+pub struct Work {
+    /// Particles on the screen, and those of them that can show.
+    pub visible: u32,
+    pub front: u32,
+    /// Particles dropped for their positions, and set aside as spray.
+    pub dropped: u32,
+    pub set_aside: u32,
+    /// Tiles with water; then those that iteration 1, 2, … runs over.
+    pub tiles: Vec<u32>,
+}
+
+/// What a frame with foam gave besides.
+#[derive(Clone)]
+pub struct Foaming {
+    pub depth: Image<f32>,
+    /// Of all foam, and of what lies right behind the frontmost.
+    pub thickness: Image<[f32; 2]>,
+    /// What of the second the sun lights, where something casts shadows.
+    pub lit: Option<Image<f32>>,
+    /// Of the water before the frontmost.
+    pub before: Image<f32>,
+}
+
+/// What a frame with two sheets gave besides.
+#[derive(Clone)]
+pub struct Sheets {
+    /// Depth between them, for each texel of the thickness.
+    pub boundaries: Image<f32>,
+    /// Thickness of the front one, of the back one and of the window between them.
+    pub thickness: Image<[f32; 3]>,
+    /// Surface and plan of the back one.
+    pub surface: Image<f32>,
+    pub plan: Image<u32>,
+}
+
+impl Rig<'_> {
+    /// Reads the output and the kept layers.
+    pub fn read(&self, output: &HostImage, recorded: &Recorded) -> Drawn {
+        let bytes = self.stub.download(
+            output.image,
+            output.format,
+            output.aspect,
+            output.extent.into(),
+            output.after,
+        );
+        let levels = self.levels(recorded);
+        let whole = picture(output.format, output.extent, &bytes);
+        let empty = || Image::new(0, 0, 0.0);
+        let mut drawn = Drawn {
+            output: crop(&whole, output.rect),
+            whole,
+            depth: empty(),
+            surface: empty(),
+            plan: Image::new(0, 0, 0),
+            coarser: None,
+            levels,
+            thickness: empty(),
+            sheets: None,
+            foam: None,
+            spray: None,
+            lit_spray: None,
+            motion: None,
+            noise: None,
+            light_front: None,
+            light_thickness: None,
+            caustics: None,
+            shadow_basis: None,
+            work: Work::default(),
+        };
+        if let Some(counts) = &recorded.counts {
+            let size = 256 * u64::from(counts.chunks);
+            let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+            self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, counts.all, &back));
+            for chunk in back.bytes().chunks_exact(256) {
+                let words: Vec<u32> = words(chunk).collect();
+                drawn.work.visible += words[0] + words[5];
+                drawn.work.dropped += words[18];
+                drawn.work.set_aside += words[19];
+            }
+            self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, counts.front, &back));
+            for chunk in back.bytes().chunks_exact(256) {
+                let words: Vec<u32> = words(chunk).collect();
+                drawn.work.front += words[0] + words[5];
+            }
+        }
+        if let Some(tiles) = recorded.tiles {
+            let back = self.stub.sized(16 * 259, vk::BufferUsageFlags::TRANSFER_DST);
+            self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, tiles, &back));
+            let words: Vec<u32> = words(back.bytes()).collect();
+            drawn.work.tiles = words.chunks_exact(4).skip(1).take(257).map(|w| w[3]).collect();
+            drawn.work.tiles.insert(0, words[1]);
+        }
+        let [a, b, back] = &levels.level;
+        let fading = a.texel[3] > 0.0 && b.texel[3] > 0.0;
+        let coarser = if a.texel[2] > b.texel[2] { a } else { b };
+        let mut second = (empty(), Image::new(0, 0, 0));
+        let mut sheets = recorded.sheets.map(|buffer| Sheets {
+            boundaries: self.boundaries(buffer, output.rect.extent),
+            thickness: Image::new(0, 0, [0.0; 3]),
+            surface: empty(),
+            plan: Image::new(0, 0, 0),
+        });
+        let mut foam = Foaming {
+            depth: empty(),
+            thickness: Image::new(0, 0, [0.0; 2]),
+            lit: None,
+            before: empty(),
+        };
+        let mut foams = false;
+        for layer in &recorded.layers {
+            let whole = layer.extent.into();
+            match layer.name {
+                "water.depth" => drawn.depth = self.floats(layer, whole),
+                "water.thickness" if layer.format == vk::Format::R32G32_SFLOAT => {
+                    let both = self.pairs(layer, whole);
+                    drawn.thickness = both.map(|t| t[0]);
+                    foam.before = both.map(|t| t[1]);
+                }
+                "water.thickness" => drawn.thickness = self.floats(layer, whole),
+                "foam.depth" => (foam.depth, foams) = (self.floats(layer, whole), true),
+                "spray" => {
+                    let both = self.halves(layer, whole);
+                    drawn.spray = Some(both.map(|s| s[0]));
+                    drawn.lit_spray = Some(both.map(|s| s[1]));
+                }
+                "motion" => drawn.motion = Some(self.pairs(layer, whole)),
+                "noise" => drawn.noise = Some(self.floats(layer, whole)),
+                "light.front" => drawn.light_front = Some(self.floats(layer, whole)),
+                "light.thickness" => {
+                    let bytes = self.bytes(layer, whole);
+                    drawn.light_thickness = Some(picture(layer.format, layer.extent, &bytes));
+                }
+                "light.shadow" => {
+                    let bytes = self.bytes(layer, whole);
+                    drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
+                }
+                "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
+                "foam.thickness" if layer.format == vk::Format::R32G32B32A32_SFLOAT => {
+                    let three = self.threes(layer, whole);
+                    foam.thickness = three.map(|t| [t[0], t[1]]);
+                    foam.lit = Some(three.map(|t| t[2]));
+                }
+                "foam.thickness" => foam.thickness = self.pairs(layer, whole),
+                "water.thickness.sheets" => {
+                    let sheets = sheets.as_mut().expect("boundaries of two sheets");
+                    sheets.thickness = self.threes(layer, whole);
+                }
+                "water.surface" => {
+                    drawn.surface = self.floats(layer, area(levels.finer()));
+                    if let Some(sheets) = &mut sheets {
+                        sheets.surface = self.floats(layer, area(back));
+                    }
+                    if fading {
+                        second.0 = self.floats(layer, area(coarser));
+                    }
+                }
+                "water.iterations" => {
+                    assert_eq!(layer.format, vk::Format::R32_UINT);
+                    drawn.plan = self.texels(layer, area(levels.finer()));
+                    if let Some(sheets) = &mut sheets {
+                        sheets.plan = self.texels(layer, area(back));
+                    }
+                    if fading {
+                        second.1 = self.texels(layer, area(coarser));
+                    }
+                }
+                other => panic!("an unknown layer {other}"),
+            }
+        }
+        drawn.coarser = fading.then_some(second);
+        drawn.sheets = sheets;
+        drawn.foam = foams.then_some(foam);
+        drawn
+    }
+
+    /// At which resolutions the frame was smoothed.
+    fn levels(&self, recorded: &Recorded) -> SmoothingLevels {
+        let size = size_of::<SmoothingLevels>();
+        let back = self.stub.sized(size as u64, vk::BufferUsageFlags::TRANSFER_DST);
+        // Of no frame: none in use.
+        let Some(levels) = recorded.levels else { return bytemuck::Zeroable::zeroed() };
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, levels, &back));
+        bytemuck::pod_read_unaligned(&back.bytes()[..size])
+    }
+
+    /// The boundary of each texel of a frame's thickness.
+    fn boundaries(&self, buffer: vk::Buffer, frame: vk::Extent2D) -> Image<f32> {
+        let texels = |pixels: u32| pixels.div_ceil(1 << self.config.thickness_level) as usize;
+        let (width, height) = (texels(frame.width), texels(frame.height));
+        let size = 4 * (width * height) as u64;
+        let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, buffer, &back));
+        Image { width, height, data: words(back.bytes()).map(f32::from_bits).collect() }
+    }
+
+    fn bytes(&self, layer: &Layer, area: vk::Rect2D) -> Vec<u8> {
+        let color = vk::ImageAspectFlags::COLOR;
+        self.stub.download(layer.image, layer.format, color, area, layer.access)
+    }
+
+    fn texels(&self, layer: &Layer, area: vk::Rect2D) -> Image<u32> {
+        let (width, height) = (area.extent.width as usize, area.extent.height as usize);
+        Image { width, height, data: words(&self.bytes(layer, area)).collect() }
+    }
+
+    fn threes(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 3]> {
+        assert_eq!(layer.format, vk::Format::R32G32B32A32_SFLOAT);
+        picture(layer.format, area.extent, &self.bytes(layer, area))
+            .map(|[x, y, z, _]| [*x, *y, *z])
+    }
+
+    fn pairs(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 2]> {
+        assert_eq!(layer.format, vk::Format::R32G32_SFLOAT);
+        let bytes = self.bytes(layer, area);
+        let pairs = bytes.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
+        let (width, height) = (area.extent.width as usize, area.extent.height as usize);
+        Image { width, height, data: pairs }
+    }
+
+    fn halves(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 2]> {
+        assert_eq!(layer.format, vk::Format::R16G16_SFLOAT);
+        let bytes = self.bytes(layer, area);
+        let half = |low, high| half::f16::from_le_bytes([low, high]).to_f32();
+        let both = |b: &[u8]| [half(b[0], b[1]), half(b[2], b[3])];
+        let (width, height) = (area.extent.width as usize, area.extent.height as usize);
+        Image { width, height, data: bytes.chunks_exact(4).map(both).collect() }
+    }
+
+    fn floats(&self, layer: &Layer, area: vk::Rect2D) -> Image<f32> {
+        self.texels(layer, area).map(|bits| f32::from_bits(*bits))
+    }
+}
+
+fn words(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
+    bytes.chunks_exact(4).map(bytemuck::pod_read_unaligned)
+}
+
+fn picture(format: vk::Format, extent: vk::Extent2D, bytes: &[u8]) -> Image<[f32; 4]> {
+    let data: Vec<[f32; 4]> = match host::texel_size(format) {
+        16 => bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect(),
+        4 => {
+            assert_eq!(format, vk::Format::R8G8B8A8_SNORM);
+            let part = |v: u8| (f32::from(v.cast_signed()) / 127.0).max(-1.0);
+            bytes.chunks_exact(4).map(|c| [c[0], c[1], c[2], c[3]].map(part)).collect()
+        }
+        _ => bytes
+            .chunks_exact(8)
+            .map(|c| {
+                let half: [u16; 4] = bytemuck::pod_read_unaligned(c);
+                half.map(|v| half::f16::from_bits(v).to_f32())
+            })
+            .collect(),
+    };
+    Image { width: extent.width as usize, height: extent.height as usize, data }
+}
+
+fn crop(whole: &Image<[f32; 4]>, part: vk::Rect2D) -> Image<[f32; 4]> {
+    let (width, height) = (part.extent.width as usize, part.extent.height as usize);
+    let (x, y) = (part.offset.x as usize, part.offset.y as usize);
+    let rows = whole.data.chunks_exact(whole.width).skip(y).take(height);
+    Image { width, height, data: rows.flat_map(|row| row[x..x + width].to_vec()).collect() }
+}
+
+/// Where a level lies.
+fn area(level: &SmoothingLevel) -> vk::Rect2D {
+    let [x, y, width, height] = level.rect;
+    let extent = vk::Extent2D { width: width as u32, height: height as u32 };
+    vk::Rect2D { offset: vk::Offset2D { x, y }, extent }
+}

@@ -1,0 +1,280 @@
+//! A renderer in a host: the host stub with the images and buffers of a frame.
+
+mod drawn;
+mod shot;
+
+use ash::vk;
+use whitewater::water::{Shading, Splat};
+use whitewater::{
+    Access, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage, Particles,
+    Renderer, Slot, Stream,
+};
+
+use super::device::Gpu;
+use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
+
+pub use drawn::{Drawn, Foaming, Sheets, Work};
+pub use shot::{AROUND, Shot};
+
+/// Format of the outputs: its rounding is that of the shaders.
+pub const OUTPUT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+/// A size.
+pub fn extent(width: u32, height: u32) -> vk::Extent2D {
+    vk::Extent2D { width, height }
+}
+
+/// A configuration for tests: small environment, layers kept, sums whose order is no matter, and all
+/// water in one sheet, as most twins have it.
+pub fn config(size: vk::Extent2D) -> Config {
+    Config {
+        environment_size: 16,
+        keep_layers: true,
+        depth_splat: Some(Splat::Compute),
+        thickness_splat: Some(Splat::Compute),
+        sheets: 1,
+        ..Config::new(size, OUTPUT, 4096)
+    }
+}
+
+/// A renderer and its host.
+pub struct Rig<'g> {
+    pub gpu: &'g Gpu,
+    pub stub: Stub,
+    pub config: Config,
+    renderer: Option<Renderer>,
+}
+
+impl<'g> Rig<'g> {
+    pub fn new(gpu: &'g Gpu, config: &Config) -> Self {
+        Self::with_slots(gpu, config, 1)
+    }
+
+    pub fn with_slots(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
+        Self::try_new(gpu, config, slots).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    pub fn try_new(gpu: &'g Gpu, config: &Config, slots: u32) -> Result<Self, Error> {
+        let stub = Stub::new(gpu, slots);
+        // SAFETY: the device outlives the rig.
+        let mut renderer = unsafe { Renderer::new(&gpu.host(slots), config) }?;
+        // SAFETY: submitted before any record.
+        stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+        Ok(Self { gpu, stub, config: *config, renderer: Some(renderer) })
+    }
+
+    pub fn renderer(&mut self) -> &mut Renderer {
+        self.renderer.as_mut().expect("only drop takes it")
+    }
+
+    /// Records the set-up again: after a reconfigure that made the environment anew.
+    pub fn set_up(&mut self) {
+        let renderer = self.renderer.as_mut().expect("only drop takes it");
+        // SAFETY: submitted before any record.
+        self.stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+    }
+
+    /// Leaves the renderer to a plain drop: it leaks.
+    pub fn leak(mut self) {
+        drop(self.renderer.take());
+    }
+
+    pub fn resize(&mut self, size: vk::Extent2D) {
+        self.renderer().resize(size).expect("resize");
+        self.config.extent = size;
+    }
+
+    /// An environment of an equirectangular image.
+    pub fn environment(&mut self, size: vk::Extent2D, texels: &[[f32; 4]]) {
+        self.turned_environment(size, texels, 1.0, 0.0);
+    }
+
+    /// The same, brighter and turned.
+    pub fn turned_environment(
+        &mut self,
+        size: vk::Extent2D,
+        texels: &[[f32; 4]],
+        scale: f32,
+        turn: f32,
+    ) {
+        let after = Access::new(
+            vk::PipelineStageFlags2::COMPUTE_SHADER,
+            vk::AccessFlags2::SHADER_SAMPLED_READ,
+            vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+        );
+        let image = self.stub.uploaded(
+            OUTPUT,
+            size,
+            vk::ImageUsageFlags::SAMPLED,
+            bytemuck::cast_slice(texels),
+            after,
+        );
+        let source = Equirectangular { image: image.host_image(), scale, turn };
+        self.any_environment(&EnvironmentSource::Equirectangular(source));
+    }
+
+    /// A renderer in an environment from 0 to 1. (Where it was only cleared, SwiftShader prepares it
+    /// for draws alone: compute reads garbage at the seams of the cube.)
+    pub fn lit(gpu: &'g Gpu, config: &Config, slots: u32) -> Self {
+        let mut rig = Self::with_slots(gpu, config, slots);
+        rig.light();
+        rig
+    }
+
+    /// That environment.
+    pub fn light(&mut self) {
+        let part = |i: u32, n: u32| (i * 37 % n) as f32 / (n - 1) as f32;
+        let texels: Vec<_> =
+            (0..128).map(|i| [part(i, 7), part(i, 11), part(i, 13), 1.0]).collect();
+        self.environment(extent(16, 8), &texels);
+    }
+
+    /// An environment of any kind, whose images live to the end of this.
+    pub fn any_environment(&mut self, source: &EnvironmentSource) {
+        let renderer = self.renderer.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording; the slot's work is done.
+        let result =
+            self.stub.run(|cmd| unsafe { renderer.record_environment(cmd, Slot(0), source) });
+        result.expect("record_environment");
+        renderer.collect(Slot(0));
+    }
+
+    /// Usage of outputs: as between the host's own passes, and what the composite's way needs.
+    fn output_usage(&self) -> vk::ImageUsageFlags {
+        let host = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        match self.config.composite {
+            Some(Shading::Compute) => host | vk::ImageUsageFlags::STORAGE,
+            _ => host,
+        }
+    }
+
+    /// The images of a frame as its host has them: colour and depth of the scene, filled.
+    pub fn scene(&self, shot: &Shot) -> (Texture, Texture) {
+        let color = self.stub.uploaded(
+            self.config.output_format,
+            shot.with_margin(shot.size).0,
+            self.output_usage(),
+            &color_bytes(self.config.output_format, &shot.pad(shot.size, &shot.color, AROUND)),
+            COLOR,
+        );
+        let usage = vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
+        let depth = self.stub.uploaded(
+            shot.depth_format,
+            shot.with_margin(shot.depth_extent).0,
+            usage,
+            // Nearer than all water.
+            &depth_bytes(shot.depth_format, &shot.pad(shot.depth_extent, &shot.depth, 0.5)),
+            DEPTH,
+        );
+        (color, depth)
+    }
+
+    /// Buffers of packed particles.
+    pub fn particles(&self, shot: &Shot) -> Cloud {
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Cloud {
+            positions: self.stub.data(bytemuck::cast_slice(&shot.positions), usage),
+            densities: shot
+                .densities
+                .as_ref()
+                .map(|d| self.stub.data(bytemuck::cast_slice(d), usage)),
+            count: shot.positions.len() as u32,
+        }
+    }
+
+    /// Draws a shot and reads everything back.
+    pub fn draw(&mut self, shot: &Shot) -> Drawn {
+        let cloud = self.particles(shot);
+        let particles = cloud.particles();
+        self.draw_particles(shot, &particles)
+    }
+
+    /// Draws a shot with other particles than its own.
+    pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
+        let (color, depth) = self.scene(shot);
+        let apart = (!self.config.in_place).then(|| {
+            let format = self.config.output_format;
+            let bytes = color_bytes(format, &shot.pad(shot.size, &shot.color, AROUND));
+            let extent = shot.with_margin(shot.size).0;
+            self.stub.uploaded(format, extent, self.output_usage(), &bytes, COLOR)
+        });
+        let placed = |texture: &Texture, size| HostImage {
+            rect: shot.with_margin(size).1,
+            ..texture.host_image()
+        };
+        let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
+        let frame = Frame {
+            scene_color: placed(&color, shot.size),
+            ..shot.frame(output, placed(&depth, shot.depth_extent), *particles)
+        };
+        let cmd = self.stub.begin(0);
+        let renderer = self.renderer.as_mut().expect("only drop takes it");
+        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+        let recorded = unsafe { renderer.record(cmd, &frame) };
+        self.stub.end(0);
+        self.stub.wait(0);
+        let recorded = recorded.unwrap_or_else(|error| panic!("{error}"));
+        let drawn = self.read(&output, &recorded);
+        self.renderer().collect(Slot(0));
+        drawn
+    }
+}
+
+impl Drop for Rig<'_> {
+    fn drop(&mut self) {
+        if let Some(renderer) = self.renderer.take() {
+            // SAFETY: idle.
+            unsafe {
+                let _ = self.gpu.device.device_wait_idle();
+                renderer.destroy();
+            }
+        }
+    }
+}
+
+/// Packed particles of the host's.
+pub struct Cloud {
+    pub positions: Data,
+    pub densities: Option<Data>,
+    pub count: u32,
+}
+
+impl Cloud {
+    pub fn particles(&self) -> Particles {
+        Particles {
+            densities: self.densities.as_ref().map(|d| stream(d, 0, 4)),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..Particles::new(stream(&self.positions, 0, 12), Count::Cpu(self.count))
+        }
+    }
+}
+
+/// A stream over a buffer.
+pub fn stream(data: &Data, offset: u64, stride: u32) -> Stream {
+    Stream { buffer: data.buffer, size: data.size, offset, stride }
+}
+
+fn color_bytes(format: vk::Format, color: &[[f32; 4]]) -> Vec<u8> {
+    match host::texel_size(format) {
+        16 => bytemuck::cast_slice(color).to_vec(),
+        8 => {
+            let half = |c: &[f32; 4]| c.map(|v| half::f16::from_f32(v).to_bits());
+            color.iter().flat_map(half).flat_map(u16::to_le_bytes).collect()
+        }
+        _ => panic!("{format:?} is not made here"),
+    }
+}
+
+fn depth_bytes(format: vk::Format, depth: &[f32]) -> Vec<u8> {
+    match format {
+        vk::Format::D16_UNORM => {
+            depth.iter().flat_map(|z| ((z * 65535.0).round() as u16).to_le_bytes()).collect()
+        }
+        vk::Format::D24_UNORM_S8_UINT | vk::Format::X8_D24_UNORM_PACK32 => {
+            let bits = |z: &f32| (f64::from(*z) * 16_777_215.0).round() as u32;
+            depth.iter().flat_map(|z| bits(z).to_le_bytes()).collect()
+        }
+        _ => bytemuck::cast_slice(depth).to_vec(),
+    }
+}

@@ -1,0 +1,165 @@
+//! What a frame shows: its camera, particles, scene and settings.
+
+use ash::vk;
+use whitewater::{Camera, Frame, HostImage, Particles, Previous, Settings, Slot, Sun};
+
+use super::extent;
+use crate::reference::{Image, View};
+use crate::support::scenes;
+
+/// Colour beside a view.
+pub const AROUND: [f32; 4] = [50.0, 0.0, 25.0, 0.5];
+
+/// What a frame shows.
+#[derive(Clone)]
+pub struct Shot {
+    /// Of the view.
+    pub size: vk::Extent2D,
+    /// Columns before and behind the view, rows above and below it, in all images of the host's.
+    pub margin: [u32; 4],
+    pub camera: Camera,
+    /// Where the sun does not come.
+    pub sun: Sun,
+    /// The frame before.
+    pub previous: Option<Previous>,
+    pub settings: Settings,
+    pub positions: Vec<[f32; 3]>,
+    pub densities: Option<Vec<f32>>,
+    /// The scene's colour, of the output's size.
+    pub color: Vec<[f32; 4]>,
+    /// The scene's device depth and its size.
+    pub depth: Vec<f32>,
+    pub depth_extent: vk::Extent2D,
+    pub depth_format: vk::Format,
+}
+
+impl Shot {
+    /// Particles (eye space x, y, depth) of a radius before a far, coloured scene.
+    pub fn new(size: vk::Extent2D, lens: scenes::Lens, radius: f32, points: &[[f32; 3]]) -> Self {
+        let camera = scenes::camera(lens, size);
+        let mut shot = Self {
+            size,
+            margin: [0; 4],
+            positions: scenes::world(&camera, points),
+            camera,
+            sun: Sun::default(),
+            previous: None,
+            settings: scenes::settings(radius),
+            densities: None,
+            color: Vec::new(),
+            depth: Vec::new(),
+            depth_extent: size,
+            depth_format: vk::Format::D32_SFLOAT,
+        };
+        shot.color = gradient(size);
+        shot.scene_depth(|_, _| None);
+        shot
+    }
+
+    /// The farthest apart that two depths of one surface are, as the renderer rounds it.
+    pub fn falloff(&self) -> f32 {
+        self.settings.water.depth_falloff * self.settings.water.radius()
+    }
+
+    /// A frame of it over its own scene, with slot 0.
+    pub fn frame(&self, output: HostImage, depth: HostImage, particles: Particles) -> Frame<'_> {
+        Frame {
+            slot: Slot(0),
+            output,
+            scene_color: output,
+            scene_depth: depth,
+            particles,
+            camera: self.camera,
+            sun: self.sun,
+            previous: self.previous,
+            settings: &self.settings,
+        }
+    }
+
+    /// Size of an image round a view of a size, and where the view lies in it.
+    pub fn with_margin(&self, view: vk::Extent2D) -> (vk::Extent2D, vk::Rect2D) {
+        let [left, right, above, below] = self.margin;
+        let whole = extent(left + view.width + right, above + view.height + below);
+        let offset = vk::Offset2D { x: left as i32, y: above as i32 };
+        (whole, vk::Rect2D { offset, extent: view })
+    }
+
+    /// The texels of such an image.
+    pub fn pad<T: Copy>(&self, view: vk::Extent2D, texels: &[T], around: T) -> Vec<T> {
+        let (whole, rect) = self.with_margin(view);
+        let mut padded = vec![around; (whole.width * whole.height) as usize];
+        for (y, row) in texels.chunks_exact(view.width as usize).enumerate() {
+            let at = (y + rect.offset.y as usize) * whole.width as usize + rect.offset.x as usize;
+            padded[at..at + row.len()].copy_from_slice(row);
+        }
+        padded
+    }
+
+    /// The twins' camera.
+    pub fn view(&self, size: vk::Extent2D) -> View {
+        scenes::twin(&self.camera, size)
+    }
+
+    /// World to the twins' eye space.
+    pub fn camera_view(&self) -> glam::DMat4 {
+        self.view(self.depth_extent).view
+    }
+
+    /// Fills the scene's depth: eye depth of each of its texels; none: nothing there.
+    pub fn scene_depth(&mut self, eye: impl Fn(u32, u32) -> Option<f64>) {
+        let view = self.view(self.depth_extent);
+        let far = view.far().map_or_else(
+            || view.device_depth(f64::INFINITY),
+            |_| {
+                let farther = view.eye_depth(1.0) > view.eye_depth(0.0);
+                f64::from(farther)
+            },
+        );
+        let size = self.depth_extent;
+        self.depth = (0..size.height)
+            .flat_map(|y| (0..size.width).map(move |x| (x, y)))
+            .map(|(x, y)| {
+                let device = eye(x, y).map_or(far, |d| view.device_depth(d));
+                device.clamp(0.0, 1.0) as f32
+            })
+            .collect();
+    }
+
+    /// The eye depth of the scene as the depth image has it, for the twins; one value a texel.
+    pub fn scene_eye(&self) -> Image<f64> {
+        let view = self.view(self.depth_extent);
+        let eye = |z: &f32| {
+            let d = view.eye_depth(f64::from(*z));
+            if d > 0.0 { d } else { f64::INFINITY }
+        };
+        Image {
+            width: self.depth_extent.width as usize,
+            height: self.depth_extent.height as usize,
+            data: self.depth.iter().map(eye).collect(),
+        }
+    }
+}
+
+impl Shot {
+    /// The scene's eye depth at the pixels of the output halved `level` times: the nearest texel.
+    pub fn scene_at(&self, size: vk::Extent2D, level: u32) -> Image<f64> {
+        let eye = self.scene_eye();
+        let block = 1_usize << level;
+        let (width, height) = (size.width as usize, size.height as usize);
+        let texel = |i: usize, full: usize, texels: usize| {
+            let at = (i as f64 + 0.5) * block as f64 * texels as f64 / full as f64;
+            (at.floor() as usize).min(texels - 1)
+        };
+        Image::from_fn(width.div_ceil(block), height.div_ceil(block), |x, y| {
+            eye.at(texel(x, width, eye.width), texel(y, height, eye.height))
+        })
+    }
+}
+
+/// A scene's colour that differs from pixel to pixel, smoothly.
+pub fn gradient(size: vk::Extent2D) -> Vec<[f32; 4]> {
+    (0..size.height)
+        .flat_map(|y| (0..size.width).map(move |x| (x as f32, y as f32)))
+        .map(|(x, y)| [0.125 + x / 256.0, 0.25 + y / 256.0, 0.5 + (x - y) / 512.0, 0.75])
+        .collect()
+}
