@@ -34,6 +34,8 @@ void main() {
     float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
     float amount = look.x * thickness_kernel(dot(place, place));
     amount *= max(1.0 + torn.x * noise, 0.0);
+    // It sinks into the scene softly: a sprite that the scene cuts would end in steps of the texels.
+    amount *= scene > 0.0 ? min((scene - depth) / (0.5 * frame.particle.y), 1.0) : 1.0;
     ivec2 last = ivec2(frame.extent.xy) - 1;
     float front = texelFetch(foam_depth, min(ivec2(pixel), last), 0).x;
     // The layer ends softly, within a spacing: what passes its end would pop.

@@ -4,7 +4,7 @@
 //! they turn into discs, smoothly (the source switches, which pops). The corners are pulled in the
 //! vertex shader, the fragment meets the sprite's plane exactly. Thickness is in metres, as that of
 //! the water: what a particle is foam of it is no water.
-//! Nothing pops or flickers: the depth's sprite is whole before its foam can be seen, no sprite of the
+//! Nothing pops or flickers: sprites sink into the scene softly, the depth's sprite is whole before its foam can be seen, no sprite of the
 //! thickness is narrower than what its texels can hold, finer noise fades, the front layer ends softly.
 //! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY

@@ -105,6 +105,12 @@ impl Settings {
     }
 
     /// r, the drawn radius of a whole particle, world units.
+    /// How much of a sprite there still is so far before the scene: it sinks into it within half a
+    /// spacing.
+    fn sunk(&self, before: f64) -> f64 {
+        (before / (0.5 * self.spacing)).clamp(0.0, 1.0)
+    }
+
     fn radius(&self) -> f64 {
         RADIUS * self.spacing
     }
@@ -303,6 +309,7 @@ pub fn thickness(
             let Some(hit) = hit.filter(|hit| hit.k < hidden) else { continue };
             let torn = 1.0 + torn * noise(sprite.place(hit.at.x, hit.at.y, settings));
             let value = amplitude * kernel(hit.at.length_squared()) * torn.max(0.0);
+            let value = value * settings.sunk(hidden - hit.k);
             let nearest = in_full(foam_depth, x, y, level);
             let front = if is_surface(nearest) { settings.within(hit.k - nearest) } else { 0.0 };
             let texel = thickness.at_mut(x, y);
@@ -717,7 +724,16 @@ pub fn thickness_bounds(
             let found = span(&ellipses, |(ellipse, strength)| {
                 let hit = ellipse.meet(ray, near, scene)?;
                 let bounds = value_bounds(sprite, (ellipse, *strength), &hit, foam, settings);
-                let (least, most) = bounds;
+                // The scene's depth is made of the projection, 8u; the difference, the product and the
+                // quotient 4u.
+                let sunk = |sign: f64| {
+                    if scene.is_infinite() {
+                        return 1.0;
+                    }
+                    let there = scene * (1.0 + sign * 8.0 * U) - (hit.k.v - sign * hit.k.e);
+                    settings.sunk(there) * (1.0 + sign * 4.0 * U)
+                };
+                let (least, most) = (bounds.0 * sunk(-1.0), bounds.1 * sunk(1.0));
                 // The end of the layer is rounded by 2u, the ramp by 16u; it falls by 1.5 a spacing.
                 let share = |there: f64, k: f64, by: f64| {
                     let off = 4.0 * U * (k.abs() + there + settings.front_depth);
@@ -1288,9 +1304,10 @@ mod tests {
             {
                 let nearest = in_full(&depth, x, y, level);
                 for (single, sprite) in thick.iter().zip(world) {
-                    let hit = single.meet(&reduced, x, y, in_full(scene, x, y, level));
-                    let Some((k, at)) = hit else { continue };
-                    let value = single.value(sprite, at, settings);
+                    let scene = in_full(scene, x, y, level);
+                    let Some((k, at)) = single.meet(&reduced, x, y, scene) else { continue };
+                    let before = (scene_depth(scene) as f32 - k) / (0.5 * settings.spacing as f32);
+                    let value = single.value(sprite, at, settings) * before.min(1.0);
                     *sums[0].at_mut(x, y) += value;
                     if nearest < 1e9 {
                         let end = settings.front_depth as f32;
