@@ -1,4 +1,10 @@
-//! Every type that crosses the border between the host and the library.
+//! Every type that crosses the border between the host and the library, in the order of use: what fixes
+//! a renderer ([`Host`], [`Enabled`], [`Config`]); what a frame takes ([`Frame`] and all in it:
+//! [`HostImage`], [`Particles`], [`Camera`], [`Previous`], [`Sun`], [`Settings`]), and a step of the foam
+//! ([`Step`]); what a record leaves behind ([`Recorded`], [`Layer`], [`MemoryUse`]).
+//!
+//! Types alone, and what follows from one of them: `check` says what is wrong with a frame, `frame` holds
+//! the numbers derived from it.
 
 use std::sync::{Arc, Mutex};
 
@@ -80,9 +86,8 @@ pub struct Config {
     /// Form of the smoothing; `None`: [`Smoothing::Tiles`] on a CPU, where it was measured to be the
     /// fastest, [`Smoothing::Fused`] on GPUs, which are still to be measured.
     pub smoothing: Option<Smoothing>,
-    /// How the water is shaded; `None`: [`Shading::Raster`] on every device (GPUs are still to
-    /// be measured).
-    /// [`Shading::Compute`] writes the output as a storage image: its usage must allow that, and
+    /// How the water is shaded; `None`: [`Shading::Raster`] on every device (GPUs are still to be
+    /// measured). [`Shading::Compute`] writes the output as a storage image: its usage must allow that, and
     /// its format be one that the device stores to without being told which; R16G16B16A16_SFLOAT
     /// is nearly everywhere, those of sRGB are not. [`Offer`](crate::Offer) knows.
     pub composite: Option<Shading>,
@@ -106,11 +111,12 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
-    /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0 full,
-    /// 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4 a texel.
+    /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
+    /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4
+    /// a texel.
     pub noise: Option<u32>,
-    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`], and how the
-    /// map is filtered; `None` (default): it is everywhere.
+    /// Where the sun does not reach the fluid: the host's shadow map or mask, [`Sun::shadow`], and how
+    /// the map is filtered; `None` (default): it is everywhere.
     pub shadow: Option<Shadows>,
     /// Water and foam cast shadows and caustics on the scene and foam on itself: the passes `light`,
     /// `caustics` and `lit`, with maps of so many texels a side over [`Sun::region`], a multiple of
@@ -170,7 +176,8 @@ pub struct Slot(pub u32);
 #[derive(Clone, Copy, Debug)]
 pub struct HostImage {
     /// The image: single-sampled, 2D, with sampled usage; a depth image also with attachment usage
-    /// (its read-only layout asks for it), an output as [`Config::in_place`] and [`Config::composite`] say.
+    /// (its read-only layout asks for it), an output as [`Config::in_place`] and
+    /// [`Config::composite`] say.
     pub image: vk::Image,
     /// A 2D view of its first mip and layer; of depth-stencil images of the depth aspect alone.
     pub view: vk::ImageView,
@@ -281,8 +288,8 @@ pub struct Particles {
     /// `None`: at rest.
     pub velocities: Option<Stream>,
     /// Numbers that follow the particles from frame to frame (u32), for the noise in foam and the
-    /// droplets of spray; read as the velocities, and with [`Config::noise`] for the noise on the surface.
-    /// `None`: their place.
+    /// droplets of spray; read as the velocities, and with [`Config::noise`] for the noise on the
+    /// surface. `None`: their place.
     pub ids: Option<Stream>,
     /// How many.
     pub count: Count,
@@ -385,8 +392,8 @@ pub struct Sun {
 #[derive(Clone, Copy, Debug)]
 pub struct Shadow {
     /// [`Shadows::Map`], [`Shadows::Convolution`]: depth as the light sees the scene, of any size.
-    /// [`Shadows::Mask`]: one channel that covers the view, 1 where the sun shines on the fluid, 0 where
-    /// not. Its `rect` is the part that is meant.
+    /// [`Shadows::Mask`]: one channel that covers the view, 1 where the sun shines on the fluid, 0
+    /// where not. Its `rect` is the part that is meant.
     pub image: HostImage,
     /// World to the clip space of the map, standard or reversed depth (mask: not read).
     pub view_projection: Mat4,
@@ -512,9 +519,8 @@ impl Default for Light {
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
     /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`, `motion` for
-    /// `motion.X` and `motion.Y`. With
-    /// [`Config::sheets`] of 2 there is `water.thickness.sheets`: of the front sheet, of the back
-    /// sheet, of the window between them.
+    /// `motion.X` and `motion.Y`. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: of
+    /// the front sheet, of the back sheet, of the window between them.
     pub name: &'static str,
     /// The image; transfer source usage.
     pub image: vk::Image,
@@ -544,14 +550,14 @@ pub struct Recorded {
     /// A buffer with one [`SmoothingLevels`]: at which resolutions the frame was smoothed. Transfer
     /// source; last written by a compute shader, read as a uniform buffer.
     pub levels: Option<vk::Buffer>,
-    /// A buffer of 259 times four `u32`, the work of the smoothing: in the first the second word is how
-    /// many 16×16 tiles (of its texels, of all levels in use) hold water; the fourth word of number i, 1
-    /// to 257, how many iteration i runs over. Transfer source; last written by a compute shader, read as
-    /// indirect arguments.
+    /// A buffer of 259 times four `u32`, the work of the smoothing: in the first the second word is
+    /// how many 16×16 tiles (of its texels, of all levels in use) hold water; the fourth word of
+    /// number i, 1 to 257, how many iteration i runs over. Transfer source; last written by a compute
+    /// shader, read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
     /// With [`Config::sheets`] of 2: a buffer of one `f32` for each texel of the frame's thickness,
-    /// row by row, the eye depth between the two sheets; 1e10 where there is but one. Transfer source;
-    /// last written by a compute shader, read by compute and fragment shaders.
+    /// row by row, the eye depth between the two sheets; 1e10 where there is but one. Transfer
+    /// source; last written by a compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
 }
 
@@ -567,7 +573,7 @@ pub struct SmoothingLevels {
     pub atlas: [i32; 4],
 }
 
-/// One of them.
+/// Where one of them lies, and what its texels are.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct SmoothingLevel {

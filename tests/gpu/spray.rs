@@ -1,13 +1,19 @@
 //! Pass `spray`: droplets against the twin, and the picture with them.
 
-use glam::DVec3;
-use whitewater::water::{Shading, SprayLook};
-use whitewater::{Config, Packets, Particles};
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use glam::{DVec3, Mat4, Vec3};
+use whitewater::water::{Shading, Shadows, SprayLook};
+use whitewater::{Config, Packets, Particles, Shadow};
 
 use crate::foam::nearly;
+use crate::harness::fails;
 use crate::invariants::packet_bytes;
+use crate::light::shadows;
 use crate::reduce::wide;
 use crate::reference::Image;
+use crate::reference::light::ShadowMap;
 use crate::reference::spray::{self, Particle};
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -457,5 +463,63 @@ fn straight_at_the_eye_spray_is_round() {
             let drawn = case.draw(&mut rig);
             case.check(&format!("spray-straight-{i}-{speed}"), &drawn);
         }
+    }
+}
+
+/// Stripes of shade over spray: each droplet is lit by the sun at its own place. Beside a dark one of
+/// the same particle there are others in the sun.
+#[test]
+fn each_droplet_has_its_own_sun() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config { shadow: Some(Shadows::Map), ..spraying(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    for (lens, droplets) in [(Lens::Standard, 8), (Lens::OffAxis, 16), (Lens::Reversed, 1)] {
+        let mut case = Sprayed::new(size, lens, 20.0);
+        (case.look().droplets, case.look().spread) = (droplets, 3.0);
+        let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
+        let sun = Vec3::new(0.5, 0.8, 0.3).normalize();
+        let light = Mat4::look_at_rh(middle + 20.0 * sun, middle, Vec3::Y);
+        let view_projection = Mat4::orthographic_rh(-9.0, 9.0, -9.0, 9.0, 1.0, 40.0) * light;
+        // So many metres a texel that a comparison's filter is narrower than a stripe, and a stripe than
+        // the droplets of a particle lie apart.
+        let map = Image::from_fn(96, 96, |x, y| f32::from(u8::from((x + y / 2) / 5 % 2 == 0)));
+        let image = shadows(&rig, Shadows::Map, &map);
+        case.shot.settings.light.direction = sun.to_array();
+        case.shot.sun.shadow =
+            Some(Shadow { image: image.host_image(), view_projection, bias: 0.05 });
+        let drawn = case.draw(&mut rig);
+        let found = drawn.lit_spray.as_ref().expect("spray in the sun");
+
+        let (view, scene) = (case.shot.view(size), case.shot.scene_at(size, 0));
+        let shade = ShadowMap {
+            depth: &map,
+            view_projection: view_projection.as_dmat4(),
+            bias: f64::from(0.05_f32),
+            sun: sun.as_dvec3(),
+            reversed: false,
+        };
+        let spray = |sun: &spray::Sun<'_>| {
+            let (particles, water) = (case.particles(), wide(&drawn.depth));
+            spray::spray_in_sun(&particles, &view, &case.settings(), &scene, &water, sun)
+        };
+        let kinds = RefCell::new(HashMap::<u32, [u32; 2]>::new());
+        let twin = spray(&|particle, p, by| {
+            let past = shade.past(p, by);
+            let mut kinds = kinds.borrow_mut();
+            let kinds = kinds.entry(particle.id).or_default();
+            kinds[0] += u32::from(past.v < 0.1);
+            kinds[1] += u32::from(past.v > 0.9);
+            past
+        });
+        let name = format!("own-sun-{lens:?}-{droplets}");
+        compare::between(&name, of(&drawn), &twin.bounds);
+        compare::between(&name, found, &twin.lit);
+        let mixed = kinds.into_inner().into_values().filter(|n| n.iter().all(|n| *n > 0)).count();
+        // Of a hundred particles with spray.
+        assert!(mixed > 30 || droplets == 1, "{name}: {mixed} particles in sun and shade");
+        let by_particle = spray(&|particle, _, by| shade.past(particle.position, by));
+        let other = fails(|| compare::between("planted-own-sun", found, &by_particle.lit));
+        assert!(other, "{name}: as if all droplets of a particle were lit alike");
     }
 }

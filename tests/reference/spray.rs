@@ -265,9 +265,14 @@ pub struct Spray {
     /// What that is in an image of half precision. What may or may not be there, by a rim, the
     /// scene or what is left out, is in `high` alone.
     pub bounds: Between,
+    /// The same of what of it the sun lights.
+    pub lit: Between,
     /// How many additions there may be.
     pub count: Image<u32>,
 }
+
+/// Share of the sun's light at a droplet of a particle, in the world, which is so many metres off.
+pub type Sun<'a> = dyn Fn(&Particle, DVec3, f64) -> Rounded + 'a;
 
 /// The spray of some particles. `scene`: the eye depth of what hides it, infinite or
 /// [`EMPTY`](super::EMPTY) where there is nothing; `water`: that of the nearest water, likewise.
@@ -278,10 +283,33 @@ pub fn spray(
     scene: &Image<f64>,
     water: &Image<f64>,
 ) -> Spray {
+    spray_in_sun(particles, view, settings, scene, water, &|_, _, _| exact(1.0))
+}
+
+/// The same in a sun that does not come everywhere: each droplet has its own share of it.
+pub fn spray_in_sun(
+    particles: &[Particle],
+    view: &View,
+    settings: &Settings,
+    scene: &Image<f64>,
+    water: &Image<f64>,
+    sun: &Sun<'_>,
+) -> Spray {
     let near = view.near();
+    let back = view.view.inverse();
+    let eye = back.w_axis.truncate().length();
     let mut depth = Image::new(view.width, view.height, 0.0);
     let (mut low, mut high, mut count) = (depth.clone(), depth.clone(), depth.map(|_| 0));
-    for one in particles.iter().flat_map(|p| droplets(p, view, settings)) {
+    let mut lit = Between { low: low.clone(), high: high.clone() };
+    let all =
+        particles.iter().flat_map(|p| droplets(p, view, settings).into_iter().map(move |d| (p, d)));
+    for (particle, one) in all {
+        let center = one.ellipse.center;
+        let p = back.transform_point3(center.v);
+        // To the light by one matrix: as far off as by way of the world.
+        let share = sun(particle, p, center.e + 24.0 * U * (p.length() + 2.0 * eye));
+        // Three products with a third, which is rounded, and their sum.
+        let share = share * off(1.0, 4.0);
         for (x, y) in pixels(view, one.ellipse.center.v, one.ellipse.reach()) {
             let hidden = scene_depth(scene.at(x, y));
             let hit = one.ellipse.meet(ray_off(view, x, y), near, hidden);
@@ -302,17 +330,24 @@ pub fn spray(
             if one.drawn.surely && hit.sure {
                 let least = (top.v - top.e).max(0.0) * kernel((q.v + q.e).min(1.0));
                 *low.at_mut(x, y) += in_steps(least * (1.0 - rounding), -1.0, settings.step);
+                let least = least * (share.v - share.e).max(0.0) * (1.0 - rounding - U);
+                *lit.low.at_mut(x, y) += in_steps(least, -1.0, settings.step);
             }
             let most = (top.v + top.e) * kernel((q.v - q.e).max(0.0));
             *high.at_mut(x, y) += in_steps(most * (1.0 + rounding), 1.0, settings.step);
+            let most = most * (share.v + share.e) * (1.0 + rounding + U);
+            *lit.high.at_mut(x, y) += in_steps(most, 1.0, settings.step);
             *count.at_mut(x, y) += 1;
         }
     }
-    for (i, n) in count.data.iter().enumerate() {
-        low.data[i] = summed(low.data[i], *n, settings.step)[0];
-        high.data[i] = summed(high.data[i], *n, settings.step)[1];
+    let mut bounds = Between { low, high };
+    for of in [&mut bounds, &mut lit] {
+        for (i, n) in count.data.iter().enumerate() {
+            of.low.data[i] = summed(of.low.data[i], *n, settings.step)[0];
+            of.high.data[i] = summed(of.high.data[i], *n, settings.step)[1];
+        }
     }
-    Spray { depth, bounds: Between { low, high }, count }
+    Spray { depth, bounds, lit, count }
 }
 
 /// What an addend may be rounded to, at least or at most by the sign.

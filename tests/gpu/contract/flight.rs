@@ -1,6 +1,6 @@
 //! Frames in flight: slots, records between read-backs, two renderers on a device.
 
-use whitewater::water::Shading;
+use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{Config, Frame, Recorded, Slot};
 
 use crate::reference::Image;
@@ -10,7 +10,7 @@ use crate::support::host::Texture;
 use crate::support::rig::{Cloud, Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{LENSES, Lens};
 
-use super::water;
+use super::{sunny, water};
 
 /// What a frame in flight needs to stay alive.
 pub struct Flight {
@@ -90,6 +90,46 @@ fn in_flight(composite: Shading) {
         }
     }
     assert_eq!(rig.renderer().retired(), 0, "all slots are back");
+}
+
+/// A filtered shadow map is made anew in images that all slots share: two frames of different maps, one
+/// submitted before the other is done, over and over, are as each by itself.
+#[test]
+fn filtered_shadows_of_two_slots_in_flight() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let shadow = Shadows::Convolution(Convolution { terms: 8, texels: 48, bits: 16 });
+    let config = Config { foam: true, shadow: Some(shadow), ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config, 2);
+    let mut shots = [Lens::Standard, Lens::OffAxis].map(|lens| {
+        let mut shot = water(size, lens);
+        (shot.settings.water.specular, shot.settings.water.shininess) = (0.5, 4.0);
+        shot
+    });
+    // Half in the shade, to one side or to the other.
+    shots[0].scene_depth(|x, _| (x < 48).then_some(1.0));
+    shots[1].scene_depth(|_, y| (y < 32).then_some(1.0));
+    let _maps = shots.each_mut().map(|shot| sunny(&rig, shot));
+    for shot in &mut shots {
+        shot.scene_depth(|_, _| None);
+    }
+    let alone = shots.each_ref().map(|shot| Rig::lit(&gpu, &config, 1).draw(shot));
+    let mut other = shots[0].clone();
+    other.sun = shots[1].sun;
+    let other = Rig::lit(&gpu, &config, 1).draw(&other).output;
+    let differ = other.data.iter().zip(&alone[0].output.data).filter(|(a, b)| a != b).count();
+    assert!(differ > 100, "in the other's shade only {differ} pixels differ");
+    for round in 0..4 {
+        let flights = [0, 1].map(|slot| {
+            launch(&mut rig, slot, &shots[slot as usize], alone[slot as usize].clone())
+        });
+        for (slot, flight) in (0..).zip(&flights) {
+            rig.stub.wait(slot);
+            rig.renderer().collect(Slot(slot));
+            let name = format!("filtered-{round}-{slot}");
+            compare::same_color(&name, &output_of(&rig, flight), &flight.expected.output);
+        }
+    }
 }
 
 /// The last frame's layers are those of its own record.

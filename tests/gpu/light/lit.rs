@@ -1,7 +1,7 @@
 //! The scene behind the water and the highlights on it are lit by what the maps let pass.
 
 use glam::{DVec3, Vec3};
-use whitewater::water::{Shading, Shadows};
+use whitewater::water::{Medium, Shading, Shadows};
 use whitewater::{Config, Region, Shadow};
 
 use crate::foam::Foamy;
@@ -138,6 +138,9 @@ fn the_lit_scene_is_what_the_maps_say() {
                 let mut case = grounded(lens, height);
                 // So dark that it shows, in one channel more than in the others.
                 case.shot.settings.light.shade = [0.0, 0.875, 5.0];
+                if lens == Lens::OffAxis {
+                    case.shot.settings.water.medium = Medium::source(0.1);
+                }
                 let drawn = case.draw(&mut rig);
                 let name = format!("lit-{shading:?}-{in_place}-{lens:?}-{height}");
                 check_lit(&name, &case, &config, &drawn, &|_, _, _| exact(1.0));

@@ -221,11 +221,17 @@ fn foam_is_in_the_shade_of_a_map() {
     }
 }
 
-/// Foam in its own shadow and in that of water, by the light's maps, past a mask too.
+/// Foam in its own shadow and in that of water of either medium, by the light's maps, past a mask too.
 #[test]
 fn foam_is_in_its_own_shade() {
     let gpu = Gpu::shared();
-    for shadow in [None, Some(Shadows::Mask)] {
+    // The source's has no scattering, and a falloff of the background that takes no sunlight.
+    let media = [
+        Medium::Physical { absorption: [9.0, 1.0, 0.5], scattering: [0.5, 0.25, 0.0] },
+        Medium::Source { base: [0.3, 0.9, 0.6], falloff: [7.0, 0.25, 2.0, 20.0] },
+    ];
+    let cases = [(None, media[0]), (Some(Shadows::Mask), media[0]), (None, media[1])];
+    for (i, (shadow, medium)) in cases.into_iter().enumerate() {
         let config = Config { shadow, thickness_level: 0, sheets: 2, ..casting(64) };
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = wall(Lens::Standard);
@@ -245,14 +251,13 @@ fn foam_is_in_its_own_shade() {
         case.shot.settings.foam.shadow = 2.0;
         // Some of the wall is behind the front layer, or in part.
         case.shot.settings.foam.front_depth = 0.15;
-        case.shot.settings.water.medium =
-            Medium::Physical { absorption: [9.0, 1.0, 0.5], scattering: [0.5, 0.25, 0.0] };
+        case.shot.settings.water.medium = medium;
         let center = at.to_array();
         case.shot.sun.region = Some(Region { center, radius: 2.0 });
         let drawn = case.draw(&mut rig);
         let (light, maps) = (twin(&case.shot, &config), maps(&drawn));
         let sun = |p: DVec3, by: f64| light.at(&maps, p, by).0;
-        check_foam(&format!("own-{shadow:?}"), &case, &drawn, Some(&sun), |(x, _)| {
+        check_foam(&format!("own-{i}"), &case, &drawn, Some(&sun), |(x, _)| {
             if shadow.is_some() && 2 * x + 1 < 97 { 0.25 } else { 1.0 }
         });
     }

@@ -1,0 +1,222 @@
+//! A frame: what stands behind the water, then the water over it, submitted and waited for.
+
+use ash::vk;
+
+use super::submit::Parts;
+use super::transfer::staging;
+use super::{COLOR_REST, DEPTH_REST, Headless};
+use crate::contract::{
+    Access, Camera, Frame, HostImage, Particles, Previous, Region, Settings, Slot, Sun,
+};
+use crate::error::Error;
+use crate::frame::Lens;
+use crate::gpu::access;
+use crate::gpu::buffer::Buffer;
+use crate::gpu::graveyard::Destroy;
+use crate::gpu::image::{Image, aspect_of};
+use crate::water::settings::Shadows;
+
+/// What stands behind the water.
+pub enum Background<'a> {
+    /// One colour, nothing in front of the far plane.
+    Color([f32; 3]),
+    /// The scene handed to [`Headless::scene`].
+    Scene,
+    /// Pictures from the CPU, row by row: linear RGBA and device depth.
+    Images {
+        /// width × height linear RGBA.
+        color: &'a [[f32; 4]],
+        /// width × height device depth.
+        depth: &'a [f32],
+    },
+}
+
+impl Headless {
+    /// Where water and foam cast shadows and caustics, with [`Config::cast`](crate::Config::cast).
+    /// Shadows of the scene on them, with [`Shadows::Map`] or [`Shadows::Convolution`], come from the
+    /// scene's own map.
+    pub fn region(&mut self, region: Region) {
+        self.region = Some(region);
+    }
+
+    /// The frame before those that are drawn next, with [`Config::motion`](crate::Config::motion).
+    pub fn previous(&mut self, previous: Option<Previous>) {
+        self.previous = previous;
+    }
+
+    /// Draws one frame and waits for it.
+    ///
+    /// # Errors
+    /// As [`Renderer::record`].
+    pub fn render(
+        &mut self,
+        camera: &Camera,
+        settings: &Settings,
+        background: &Background<'_>,
+    ) -> Result<(), Error> {
+        self.render_frame(camera, settings, background, false)
+    }
+
+    /// The same, with the smoothing ended by the host: it submits block by block and reads each
+    /// query back, as the source does. For comparison only; needs
+    /// [`Smoothing::Query`](crate::water::Smoothing::Query).
+    ///
+    /// # Errors
+    /// As [`Renderer::record`].
+    pub fn render_with_read_back(
+        &mut self,
+        camera: &Camera,
+        settings: &Settings,
+        background: &Background<'_>,
+    ) -> Result<(), Error> {
+        self.render_frame(camera, settings, background, true)
+    }
+
+    fn render_frame(
+        &mut self,
+        camera: &Camera,
+        settings: &Settings,
+        background: &Background<'_>,
+        read_back: bool,
+    ) -> Result<(), Error> {
+        let particles = self.streams()?;
+        let pictures = self.staged(background)?;
+        let result = self.run_parts(|this, cmd| {
+            match (background, &pictures) {
+                (Background::Images { .. }, Some([color, depth])) => {
+                    this.upload(cmd, color, &this.color, COLOR_REST, COLOR_REST);
+                    this.upload(cmd, depth, &this.depth, DEPTH_REST, DEPTH_REST);
+                }
+                (Background::Color(color), _) => this.clear(cmd, *color, camera),
+                (Background::Scene, _) => this.draw_scene(cmd, camera)?,
+                (Background::Images { .. }, None) => {}
+            }
+            this.record_water(cmd, camera, settings, particles, read_back)
+        });
+        for picture in pictures.into_iter().flatten() {
+            picture.destroy(&self.gpu);
+        }
+        self.renderer.collect(Slot(0));
+        self.gpu.bury();
+        result
+    }
+
+    /// Pictures from the CPU on their way to the device: colour and depth.
+    fn staged(&self, background: &Background<'_>) -> Result<Option<[Buffer; 2]>, Error> {
+        let Background::Images { color, depth } = background else { return Ok(None) };
+        let half: Vec<[u16; 4]> =
+            color.iter().map(|c| c.map(|v| half::f16::from_f32(v).to_bits())).collect();
+        let color = staging(&self.gpu, bytemuck::cast_slice(&half))?;
+        Ok(Some([color, staging(&self.gpu, bytemuck::cast_slice(depth))?]))
+    }
+
+    /// Records the water over what is in the images; hands back the command buffer it ended with, and
+    /// keeps what the frame left behind for the read-back.
+    fn record_water(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        camera: &Camera,
+        settings: &Settings,
+        particles: Particles,
+        read_back: bool,
+    ) -> Result<vk::CommandBuffer, Error> {
+        let output = host_image(&self.color, COLOR_REST);
+        let maps = |kind| matches!(kind, Shadows::Map | Shadows::Convolution(_));
+        let shadowed = self.renderer.config().shadow.is_some_and(maps);
+        let stage = self.scene.as_ref().filter(|_| shadowed);
+        let sun = Sun {
+            shadow: stage.map(|stage| stage.renderer.shadow(settings.water.spacing)),
+            region: self.region,
+        };
+        let frame = Frame {
+            slot: Slot(0),
+            output,
+            scene_color: output,
+            scene_depth: host_image(&self.depth, DEPTH_REST),
+            particles,
+            camera: *camera,
+            sun,
+            previous: self.previous,
+            settings,
+        };
+        let mut parts = Parts {
+            gpu: self.gpu.clone(),
+            queue: self.device.queue,
+            fence: self.commands.fence.handle,
+            pool: self.commands.pool.handle,
+            spare: std::mem::take(&mut self.parts),
+            used: 0,
+        };
+        let mut stop = |cmd, pool, query| parts.read_back(cmd, pool, query);
+        let stop: Option<crate::water::ReadBack<'_>> =
+            if read_back { Some(&mut stop) } else { None };
+        // SAFETY: cmd is recording outside a render pass; the slot's work is done.
+        let result = unsafe { self.renderer.record_frame(cmd, &frame, stop) };
+        self.parts = parts.spare;
+        let (recorded, last) = result?;
+        self.layers = recorded.layers;
+        self.counts = recorded.counts;
+        self.levels = recorded.levels;
+        self.active_samples = recorded.active_samples;
+        Ok(last)
+    }
+
+    /// One colour, and nothing in front of the far plane.
+    fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
+        let far = Lens::new(camera).map_or(1.0, |lens| lens.nothing());
+        let range = |image: &Image| vk::ImageSubresourceRange {
+            aspect_mask: aspect_of(image.format),
+            level_count: 1,
+            layer_count: 1,
+            ..Default::default()
+        };
+        let [r, g, b] = color;
+        self.gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.color, COLOR_REST.discarded(), access::CLEAR),
+                access::image(&self.depth, DEPTH_REST.discarded(), access::CLEAR),
+            ],
+            &[],
+        );
+        // SAFETY: both images are in TRANSFER_DST_OPTIMAL.
+        unsafe {
+            self.gpu.device.cmd_clear_color_image(
+                cmd,
+                self.color.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &vk::ClearColorValue { float32: [r, g, b, 1.0] },
+                &[range(&self.color)],
+            );
+            self.gpu.device.cmd_clear_depth_stencil_image(
+                cmd,
+                self.depth.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &vk::ClearDepthStencilValue { depth: far, stencil: 0 },
+                &[range(&self.depth)],
+            );
+        }
+        self.gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.color, access::CLEAR, COLOR_REST),
+                access::image(&self.depth, access::CLEAR, DEPTH_REST),
+            ],
+            &[],
+        );
+    }
+}
+
+/// All of an image of ours as a host hands it in.
+fn host_image(image: &Image, rest: Access) -> HostImage {
+    HostImage {
+        image: image.handle,
+        view: image.view,
+        format: image.format,
+        aspect: aspect_of(image.format),
+        extent: image.extent,
+        rect: image.extent.into(),
+        before: rest,
+        after: rest,
+    }
+}
