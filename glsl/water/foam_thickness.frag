@@ -1,6 +1,6 @@
 #version 460
-// Pass `foam`: metres of foam, of all and of the layer right behind the frontmost (thesis Sec. 4.8).
-// A noise of its own in each sprite, that changes as it ages, breaks up the discs.
+// Pass `foam`, raster path: metres of foam, of all and of the layer right behind the frontmost (thesis
+// Sec. 4.8). A noise of its own in each sprite, that changes as it ages, breaks up the discs.
 // Reads: scene depth, foam depth. Writes: foam thickness (RG32F).
 
 #include "frame.glsl"
@@ -8,6 +8,7 @@
 #include "gradient_noise.glsl"
 #include "foam.glsl"
 #include "kernel.glsl"
+#include "foam_sprite.glsl"
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec4 look;
@@ -29,14 +30,6 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
-    float amount = look.x * thickness_kernel(dot(place, place));
-    amount *= max(1.0 + torn * noise, 0.0);
-    ivec2 last = ivec2(frame.extent.xy) - 1;
-    float front = texelFetch(foam_depth, min(ivec2(pixel), last), 0).x;
-    // The layer ends softly, within a spacing: what passes its end would pop.
-    float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
-    thickness = amount * vec2(1.0, front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0);
-    // Whole steps: their sums are exact, in any order.
-    thickness = floor(thickness / frame.foam_back.w + 0.5) * frame.foam_back.w;
+    float front = texelFetch(foam_depth, ivec2(gl_FragCoord.xy), 0).x;
+    thickness = foam_steps(look, torn, place, depth, front) * frame.foam_back.w;
 }

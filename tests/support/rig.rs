@@ -11,7 +11,7 @@ use whitewater::{
 use super::device::Gpu;
 use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 use super::scenes;
-use crate::reference::{Image, View};
+use crate::reference::{Image, View, foam};
 
 /// Format of the outputs: its rounding is that of the shaders.
 pub const OUTPUT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
@@ -251,6 +251,19 @@ pub struct Foaming {
     pub thickness: Image<[f32; 2]>,
     /// Of the water before the frontmost.
     pub before: Image<f32>,
+    /// Times that all are halved.
+    pub level: u32,
+}
+
+impl Foaming {
+    /// What each pixel shows of it: depth, and both thicknesses.
+    pub fn seen(&self, shot: &Shot) -> Image<(f64, [f64; 2])> {
+        let (scene, layers) = (shot.scene_at(shot.size, 0), (&self.depth, &self.thickness));
+        let spacing = f64::from(shot.settings.water.spacing);
+        Image::from_fn(scene.width, scene.height, |x, y| {
+            foam::seen(layers, (x, y), self.level, scene.at(x, y), spacing)
+        })
+    }
 }
 
 /// What a frame with two sheets gave besides.
@@ -513,8 +526,12 @@ impl<'g> Rig<'g> {
             surface: empty(),
             plan: Image::new(0, 0, 0),
         });
-        let mut foam =
-            Foaming { depth: empty(), thickness: Image::new(0, 0, [0.0; 2]), before: empty() };
+        let mut foam = Foaming {
+            depth: empty(),
+            thickness: Image::new(0, 0, [0.0; 2]),
+            before: empty(),
+            level: self.config.thickness_level,
+        };
         let mut foams = false;
         for layer in &recorded.layers {
             let whole = layer.extent.into();
