@@ -10,6 +10,7 @@
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"
+#include "foam_texels.glsl"
 #include "beside.glsl"
 #include "convolution.glsl"
 #include "sunlight.glsl"
@@ -29,7 +30,7 @@ void shade_pixel(ivec2 pixel) {
         return;
     }
     float front = texelFetch(depth, pixel, 0).x;
-    if (front < EMPTY || beside(pixel)) {
+    if (front < EMPTY || beside(vec2(pixel) + 0.5)) {
         imageStore(target, pixel + ivec2(frame.target.xy), vec4(shade(vec2(pixel) + 0.5, front), 1.0));
     }
 }

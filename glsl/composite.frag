@@ -7,6 +7,7 @@
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"
+#include "foam_texels.glsl"
 #include "beside.glsl"
 #include "convolution.glsl"
 #include "sunlight.glsl"
@@ -18,7 +19,7 @@ layout(location = 0) out vec4 color;
 void main() {
     vec2 pixel = gl_FragCoord.xy - frame.target.xy;
     float front = texelFetch(depth, ivec2(pixel), 0).x;
-    if (front >= EMPTY && !beside(ivec2(pixel))) {
+    if (front >= EMPTY && !beside(pixel)) {
         discard;
     }
     color = vec4(shade(pixel, front), 1.0);

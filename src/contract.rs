@@ -75,13 +75,14 @@ pub struct Config {
     pub max_stride: u32,
     /// Resolution of the smoothing: 0 full, 1 half (default), 2 quarter.
     pub smoothing_level: u32,
-    /// Resolution of the thickness: 0 full, 1 half, 2 quarter (default), 3 eighth. Upsampled with
-    /// the weights of texels on the same surface.
+    /// Resolution of the thickness, and of all of foam: 0 full, 1 half, 2 quarter (default), 3 eighth.
+    /// Upsampled with the weights of texels on the same surface, of foam where the scene does not hide
+    /// it.
     pub thickness_level: u32,
     /// How depth is splatted; `None`: [`Splat::Compute`] on every device and at every size, which is
     /// faster at all that were measured (on lavapipe; GPUs are still to be).
     pub depth_splat: Option<Splat>,
-    /// How thickness is splatted; `None`: as depth.
+    /// How thickness, and all of foam, is splatted; `None`: as depth.
     pub thickness_splat: Option<Splat>,
     /// Form of the smoothing; `None`: [`Smoothing::Tiles`] on a CPU, where it was measured to be the
     /// fastest, [`Smoothing::Fused`] on GPUs, which are still to be measured.

@@ -48,7 +48,7 @@
 //! water and foam it is the surface's own motion, by the velocities of the particles near it, not that of
 //! what is seen through it; of the scene, which stands still for it, the camera's. An engine that has
 //! vectors of its own moving things takes ours where there is water: where `water.depth` or
-//! `foam.depth` is less than 1e10.
+//! `foam.depth` (which has the thickness' resolution) is less than 1e10.
 //!
 //! # Promises
 //!
@@ -97,8 +97,8 @@
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
-//! | foam: depth, thickness, what water is before it (`foam`) | 5¼ w h | 4.6 MiB | 10.4 MiB |
-//! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ½ w h | 0.4 MiB | 1.0 MiB |
+//! | foam: depth, thickness and its sums, what water is before it (`foam`) | 2 w h | 1.8 MiB | 4.0 MiB |
+//! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¾ w h | 0.7 MiB | 1.5 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
@@ -131,7 +131,8 @@
 //!   has its own thickness and surface ([`Config::sheets`]); the thesis takes both for one (its
 //!   limitation, Fig. 5.13).
 //! - A foam sprite turns from an ellipse along its motion into a disc smoothly, by speed and by angle;
-//!   its depth is as wide as its thickness, which ends softly, before the scene too; what is foam of a
+//!   its depth is as wide as its thickness, which ends softly, before the scene too, and of its
+//!   resolution; what is foam of a
 //!   particle is no water of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
 //!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis

@@ -1,13 +1,29 @@
-// What is drawn where there is no water. Needs frame.glsl. Reads: foam depth, spray.
+// What is drawn where there is no water. Needs frame.glsl, foam_texels.glsl. Reads: foam depth, spray.
 
 // 1: there may be some; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 layout(constant_id = 10) const uint SPRAY = 0;
+// Width of the foam's texels: known, loops over them are no loops.
+layout(constant_id = 3) const uint FOAM_EDGE = 4;
 
 layout(set = 0, binding = 13) uniform sampler2D foam_depth;
 layout(set = 0, binding = 15) uniform sampler2D spray;
 
-bool beside(ivec2 pixel) {
-    bool foam = FOAM == 1u && texelFetch(foam_depth, pixel, 0).x < EMPTY;
-    return foam || SPRAY == 1u && texelFetch(spray, pixel, 0).x > 0.0;
+bool spray_at(ivec2 pixel) {
+    return SPRAY == 1u && texelFetch(spray, pixel, 0).x > 0.0;
+}
+
+// Whether any of a block of so many pixels a side may show foam, whatever the scene hides. Its corner is a
+// multiple of its side, a power of two: pixels of half a texel have the same four round them.
+bool foam_beside(ivec2 corner, int side) {
+    int step = max(int(FOAM_EDGE) / 2, 1);
+    vec4 z = vec4(EMPTY);
+    for (int y = 0; y < side; y += step) {
+        for (int x = 0; x < side; x += step) {
+            vec2 h = (vec2(corner + ivec2(x, y)) + 0.5) / float(FOAM_EDGE) - 0.5;
+            h = clamp(h, vec2(0.0), frame.thick_extent.xy - 1.0);
+            z = min(z, textureGather(foam_depth, (floor(h) + 1.0) / vec2(textureSize(foam_depth, 0))));
+        }
+    }
+    return FOAM == 1u && any(lessThan(z, vec4(EMPTY)));
 }

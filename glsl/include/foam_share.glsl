@@ -6,10 +6,9 @@ layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 7) uniform sampler2D foam_depth;
 
-// Depth of the frontmost foam at the middle of a texel of the thickness.
+// Depth of the frontmost foam in a texel.
 float foam_at(ivec2 texel) {
-    ivec2 pixel = ivec2((vec2(texel) + 0.5) * frame.thick_extent.z);
-    return texelFetch(foam_depth, min(pixel, ivec2(frame.extent.xy) - 1), 0).x;
+    return texelFetch(foam_depth, texel, 0).x;
 }
 
 // Share of a sprite whose centre lies at a depth.

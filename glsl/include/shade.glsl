@@ -3,7 +3,7 @@
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment.
-// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, beside.glsl, sunlight.glsl, surface_noise.glsl.
+// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl, surface_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -164,14 +164,13 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
 }
 
 vec3 through_medium(vec3 background, float path) {
-    if (frame.medium_a.w > 0.5) {
-        vec3 tint = frame.medium_a.rgb * exp(-frame.medium_b.rgb * path);
-        return mix(tint, background, exp(-frame.medium_b.a * path));
-    }
+    // One exponential for both: a CPU runs branches whole.
+    bool source = frame.medium_a.w > 0.5;
     vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
-    vec3 kept = exp(-extinction * path);
+    vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);
     vec3 albedo = frame.medium_b.rgb / max(extinction, vec3(1.0e-9));
-    return background * kept + frame.ambient.rgb * albedo * (1.0 - kept);
+    return source ? mix(frame.medium_a.rgb * kept.rgb, background, kept.a)
+                  : background * kept.rgb + frame.ambient.rgb * albedo * (1.0 - kept.rgb);
 }
 
 // Both powers, and one of them taken: a pipeline each for so little would double their number.
@@ -283,24 +282,35 @@ struct Foam {
     float kept;  // share of the light from behind that comes through
     vec3 color;
     float t;     // metres of it
-    vec2 water;  // metres of water, all and before the frontmost, whether a sphere shows it or not
+    vec2 water;  // where no sphere shows any, metres of water, all and before the frontmost
 };
 
 // Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
 // 1 where it is turned away. Not in the source, whose foam is flat. The slope is that of quadratic
 // B-splines through the texels about a place h: differences of neighbours alone change from texel to texel,
 // which stays where it is on the screen while the foam moves.
-float relief(vec2 h, float z, float sun) {
+// Nothing is looked up where there is no foam.
+float relief(vec2 pixel, float z, float sun, bool foamy) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));
     vec2 f = h - vec2(middle);
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
-    vec2 weights[3] = vec2[](0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));
-    vec2 slopes[3] = vec2[](f - 0.5, -2.0 * f, f + 0.5);
+    vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
+    vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
     vec2 rise = vec2(0.0);
-    for (int i = 0; i < 9; ++i) {
-        ivec2 at = ivec2(i % 3, i / 3);
-        float height = texelFetch(foam_thickness, clamp(middle + at - 1, ivec2(0), last), 0).y;
-        rise += height * vec2(slopes[at.x].x * weights[at.y].y, weights[at.x].x * slopes[at.y].y);
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    int end = foamy ? 1 : -1;
+    for (int row = -1; row <= end; ++row) {
+        int y = clamp(middle.y + row, 0, last.y);
+        vec3 height;
+        for (int i = 0; i < 3; ++i) {
+            height[i] = texelFetch(foam_thickness, ivec2(clamp(middle.x + i - 1, 0, last.x), y), 0).y;
+        }
+        float d = float(row) - f.y;
+        float out_by = 1.5 - abs(d);
+        float weight = row == 0 ? 0.75 - d * d : 0.5 * out_by * out_by;
+        float slope = row == 0 ? 2.0 * d : float(row) * out_by;
+        rise += vec2(dot(height, slopes) * weight, dot(height, weights) * slope);
     }
     vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
     vec3 normal = normalize(vec3(-slope, 1.0));
@@ -308,25 +318,33 @@ float relief(vec2 h, float z, float sun) {
     return clamp(1.0 + sun * frame.foam_noise.z * turned, 0.3, 1.3);
 }
 
+// Those texels.
+FoamTexels foam_seen(vec2 pixel) {
+    return foam_texels(foam_depth, pixel, eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x));
+}
+
+// Whether something is seen in a pixel without water.
+bool beside(vec2 pixel) {
+    return FOAM == 1u && foam_seen(pixel).depth < EMPTY || spray_at(ivec2(pixel));
+}
+
 // Thesis Sec. 3.2.3: the more foam right behind the frontmost, the nearer the front colour (Listing
 // A.20; Eq. 3.9 has them the other way round). What of it the sun lights is the sprites' (the source asks at
 // the mean of nine depths): a sprite by itself is no surface, its outline would be a shadow's.
-Foam foam_of(vec2 pixel) {
-    vec2 h = pixel / frame.thick_extent.z - 0.5;
-    ivec2 base = ivec2(floor(h));
-    vec2 f = h - vec2(base);
-    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
-    vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    vec3 t = vec3(0.0);
+Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     Foam foam;
-    foam.water = vec2(0.0);
+    vec3 t = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
-        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
-        t += weights[i] * texelFetch(foam_thickness, texel, 0).xyz;
-        foam.water += weights[i] * texelFetch(thickness, texel, 0).xy;
+        t += texels.weights[i] * texelFetch(foam_thickness, foam_texel(texels, i), 0).xyz;
+    }
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    int shown = dry ? 4 : 0;
+    foam.water = vec2(0.0);
+    for (int i = 0; i < shown; ++i) {
+        foam.water += texels.shown[i] * texelFetch(thickness, foam_texel(texels, i), 0).xy;
     }
     foam.t = t.x;
-    foam.depth = texelFetch(foam_depth, ivec2(pixel), 0).x;
+    foam.depth = texels.depth;
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     // Or the source's other rule.
@@ -336,7 +354,7 @@ Foam foam_of(vec2 pixel) {
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
     float sun = SHADOW == 1u ? past_scene(vec3(0.0), pixel) : 1.0;
     sun *= (SHADOW > 1u || CAST == 1u) && t.y > 0.0 ? clamp(t.z / t.y, 0.0, 1.0) : 1.0;
-    foam.color *= under(vec3(sun)) * relief(h, foam.depth, sun);
+    foam.color *= under(vec3(sun)) * relief(pixel, foam.depth, sun, foam.kept < 1.0);
     return foam;
 }
 
@@ -427,9 +445,9 @@ vec3 layers_at(vec2 pixel, float front) {
     Foam foam;
     bool past = false;
     if (FOAM == 1u) {
-        foam = foam_of(pixel);
+        foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
         // One looks between the spheres of the front sheet, if only its foam is there.
-        past = foam.depth < boundary && front >= boundary;
+        past = foam.depth < boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets is among the other.
         if (covers && foam.depth >= boundary) {
             back = among(foam, share.y, back);
@@ -452,11 +470,12 @@ vec3 layers_at(vec2 pixel, float front) {
         return over(sheet, c);
     }
     foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
-    if (front >= EMPTY) {
-        vec3 scene = scene_at(pixel);
-        float t = foam.water.x;
-        vec3 veiled = over_with(between(foam, pixel, t), min(foam.water.y, t), t, foam, scene);
-        return foam.depth < EMPTY ? veiled : scene;
+    bool dry = front >= EMPTY;
+    if (dry) {
+        c = scene_at(pixel);
+        all = foam.water;
+        t = all.x;
+        sheet = between(foam, pixel, t);
     }
     // Behind as much air as there is: where there is none both sheets are one.
     float behind_air = covers && foam.depth >= boundary ? share.x : 0.0;
@@ -473,7 +492,8 @@ vec3 layers_at(vec2 pixel, float front) {
     }
     back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
     c = back.path > 0.0 ? over(back, c) : c;
-    return mix(over_with(sheet, min(all.y, t), t, foam, c), apart, behind_air);
+    vec3 seen = mix(over_with(sheet, min(all.y, t), t, foam, c), apart, behind_air);
+    return dry && foam.depth >= EMPTY ? c : seen;
 }
 
 // All layers at a pixel where water, foam or spray is: spray lies over the others.

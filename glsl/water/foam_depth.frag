@@ -1,5 +1,6 @@
 #version 460
-// Pass `foam`: the frontmost foam (thesis Sec. 4.6.2, Listing A.10). MIN blending keeps the nearest.
+// Pass `foam`, raster path: the frontmost foam (thesis Sec. 4.6.2, Listing A.10). MIN blending keeps the
+// nearest.
 // Reads: scene depth. Writes: foam depth (R32F).
 
 #include "frame.glsl"
@@ -11,10 +12,11 @@ layout(location = 0) out float depth;
 
 void main() {
     vec2 place;
-    if (!sprite_hit(ray_slope(gl_FragCoord.xy, frame.slope), place, depth)) {
+    if (!sprite_hit(ray_slope(gl_FragCoord.xy, frame.thick_slope), place, depth)) {
         discard;
     }
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel(gl_FragCoord.xy), 0).x);
+    vec2 pixel = gl_FragCoord.xy * frame.thick_extent.z;
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     if (scene > 0.0 && depth >= scene) {
         discard;
     }

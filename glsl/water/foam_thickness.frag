@@ -1,7 +1,6 @@
 #version 460
-// Pass `foam`: metres of foam, of all and of the layer right behind the frontmost (thesis Sec. 4.8.2,
-// Listing A.16).
-// A noise of its own in each sprite, that changes as it ages, breaks up the discs.
+// Pass `foam`, raster path: metres of foam, of all and of the layer right behind the frontmost (thesis
+// Sec. 4.8.2, Listing A.16). A noise of its own in each sprite, that changes as it ages, breaks up the discs.
 // Reads: scene depth, foam depth. Writes: foam thickness (RG32F, or RGBA32F: what of that layer the sun
 // lights).
 
@@ -10,6 +9,7 @@
 #include "gradient_noise.glsl"
 #include "foam.glsl"
 #include "kernel.glsl"
+#include "foam_sprite.glsl"
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec4 look;
@@ -31,17 +31,8 @@ void main() {
     if (scene > 0.0 && depth >= scene) {
         discard;
     }
-    float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
-    float amount = look.x * thickness_kernel(dot(place, place));
-    amount *= max(1.0 + torn.x * noise, 0.0);
-    // It sinks into the scene softly: a sprite that the scene cuts would end in steps of the texels.
-    amount *= scene > 0.0 ? min((scene - depth) / (0.5 * frame.particle.y), 1.0) : 1.0;
-    ivec2 last = ivec2(frame.extent.xy) - 1;
-    float front = texelFetch(foam_depth, min(ivec2(pixel), last), 0).x;
-    // The layer ends softly, within a spacing: what passes its end would pop.
-    float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
-    float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
-    thickness = amount * vec4(1.0, first, first * torn.y, 0.0);
-    // Whole steps: their sums are exact, in any order.
-    thickness = floor(thickness / frame.foam_back.w + 0.5) * frame.foam_back.w;
+    float front = texelFetch(foam_depth, ivec2(gl_FragCoord.xy), 0).x;
+    float before = scene > 0.0 ? scene - depth : EMPTY;
+    vec3 steps = foam_steps(look, torn, place, depth, front, before);
+    thickness = vec4(steps * frame.foam_back.w, 0.0);
 }

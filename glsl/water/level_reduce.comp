@@ -16,6 +16,7 @@ layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
+#include "foam_texels.glsl"
 #include "beside.glsl"
 #include "block.glsl"
 #include "reduction.glsl"
@@ -38,11 +39,11 @@ void main() {
     if (all(lessThan(block, level.rect.zw))) {
         ivec2 end = min((block + 1) * edge, ivec2(frame.extent.xy));
         float z = EMPTY;
-        bool other = false;
+        bool other = foam_beside(block * edge, edge);
         for (int y = block.y * edge; y < end.y; ++y) {
             for (int x = block.x * edge; x < end.x; ++x) {
                 z = min(z, imageLoad(depth, ivec2(x, y)).x);
-                other = other || beside(ivec2(x, y));
+                other = other || spray_at(ivec2(x, y));
             }
         }
         z = block_depth(block * edge, end, z);

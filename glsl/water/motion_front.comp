@@ -1,6 +1,6 @@
 #version 460
 // Pass `motion`, first part, not in the sources: the surfaces in each texel; its sums begin at nothing.
-// Reads: depth, foam depth and thickness. Writes: fronts, sums.
+// Reads: depth, foam depth and thickness, scene depth. Writes: fronts, sums.
 
 #include "frame.glsl"
 
@@ -9,6 +9,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, std430) uniform Push { uint level; } push;
 
 #include "motion.glsl"
+#include "foam_texels.glsl"
 #include "shown_foam.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
@@ -23,7 +24,7 @@ void main() {
     float farthest = 0.0;
     for (int y = texel.y * texel_edge(); y < last.y; ++y) {
         for (int x = texel.x * texel_edge(); x < last.x; ++x) {
-            float z = min(texelFetch(depth, ivec2(x, y), 0).x, shown_foam(ivec2(x, y)));
+            float z = min(texelFetch(depth, ivec2(x, y), 0).x, shown_foam(vec2(x, y) + 0.5));
             nearest = min(nearest, z);
             farthest = z < EMPTY ? max(farthest, z) : farthest;
         }

@@ -13,11 +13,11 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, std430) uniform Push { uint level; } push;
 
 #include "motion.glsl"
+#include "foam_texels.glsl"
 #include "shown_foam.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
 layout(set = 0, binding = 5) uniform sampler2D smoothed;
-layout(set = 0, binding = 6) uniform sampler2D scene_depth;
 // Of a format that shaders may only be told of by a feature: written without being told.
 layout(set = 0, binding = 8) uniform writeonly image2D motion;
 
@@ -114,7 +114,7 @@ void main() {
     vec2 pixel = vec2(p) + 0.5;
     vec2 slope = ray_slope(pixel, frame.slope);
     float water = texelFetch(depth, p, 0).x;
-    float foam = shown_foam(p);
+    float foam = shown_foam(pixel);
     float front = min(water, foam);
     float z = front;
     vec3 moved = moved_at(pixel, front) * frame.motion.y;

@@ -23,6 +23,7 @@ layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
 
 layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a row
 
+#include "foam_texels.glsl"
 #include "beside.glsl"
 #include "block.glsl"
 #include "reduction.glsl"
@@ -32,8 +33,8 @@ shared uint tile_over[4];
 
 // Depth of the block in front of the scene; whether something is drawn there that is no water.
 float reduced(ivec2 block, out bool other) {
-    other = false;
     ivec2 extent = ivec2(frame.extent.xy);
+    other = foam_beside(block << LEVEL, 1 << LEVEL);
     float best = EMPTY;
     for (int y = 0; y < (1 << LEVEL); ++y) {
         for (int x = 0; x < (1 << LEVEL); ++x) {
@@ -42,7 +43,7 @@ float reduced(ivec2 block, out bool other) {
                 continue;
             }
             float z = imageLoad(depth, pixel).x;
-            other = other || beside(pixel);
+            other = other || spray_at(pixel);
             if (z < EMPTY) {
                 float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
                 // Reversed infinite depth at infinity: 1/0, or negative by rounding.

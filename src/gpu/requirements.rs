@@ -65,12 +65,14 @@ pub struct Offer {
     pub api_version: u32,
     /// `synchronization2` is supported.
     pub synchronization2: bool,
-    /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats,
-    /// sunlight, and shadows on foam.
+    /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats.
     pub blend_floats: bool,
     /// R32_SFLOAT and R32G32_SFLOAT can be blended colour attachments, and the latter a storage image,
     /// written without its format being known: foam.
     pub foam_floats: bool,
+    /// R32G32B32A32_SFLOAT can be a blended colour attachment and a storage image, written without its format
+    /// being known: shadows on foam.
+    pub lit_floats: bool,
     /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT can be storage images, written without their format being
     /// known, and are sampled linearly: filtered shadow maps of 8 and of 16 bits.
     pub basis: [bool; 2],
@@ -135,6 +137,7 @@ impl Offer {
                 && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
             foam_floats: offers(vk::Format::R32_SFLOAT, blended)
                 && offers(vk::Format::R32G32_SFLOAT, blended | stored),
+            lit_floats: offers(vk::Format::R32G32B32A32_SFLOAT, blended | stored),
             basis: [vk::Format::R8G8B8A8_SNORM, vk::Format::R16G16B16A16_SFLOAT].map(|format| {
                 offers(format, stored | vk::FormatFeatureFlags2::SAMPLED_IMAGE_FILTER_LINEAR)
             }),
@@ -204,10 +207,10 @@ impl Offer {
             );
         }
         let lit = crate::water::foam_format(config) == vk::Format::R32G32B32A32_SFLOAT;
-        if !self.blend_floats && config.foam && lit {
+        if !self.lit_floats && config.foam && lit {
             return missing(
-                "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
-                "Config.foam with Config.shadow needs it; leave one off",
+                "blending and storage use of R32G32B32A32_SFLOAT".into(),
+                "Config.foam with Config.shadow or Config.cast needs it; leave one off",
             );
         }
         if let Some(convolution) = crate::light::convolution(config) {

@@ -1,11 +1,18 @@
 //! Pass `foam`: the frontmost foam and how much there is (thesis Sec. 3.2, 4.6.2 and 4.8).
 //!
 //! Particles with foam are sprites along their motion; where they are slow or come towards the eye
-//! they turn into discs, smoothly (the source switches, which pops). The corners are pulled in the
-//! vertex shader, the fragment meets the sprite's plane exactly. Thickness is in metres, as that of
-//! the water: what a particle is foam of it is no water.
-//! Nothing pops or flickers: sprites sink into the scene softly, the depth's sprite is whole before its foam can be seen, no sprite of the
-//! thickness is narrower than what its texels can hold, finer noise fades, the front layer ends softly.
+//! they turn into discs, smoothly (the source switches, which pops). A ray meets a sprite's plane
+//! exactly. Thickness is in metres, as that of the water: what a particle is foam of it is no water.
+//! Nothing pops or flickers: the depth's sprite is whole before its foam can be seen, none is narrower
+//! than what texels can hold, finer noise fades, the front layer ends softly, and so do sprites where they
+//! sink into the scene.
+//! Depth and thickness are of one resolution, a quarter by default (the source's depth is full): what is
+//! seen of foam is its thickness, and a finer depth only has more fragments, most of which lose. Outlines
+//! are the thickness', which ends softly; the scene's are told a pixel (glsl/include/foam_texels.glsl).
+//! Two ways, as the water's thickness: quads that are blended, and invocations with integer atomics.
+//! Sprites are few texels wide, so that a triangle's setup costs as much as its fragments; a lost depth is
+//! found by a read; what is behind the front layer, mostly nothing, is counted by itself. Both sum whole
+//! steps, in any order.
 //! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
 //! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost),
@@ -13,9 +20,11 @@
 
 use ash::vk;
 use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
 
 use super::Recording;
 use super::cull::{self, SphereList};
+use super::depth::DEFAULT_SPLAT;
 use super::settings::Shadows;
 use super::sprites::{Over, Sprites};
 use crate::contract::{Config, Particles};
@@ -23,14 +32,17 @@ use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COPY_READ, FRAGMENT_SAMPLED,
+    self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
+    COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED, VERTEX_READ, buffer,
 };
+use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::gpu::target::Target;
+use crate::water::settings::Splat;
 
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 48;
@@ -73,18 +85,31 @@ shader::assert_layout!(
     }
 );
 
-/// An image that sprites are blended into.
-struct Blended {
-    target: Target,
-    pipeline: Pipeline,
-    level: u32,
-}
-
 /// What an image is for.
 #[derive(Clone, Copy)]
 enum Kind {
     Depth,
     Thickness,
+}
+
+fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
+    let (name, format, alias) = match kind {
+        Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT, Some(vk::Format::R32_UINT)),
+        Kind::Thickness => ("water/foam/thickness", thickness_format(config), None),
+    };
+    let usage = vk::ImageUsageFlags::SAMPLED
+        | vk::ImageUsageFlags::STORAGE
+        | vk::ImageUsageFlags::COLOR_ATTACHMENT
+        | vk::ImageUsageFlags::TRANSFER_SRC
+        | vk::ImageUsageFlags::TRANSFER_DST;
+    let extent = reduced(config.extent, config.thickness_level);
+    ImageDesc { alias, ..ImageDesc::new(name, extent, format, usage) }
+}
+
+/// An image that sprites are blended into.
+struct Blended {
+    target: Target,
+    pipeline: Pipeline,
 }
 
 impl Blended {
@@ -105,7 +130,7 @@ impl Blended {
                 constants: &[(0, thick)],
             },
         )?;
-        Ok(Self { target, pipeline, level: level(config, kind) })
+        Ok(Self { target, pipeline })
     }
 
     /// Clears the image, and blends all sprites into it, if there are any.
@@ -120,7 +145,7 @@ impl Blended {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let to = COLOR_ATTACHMENT;
         gpu.barriers(cmd, &[access::image(&self.target.image, BEFORE.discarded(), to)], &[]);
-        let area = reduced(r.extent, self.level).into();
+        let area = reduced(r.extent, foam.level).into();
         let clear = [clear, 0.0, 0.0, 0.0];
         self.target.begin(gpu, cmd, area, clear);
         if any {
@@ -136,47 +161,156 @@ impl Blended {
     }
 }
 
-fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
-    let (name, format) = match kind {
-        Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT),
-        Kind::Thickness => ("water/foam/thickness", thickness_format(config)),
-    };
-    let usage = vk::ImageUsageFlags::SAMPLED
-        | vk::ImageUsageFlags::COLOR_ATTACHMENT
-        | vk::ImageUsageFlags::TRANSFER_SRC;
-    ImageDesc::new(name, reduced(config.extent, level(config, kind)), format, usage)
-}
-
 /// With room for what the sun lights, where something casts shadows on foam.
 pub fn thickness_format(config: &Config) -> vk::Format {
-    match (config.shadow, config.cast) {
-        (None | Some(Shadows::Mask), None) => vk::Format::R32G32_SFLOAT,
-        _ => vk::Format::R32G32B32A32_SFLOAT,
+    if lit(config) { vk::Format::R32G32B32A32_SFLOAT } else { vk::Format::R32G32_SFLOAT }
+}
+
+/// Whether there are shadows of the sprites: a mask's are the pixels'.
+fn lit(config: &Config) -> bool {
+    config.cast.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
+}
+
+/// What the compute path has.
+struct Splats {
+    /// Of the depth and of the thickness.
+    each: [Pipeline; 2],
+    resolve: Pipeline,
+    depth: Image,
+    thickness: Image,
+    /// Whole steps of all thicknesses.
+    sums: Buffer,
+}
+
+impl Splats {
+    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let lit = (1, u32::from(lit(config)));
+        let each = |thick| Pipeline::compute(gpu, shader::WATER_FOAM_COMP, &[(0, thick), lit]);
+        let (depth, thickness, sums) = Self::sized(gpu, config)?;
+        Ok(Self {
+            each: [each(0)?, each(1)?],
+            resolve: Pipeline::compute(gpu, shader::WATER_FOAM_RESOLVE_COMP, &[lit])?,
+            depth,
+            thickness,
+            sums,
+        })
+    }
+
+    fn sized(gpu: &Gpu, config: &Config) -> Result<(Image, Image, Buffer), Error> {
+        let image = |kind| Image::new(gpu, &desc(config, kind));
+        let (depth, thickness) = (image(Kind::Depth)?, image(Kind::Thickness)?);
+        let bytes = if lit(config) { 12 } else { 8 };
+        let bytes = bytes * u64::from(depth.extent.width) * u64::from(depth.extent.height);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let sums = Buffer::new(gpu, "water/foam/sums", bytes, usage, MemoryLocation::GpuOnly)?;
+        Ok((depth, thickness, sums))
+    }
+
+    fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let (depth, thickness, sums) = Self::sized(gpu, config)?;
+        retired.retire(std::mem::replace(&mut self.depth, depth));
+        retired.retire(std::mem::replace(&mut self.thickness, thickness));
+        retired.retire(std::mem::replace(&mut self.sums, sums));
+        Ok(())
+    }
+
+    fn record(
+        &self,
+        r: &mut Recording<'_>,
+        foam: &Foam,
+        list: &SphereList,
+        any: bool,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let (depth, thickness, sums) = (&self.depth, &self.thickness, self.sums.handle);
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(depth, BEFORE.discarded(), CLEAR),
+                access::image(thickness, BEFORE.discarded(), COMPUTE_WRITE),
+            ],
+            &[buffer(sums, COMPUTE_READ, CLEAR)],
+        );
+        let value = vk::ClearColorValue { float32: [EMPTY, 0.0, 0.0, 0.0] };
+        let range = vk::ImageSubresourceRange {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            level_count: 1,
+            layer_count: 1,
+            ..Default::default()
+        };
+        let layout = CLEAR.layout;
+        // SAFETY: outside a render pass; the image is in its layout, the frame before has read both.
+        unsafe {
+            gpu.device.cmd_clear_color_image(cmd, depth.handle, layout, &value, &[range]);
+            gpu.device.cmd_fill_buffer(cmd, sums, 0, vk::WHOLE_SIZE, 0);
+        }
+        gpu.barriers(
+            cmd,
+            &[access::image(depth, CLEAR, COMPUTE_READ_WRITE)],
+            &[buffer(sums, CLEAR, COMPUTE_READ_WRITE)],
+        );
+        let more = [
+            (2, r.scene_depth),
+            (3, Resource::Storage(depth.alias_view)),
+            (5, Resource::buffer(&self.sums)),
+        ];
+        let [each_depth, each_thickness] = &self.each;
+        if any {
+            foam.sprites.splat(r, list, each_depth, &more)?;
+        }
+        let both = COMPUTE_READ_WRITE;
+        gpu.barriers(cmd, &[access::image(depth, both, both)], &[]);
+        if any {
+            foam.sprites.splat(r, list, each_thickness, &more)?;
+        }
+        gpu.barriers(
+            cmd,
+            &[access::image(depth, both, AFTER)],
+            &[buffer(sums, both, COMPUTE_READ)],
+        );
+        let resources =
+            [(0, r.uniforms), (1, Resource::buffer(&self.sums)), (2, Resource::storage(thickness))];
+        r.descriptors.bind(gpu, cmd, &self.resolve, &resources)?;
+        r.dispatch_over(reduced(r.extent, foam.level), self.resolve.local_size);
+        gpu.barriers(cmd, &[access::image(thickness, COMPUTE_WRITE, AFTER)], &[]);
+        Ok(())
     }
 }
 
-fn level(config: &Config, kind: Kind) -> u32 {
-    match kind {
-        Kind::Depth => 0,
-        Kind::Thickness => config.thickness_level,
-    }
+enum Path {
+    Raster { depth: Blended, thickness: Blended },
+    Compute(Box<Splats>),
 }
 
 /// The pass.
 pub struct Foam {
     sprites: Sprites,
-    depth: Blended,
-    thickness: Blended,
+    path: Path,
+    /// Times that both images are halved.
+    pub level: u32,
 }
 
 impl Foam {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let list = (shader::WATER_FOAM_LIST_COMP, &crate::light::constants(config)[..]);
-        Ok(Self {
-            sprites: Sprites::new(gpu, config, "water/foam/sprites", SPRITE, list)?,
-            depth: Blended::new(gpu, config, Kind::Depth)?,
-            thickness: Blended::new(gpu, config, Kind::Thickness)?,
-        })
+        let sprites = |read| Sprites::new(gpu, config, "water/foam/sprites", SPRITE, list, read);
+        let (sprites, path) = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
+            Splat::Raster => {
+                let depth = Blended::new(gpu, config, Kind::Depth)?;
+                let thickness = Blended::new(gpu, config, Kind::Thickness)?;
+                (sprites(VERTEX_READ)?, Path::Raster { depth, thickness })
+            }
+            Splat::Compute => {
+                let splats = Box::new(Splats::new(gpu, config)?);
+                (sprites(COMPUTE_READ)?, Path::Compute(splats))
+            }
+        };
+        Ok(Self { sprites, path, level: config.thickness_level })
     }
 
     pub fn resize(
@@ -185,18 +319,29 @@ impl Foam {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        self.depth.target.resize(gpu, &desc(config, Kind::Depth), retired)?;
-        self.thickness.target.resize(gpu, &desc(config, Kind::Thickness), retired)
+        match &mut self.path {
+            Path::Raster { depth, thickness } => {
+                depth.target.resize(gpu, &desc(config, Kind::Depth), retired)?;
+                thickness.target.resize(gpu, &desc(config, Kind::Thickness), retired)
+            }
+            Path::Compute(splats) => splats.resize(gpu, config, retired),
+        }
     }
 
     /// Eye depth of the frontmost foam.
     pub fn depth(&self) -> &Image {
-        &self.depth.target.image
+        match &self.path {
+            Path::Raster { depth, .. } => &depth.target.image,
+            Path::Compute(splats) => &splats.depth,
+        }
     }
 
     /// Metres of foam.
     pub fn thickness(&self) -> &Image {
-        &self.thickness.target.image
+        match &self.path {
+            Path::Raster { thickness, .. } => &thickness.target.image,
+            Path::Compute(splats) => &splats.thickness,
+        }
     }
 
     /// `list`: of `cull`, for its counts.
@@ -230,14 +375,23 @@ impl Foam {
                 }
             })?;
         }
-        self.depth.record(r, self, list, EMPTY, any)?;
-        self.thickness.record(r, self, list, 0.0, any)?;
+        match &self.path {
+            Path::Raster { depth, thickness } => {
+                depth.record(r, self, list, EMPTY, any)?;
+                thickness.record(r, self, list, 0.0, any)?;
+            }
+            Path::Compute(splats) => splats.record(r, self, list, any)?,
+        }
         r.end(scope);
         Ok(())
     }
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.depth().size + self.thickness().size, self.sprites.memory())
+        let sums = match &self.path {
+            Path::Raster { .. } => 0,
+            Path::Compute(splats) => splats.sums.size,
+        };
+        (self.depth().size + self.thickness().size, self.sprites.memory() + sums)
     }
 }

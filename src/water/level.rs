@@ -113,6 +113,7 @@ impl Level {
         };
         let rule = [
             (1, rule_constant(config.rule)),
+            (3, 1 << config.thickness_level),
             (9, u32::from(config.foam)),
             (10, u32::from(config.spray)),
         ];

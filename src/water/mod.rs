@@ -318,9 +318,8 @@ impl Water {
             layers.push(layer("water.thickness.sheets", sheets, self.thickness.level, access));
         }
         if let Some(foam) = &self.foam {
-            let level = self.thickness.level;
-            layers.push(layer("foam.depth", foam.depth(), 0, foam::AFTER));
-            layers.push(layer("foam.thickness", foam.thickness(), level, foam::AFTER));
+            layers.push(layer("foam.depth", foam.depth(), foam.level, foam::AFTER));
+            layers.push(layer("foam.thickness", foam.thickness(), foam.level, foam::AFTER));
         }
         if let Some(spray) = &self.spray {
             layers.push(layer("spray", spray.image(), 0, spray::AFTER));

@@ -194,7 +194,7 @@ impl Motion {
             (1, Resource::buffer(&self.fronts)),
             (2, Resource::buffer(&self.sums)),
         ];
-        let front = [(3, sampled(from.depth)), (4, foam), (9, foam_thickness)];
+        let front = [(3, sampled(from.depth)), (4, foam), (6, r.scene_depth), (9, foam_thickness)];
         r.descriptors.bind(gpu, cmd, &self.front, &[&ours[..], &front].concat())?;
         self.front.push(gpu, cmd, &self.level);
         r.dispatch_over(reduced(r.extent, self.level), self.front.local_size);

@@ -21,7 +21,9 @@ use crate::contract::{Config, Particles};
 use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
-use crate::gpu::access::{self, Access, COLOR_ATTACHMENT, COPY_READ, FRAGMENT_SAMPLED};
+use crate::gpu::access::{
+    self, Access, COLOR_ATTACHMENT, COPY_READ, FRAGMENT_SAMPLED, VERTEX_READ,
+};
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
@@ -86,7 +88,14 @@ impl Noise {
         )?;
         let shader = shader::WATER_NOISE_LIST_COMP;
         Ok(Self {
-            sprites: Sprites::new(gpu, config, "water/noise/sprites", SPRITE, (shader, &[]))?,
+            sprites: Sprites::new(
+                gpu,
+                config,
+                "water/noise/sprites",
+                SPRITE,
+                (shader, &[]),
+                VERTEX_READ,
+            )?,
             draw,
             target,
             level,

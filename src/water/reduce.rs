@@ -71,6 +71,7 @@ impl Reduce {
         let constants = [
             (0, config.smoothing_level),
             (1, rule_constant(config.rule)),
+            (3, 1 << config.thickness_level),
             (9, u32::from(config.foam)),
             (10, u32::from(config.spray)),
         ];

@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COPY_READ,
-    FRAGMENT_SAMPLED,
+    FRAGMENT_SAMPLED, VERTEX_READ,
 };
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
@@ -88,7 +88,14 @@ impl Spray {
         )?;
         let shader = shader::WATER_SPRAY_LIST_COMP;
         Ok(Self {
-            sprites: Sprites::new(gpu, config, "water/spray/sprites", SPRITE, (shader, &[]))?,
+            sprites: Sprites::new(
+                gpu,
+                config,
+                "water/spray/sprites",
+                SPRITE,
+                (shader, &[]),
+                VERTEX_READ,
+            )?,
             draw,
             target,
         })

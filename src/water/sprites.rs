@@ -1,5 +1,5 @@
 //! What passes over the host's particles share: the binding of the streams they read, chunk by chunk,
-//! and for `foam`, `spray` and `noise` the sprites that such a pass lists and a draw then reads.
+//! and for `foam`, `spray` and `noise` the sprites that such a pass lists and a draw or a dispatch reads.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -10,7 +10,7 @@ use super::cull::{self, LIST_USE, SphereList, Window};
 use crate::contract::{Config, Particles, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::gpu::access::{COMPUTE_READ_WRITE, COMPUTE_WRITE, VERTEX_READ, buffer};
+use crate::gpu::access::{Access, COMPUTE_READ_WRITE, COMPUTE_WRITE, buffer};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
@@ -62,23 +62,27 @@ impl<const N: usize> Over<'_, N> {
     }
 }
 
-/// Sprites of the particles of one kind: listed by a dispatch, drawn by an instance each.
+/// Sprites of the particles of one kind: listed by a dispatch, drawn by an instance each, or by an
+/// invocation.
 pub struct Sprites {
     list: Pipeline,
     buffer: Buffer,
     /// Bytes of a sprite.
     size: u64,
+    /// How they are read.
+    read: Access,
 }
 
 impl Sprites {
     /// `shader`, specialised by `constants`: lists them. Its bindings are the frame's uniforms, positions,
-    /// streams, `Counts`, sprites, and what is the pass' own.
+    /// streams, `Counts`, sprites, and what is the pass' own. `read`: by a draw's vertices, or by compute.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
         name: &str,
         size: u64,
         (shader, constants): (Shader, &[(u32, u32)]),
+        read: Access,
     ) -> Result<Self, Error> {
         let (chunk, chunks) = cull::chunks(&gpu.limits, config);
         let bytes = size * u64::from(chunk) * u64::from(chunks);
@@ -87,6 +91,7 @@ impl Sprites {
             list: Pipeline::compute(gpu, shader, constants)?,
             buffer: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
             size,
+            read,
         })
     }
 
@@ -103,7 +108,7 @@ impl Sprites {
         let (counts, sprites) = (list.counts.handle, self.buffer.handle);
         let before = [
             buffer(counts, LIST_USE, COMPUTE_READ_WRITE),
-            buffer(sprites, VERTEX_READ, COMPUTE_WRITE),
+            buffer(sprites, self.read, COMPUTE_WRITE),
         ];
         r.gpu.barriers(r.cmd, &[], &before);
         let binding = over.next_binding();
@@ -115,7 +120,7 @@ impl Sprites {
         }
         let after = [
             buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
-            buffer(sprites, COMPUTE_WRITE, VERTEX_READ),
+            buffer(sprites, COMPUTE_WRITE, self.read),
         ];
         r.gpu.barriers(r.cmd, &[], &after);
         Ok(())
@@ -139,6 +144,27 @@ impl Sprites {
             let draw = list.chunk(index).arguments + arguments;
             // SAFETY: inside a render pass; the arguments are visible (barrier of the list).
             unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
+        }
+        Ok(())
+    }
+
+    /// The same by a dispatch, outside a render pass; `Counts` are binding 4.
+    pub fn splat(
+        &self,
+        r: &Recording<'_>,
+        list: &SphereList,
+        pipeline: &Pipeline,
+        more: &[(u32, Resource)],
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let groups = list.chunk_size.div_ceil(pipeline.local_size[0]).min(MOST_GROUPS);
+        for index in 0..list.chunks {
+            let counts = list.chunk(index).counts;
+            let mut resources = vec![(0, r.uniforms), (1, self.chunk(list, index)), (4, counts)];
+            resources.extend_from_slice(more);
+            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            // SAFETY: outside a render pass, pipeline and set are bound.
+            unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
         }
         Ok(())
     }

@@ -131,7 +131,7 @@ pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn
     let (shot, found) = (&case.shot, of(drawn));
     let (view, settings) = (shot.view(shot.size), case.settings());
     let scene = shot.scene_at(shot.size, 0);
-    let bounds = foam::depth_bounds(sprites, &view, &settings, &scene);
+    let bounds = foam::depth_bounds(sprites, &view, level, &settings, &scene);
     compare::between(&format!("{name}-depth"), &found.depth, &bounds);
     let depth = Between { low: wide(&found.depth), high: wide(&found.depth) };
     let [all, front, lit] =
@@ -149,17 +149,20 @@ pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn
 fn foam_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    for level in [1, 0, 2] {
-        let mut rig = Rig::new(&gpu, &Config { thickness_level: level, ..foaming(size) });
+    let both = [Splat::Compute, Splat::Raster];
+    for (level, splat) in [1, 0, 2].into_iter().flat_map(|level| both.map(|splat| (level, splat))) {
+        let thickness_splat = Some(splat);
+        let config = Config { thickness_level: level, thickness_splat, ..foaming(size) };
+        let mut rig = Rig::new(&gpu, &config);
         let lenses = if level == 1 { &LENSES[..] } else { &[Lens::OffAxis] };
         for lens in lenses {
             for fastest in [0.0, 40.0] {
                 let mut case = Foamy::new(size, *lens, fastest);
-                let name = format!("foam-{level}-{lens:?}-{fastest}");
+                let name = format!("foam-{level}-{splat:?}-{lens:?}-{fastest}");
                 let drawn = case.draw(&mut rig);
                 check(&name, &case, &drawn, level);
                 let covered = of(&drawn).depth.data.iter().filter(|z| **z < 1e9).count();
-                assert!(covered * 4 > drawn.depth.data.len(), "{name}: {covered} pixels");
+                assert!(covered * 4 > of(&drawn).depth.data.len(), "{name}: {covered} texels");
                 case.shot.scene_depth(|x, y| ((x / 9 + y / 5) % 2 == 0).then_some(4.0));
                 let drawn = case.draw(&mut rig);
                 check(&format!("{name}-cut"), &case, &drawn, level);
@@ -211,7 +214,7 @@ fn what_is_foam_is_no_water() {
         let whole = (0.75 * (1.0 - 4.0 * U), 0.75 * (1.0 + 4.0 * U));
         compare::between(&format!("{name}-all"), &drawn.thickness, &bounds(&|_, _, _| whole));
         let before = bounds(&|x, y, z| {
-            let foam = front.at((2 * x + 1).min(96), (2 * y + 1).min(60));
+            let foam = front.at(x, y);
             if !is_surface(foam) {
                 return whole;
             }
@@ -359,13 +362,16 @@ fn motion_and_ids_show() {
     assert_ne!(of(&still).thickness.data, of(&others).thickness.data);
 }
 
-/// Sums of whole steps are exact: the order of the particles is no matter, bit for bit.
+/// Sums of whole steps are exact: the order of the particles is no matter, bit for bit, nor is the way.
 #[test]
 fn the_order_of_particles_does_not_show_in_foam() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let config = Config { spray: true, ..foaming(size) };
+    let blended = Config { depth_splat: Some(Splat::Raster), ..config };
     let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut blending =
+        Rig::lit(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..blended }, 1);
     let mut case = Foamy::new(size, Lens::Reversed, 30.0);
     let n = case.shot.positions.len();
     case.shot.densities = Some((0..n).map(|i| 1000.0 * (i % 7) as f32 / 6.0).collect());
@@ -379,6 +385,9 @@ fn the_order_of_particles_does_not_show_in_foam() {
     other.velocities = (0..n).map(|i| case.velocities[turned(i)]).collect();
     other.ids = case.ids.as_ref().map(|ids| (0..n).map(|i| ids[turned(i)]).collect());
     assert_eq!(n, 160, "37 and 160 have no common factor: a permutation");
+    let [one, two] = [&case, &other].map(|case| case.draw(&mut blending));
+    assert!(of(&one).thickness.data == of(&two).thickness.data, "blended");
+    assert!(of(&one).depth.data == of(&two).depth.data, "blended");
     for _ in 0..3 {
         let drawn = other.draw(&mut rig);
         let (a, b) = (of(&drawn), of(&expected));
@@ -405,6 +414,59 @@ fn chunks_of_foam_are_the_twins() {
         let drawn = case.draw(&mut rig);
         check("foam-chunks", &case, &drawn, 1);
         case.ids = None;
+    }
+}
+
+/// Any number of sprites may lie on one spot: a sum ends at 2^24 steps, and does not begin again.
+#[test]
+fn sums_of_foam_end_where_they_are_full() {
+    let gpu = Gpu::shared();
+    let size = extent(41, 31);
+    let config = Config { thickness_level: 1, max_particles: 1 << 14, ..foaming(size) };
+    let mut rig = Rig::new(&gpu, &config);
+    let mut case = Foamy::new(size, Lens::Standard, 0.0);
+    case.shot.settings.foam.noise = 0.0;
+    let spot = scenes::world(&case.shot.camera, &[[0.0, 0.0, 2.0]])[0];
+    let most = case.settings().step * f64::from(1 << 24);
+    let mut full = 0;
+    for count in [1, 1 << 14] {
+        case.shot.positions = vec![spot; count];
+        (case.amounts, case.velocities) = (vec![[1.0, 0.0]; count], vec![[0.0; 3]; count]);
+        case.ids = None;
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn).thickness.data.iter().map(|t| f64::from(t[0]));
+        let found: Vec<f64> = found.collect();
+        assert!(found.iter().all(|t| *t <= most), "{count}");
+        full += found.iter().filter(|t| **t == most).count();
+        assert!((full > 0) == (count > 1), "{count}: {full}");
+    }
+}
+
+/// Where the scene is before foam none of it is seen, to the pixel, in texels that both share; beside it
+/// foam is seen.
+#[test]
+fn the_scenes_outline_in_foam_is_sharp() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let mut rig = Rig::lit(&gpu, &Config { composite: Some(shading), ..foaming(size) }, 1);
+        let mut wall = Foamy::new(size, Lens::Standard, 0.0);
+        let block = scenes::block(3, 0.1, [44, 30, 3], [-2.2, -1.5, 2.0]);
+        wall.shot.positions = scenes::world(&wall.shot.camera, &block);
+        (wall.amounts, wall.velocities) =
+            (vec![[1.0, 0.0]; block.len()], vec![[0.0; 3]; block.len()]);
+        wall.ids = None;
+        let before = |x: u32| x / 7 % 2 == 0;
+        // By more than a spacing.
+        wall.shot.scene_depth(|x, _| before(x).then_some(1.0));
+        let drawn = wall.draw(&mut rig);
+        let mut foamy = 0;
+        for (i, (found, scene)) in drawn.output.data.iter().zip(&wall.shot.color).enumerate() {
+            let same = found.map(f32::to_bits) == scene.map(f32::to_bits);
+            assert_eq!(same, before(i as u32 % 97), "{shading:?}, pixel ({}, {})", i % 97, i / 97);
+            foamy += usize::from(!same);
+        }
+        assert!(foamy > 2000, "{foamy}");
     }
 }
 

@@ -93,7 +93,7 @@ impl Moving {
             dt: self.dt(),
             level,
         };
-        let foam = shown_foam(shot, drawn, level);
+        let foam = shown_foam(shot, drawn);
         let shown = Shown {
             depth: &drawn.depth,
             foam: foam.as_ref(),
@@ -127,17 +127,13 @@ fn of(drawn: &Drawn) -> &Image<[f32; 2]> {
 }
 
 /// Depth of the foam where it hides half of what is behind it, as `composite` has it.
-pub(crate) fn shown_foam(shot: &Shot, drawn: &Drawn, level: u32) -> Option<Image<f32>> {
-    let foam = drawn.foam.as_ref()?;
+pub(crate) fn shown_foam(shot: &Shot, drawn: &Drawn) -> Option<Image<f32>> {
+    let seen = drawn.foam.as_ref()?.seen(shot);
     let look = &shot.settings.foam;
-    let edge = f64::from(1_u32 << level);
-    Some(Image::from_fn(foam.depth.width, foam.depth.height, |x, y| {
-        let four = foam.thickness.bilinear((DVec2::new(x as f64, y as f64) + 0.5) / edge);
-        let at = |(x, y, w): (isize, isize, f64)| w * f64::from(foam.thickness.clamped(x, y)[0]);
-        let t: f64 = four.into_iter().map(at).sum();
-        let whole = smoothstep(0.0, f64::from(look.veil).max(1e-6), t);
+    Some(seen.map(|(depth, [t, _])| {
+        let whole = smoothstep(0.0, f64::from(look.veil).max(1e-6), *t);
         let kept = (-f64::from(look.extinction) * t * whole).exp();
-        if kept <= 0.5 { foam.depth.at(x, y) } else { 1e10 }
+        if kept <= 0.5 { *depth as f32 } else { 1e10 }
     }))
 }
 
@@ -384,7 +380,7 @@ fn outlines_keep_both_sides() {
         case.amounts = foam.then(|| (0..points.len()).map(amount).collect());
         case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.05 });
         let drawn = case.draw(&mut rig);
-        let shown = shown_foam(&case.shot, &drawn, thickness_level);
+        let shown = shown_foam(&case.shot, &drawn);
         let front = |i: usize| {
             let foam = shown.as_ref().map_or(1e10, |foam| foam.data[i]);
             drawn.depth.data[i].min(foam)

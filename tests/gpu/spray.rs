@@ -133,10 +133,11 @@ impl Sprayed {
     /// The picture is spray over what there was: untouched where there is nothing.
     fn check_over(&self, name: &str, drawn: &Drawn, behind: &[[f32; 4]]) {
         let (look, light) = (&self.shot.settings.spray, &self.shot.settings.light.irradiance);
+        let foam = drawn.foam.as_ref().map(|foam| foam.seen(&self.shot));
         for (i, (found, behind)) in drawn.output.data.iter().zip(behind).enumerate() {
             let x = of(drawn).data[i];
             let untouched = drawn.depth.data[i] >= 1e9
-                && drawn.foam.as_ref().is_none_or(|foam| foam.depth.data[i] >= 1e9)
+                && foam.as_ref().is_none_or(|seen| seen.data[i].0 >= 1e9)
                 && x == 0.0;
             if untouched {
                 assert_eq!(found.map(f32::to_bits), behind.map(f32::to_bits), "{name}: {i}");

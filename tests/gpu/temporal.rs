@@ -78,7 +78,7 @@ struct Seen {
 impl Seen {
     fn new(case: &Foamy, rig: &mut Rig<'_>) -> Self {
         let drawn = case.draw(rig);
-        let foam = shown_foam(&case.shot, &drawn, rig.config.thickness_level).expect("foam");
+        let foam = shown_foam(&case.shot, &drawn).expect("foam");
         let shown = Image::from_fn(foam.width, foam.height, |x, y| {
             foam.at(x, y).min(drawn.depth.at(x, y)) < 1e9
         });

@@ -20,11 +20,10 @@ use std::f64::consts::{PI, SQRT_2};
 
 /// Drawn radius of a whole particle over the spacing.
 const RADIUS: f64 = 0.656;
-/// Half-axis of a sprite at rest, in radii; of the one that makes the depth as much of it as eight
-/// times the foam is, at most all.
+/// Half-axis of a sprite at rest, in radii.
 const AXIS: f64 = 2.0;
 
-/// The part of the half-axis that the depth's has.
+/// The part of the thickness' half-axes that the depth's have: eight times the foam, at most all.
 fn depth_part(foam: f64) -> f64 {
     (8.0 * foam).min(1.0)
 }
@@ -41,7 +40,7 @@ const EDGE_ON: f64 = 1e-6;
 const LEAST_FACING: f64 = 0.2;
 /// Cells of the noise to a half-axis.
 const CELLS: f64 = 1.6;
-/// Least half-axis of what makes the thickness, in texels.
+/// Least half-axis of what makes the thickness, in texels of both.
 const LEAST_AXIS: f64 = 1.5;
 /// Texels of a cell between which its noise comes.
 const TOLD_APART: (f64, f64) = (1.0, 2.0);
@@ -216,7 +215,19 @@ impl Ellipse {
         (k >= near && at.length_squared() <= 1.0).then_some(Hit { k, at })
     }
 
-    /// The same as the thickness has it, in texels that are so wide at the depth of its centre; how
+    /// That of the thickness, in the texels of a view; how much the noise tears it.
+    fn thick(sprite: &Sprite, view: &View, settings: &Settings) -> (Self, f64) {
+        let half = AXIS * settings.radius();
+        Self::new(sprite, settings, half).wide(texel(sprite.center, view), settings)
+    }
+
+    /// That of the depth, of so much foam.
+    fn deep(sprite: &Sprite, foam: f64, view: &View, settings: &Settings) -> Self {
+        let (thick, _) = Self::thick(sprite, view, settings);
+        Self { half: thick.half * depth_part(foam), ..thick }
+    }
+
+    /// The same no narrower than what texels can hold that are so wide at the depth of its centre; how
     /// much the noise tears it.
     fn wide(self, texel: f64, settings: &Settings) -> (Self, f64) {
         let cell = self.half.y / (CELLS * texel);
@@ -261,22 +272,25 @@ pub(super) fn scene_depth(scene: f64) -> f64 {
     if scene > 0.0 { scene } else { f64::INFINITY }
 }
 
-/// The depth of the nearest foam in each pixel, world units. `scene`: the eye depth of what hides
-/// it, as large as the view, infinite or [`EMPTY`] where there is nothing.
+/// The depth of the nearest foam in each texel, world units. Texels are blocks of `2^level` pixels a
+/// side of the view. `scene`: the eye depth of what hides it, as large as the view, infinite or
+/// [`EMPTY`] where there is nothing.
 pub fn depth(
     sprites: &[Sprite],
     view: &View,
+    level: u32,
     settings: &Settings,
     scene: &Image<f64>,
 ) -> Image<f64> {
-    let near = view.near();
+    let (view, near) = (&view.reduced(level), view.near());
     let mut depth = Image::new(view.width, view.height, EMPTY);
     for sprite in sprites {
         let Some(foam) = sprite.part_beyond(near) else { continue };
-        let ellipse = Ellipse::new(sprite, settings, AXIS * settings.radius() * depth_part(foam));
+        let ellipse = Ellipse::deep(sprite, foam, view, settings);
         for (x, y) in pixels(view, sprite.center, ellipse.half.x) {
             let hit = ellipse.meet(view.ray(x, y), near);
-            if let Some(hit) = hit.filter(|hit| hit.k < scene_depth(scene.at(x, y))) {
+            let hidden = scene_depth(in_full(scene, x, y, level));
+            if let Some(hit) = hit.filter(|hit| hit.k < hidden) {
                 let pixel = depth.at_mut(x, y);
                 *pixel = pixel.min(hit.k);
             }
@@ -286,8 +300,7 @@ pub fn depth(
 }
 
 /// The thickness of foam along z in each texel, world units: of all, and of what lies no further
-/// than [`Settings::front_depth`] behind `foam_depth`, which is that of [`depth`]. Texels are
-/// blocks of `2^level` pixels a side of the view, which `scene` and `foam_depth` are as large as.
+/// than [`Settings::front_depth`] behind `foam_depth`, which is that of [`depth`].
 pub fn thickness(
     sprites: &[Sprite],
     view: &View,
@@ -300,8 +313,7 @@ pub fn thickness(
     let mut thickness = Image::new(view.width, view.height, [0.0; 2]);
     for sprite in sprites {
         let Some(foam) = sprite.part_beyond(near) else { continue };
-        let ellipse = Ellipse::new(sprite, settings, AXIS * settings.radius());
-        let (ellipse, torn) = ellipse.wide(texel(sprite.center, view), settings);
+        let (ellipse, torn) = Ellipse::thick(sprite, view, settings);
         let amplitude = ellipse.amplitude(foam, settings);
         for (x, y) in pixels(view, sprite.center, ellipse.half.x) {
             let hit = ellipse.meet(view.ray(x, y), near);
@@ -310,7 +322,7 @@ pub fn thickness(
             let torn = 1.0 + torn * noise(sprite.place(hit.at.x, hit.at.y, settings));
             let value = amplitude * kernel(hit.at.length_squared()) * torn.max(0.0);
             let value = value * settings.sunk(hidden - hit.k);
-            let nearest = in_full(foam_depth, x, y, level);
+            let nearest = foam_depth.at(x, y);
             let front = if is_surface(nearest) { settings.within(hit.k - nearest) } else { 0.0 };
             let texel = thickness.at_mut(x, y);
             texel[0] += value;
@@ -318,6 +330,32 @@ pub fn thickness(
         }
     }
     thickness
+}
+
+/// What a pixel shows of the foam: the nearest depth of the texels round it, [`EMPTY`] where there is
+/// none, and both thicknesses, of the four by bilinear weights. Texels take no part whose foam lies more
+/// than a spacing behind the scene at the pixel.
+pub fn seen(
+    (depth, thickness): (&Image<f32>, &Image<[f32; 2]>),
+    (x, y): (usize, usize),
+    level: u32,
+    scene: f64,
+    spacing: f64,
+) -> (f64, [f64; 2]) {
+    let at = (DVec2::new(x as f64, y as f64) + 0.5) / f64::from(1_u32 << level);
+    let end = (scene_depth(scene) + spacing).min(EMPTY);
+    let mut found = (EMPTY, [0.0; 2]);
+    for (x, y, weight) in depth.bilinear(at) {
+        let z = f64::from(depth.clamped(x, y));
+        if weight > 0.0 && is_surface(z) && z < end {
+            found.0 = z.min(found.0);
+        }
+        if z < end || !is_surface(z) {
+            let there = thickness.clamped(x, y);
+            (0..2).for_each(|i| found.1[i] += weight * f64::from(there[i]));
+        }
+    }
+    found
 }
 
 /// Where the noise of an id begins, in cells.
@@ -669,17 +707,24 @@ fn span<T, const N: usize>(
 pub fn depth_bounds(
     sprites: &[Sprite],
     view: &View,
+    level: u32,
     settings: &Settings,
     scene: &Image<f64>,
 ) -> Between {
-    let near = view.near();
+    let (full, view, near) = (view, &view.reduced(level), view.near());
     let mut low = Image::new(view.width, view.height, EMPTY);
     let mut high = low.clone();
-    for (sprite, foam, drawn) in maybe_drawn(sprites, view) {
-        let ellipses = LooseEllipse::all(sprite, view, settings, AXIS * depth_part(foam));
+    for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
+        let ellipses = LooseEllipse::all(sprite, full, settings, AXIS);
+        let deep = |ellipse: LooseEllipse| {
+            let (thick, _) = ellipse.wide(view, settings);
+            let part = exact(depth_part(foam));
+            LooseEllipse { a: thick.a * part, b: thick.b * part, ..thick }
+        };
+        let ellipses: Vec<_> = ellipses.into_iter().map(deep).collect();
         let reach = ellipses.iter().map(LooseEllipse::reach).fold(0.0, f64::max);
         for (x, y) in pixels(view, sprite.center, reach) {
-            let (ray, scene) = (ray_off(view, x, y), scene_depth(scene.at(x, y)));
+            let (ray, scene) = (ray_off(view, x, y), scene_depth(in_full(scene, x, y, level)));
             let found = span(&ellipses, |ellipse| {
                 let LooseHit { k, sure, .. } = ellipse.meet(ray, near, scene)?;
                 Some(([(k.v - k.e).max(near * (1.0 - 8.0 * U))], [k.v + k.e], sure))
@@ -719,8 +764,8 @@ pub fn thickness_bounds(
         let reach = ellipses.iter().map(|(e, _)| e.reach()).fold(0.0, f64::max);
         for (x, y) in pixels(view, sprite.center, reach) {
             let (ray, scene) = (ray_off(view, x, y), scene_depth(in_full(scene, x, y, level)));
-            let nearest = in_full(&foam_depth.low, x, y, level);
-            let farthest = in_full(&foam_depth.high, x, y, level);
+            let nearest = foam_depth.low.at(x, y);
+            let farthest = foam_depth.high.at(x, y);
             let found = span(&ellipses, |(ellipse, strength)| {
                 let hit = ellipse.meet(ray, near, scene)?;
                 let bounds = value_bounds(sprite, (ellipse, *strength), &hit, foam, settings);
@@ -958,7 +1003,7 @@ mod tests {
         let settings = settings();
         let view = view(DVec2::splat(2.0), DVec2::ZERO, 240, 240);
         let (at, fast) = ([0.0, 0.0, -6.0], 30.0 * SPACING);
-        let of = |s: Sprite| extents(&depth(&[s], &view, &settings, &nothing(&view)));
+        let of = |s: Sprite| extents(&depth(&[s], &view, 0, &settings, &nothing(&view)));
         let rest = of(sprite(at));
         // 2 r over 6, in pixels of 1/120 of depth.
         let expected = 2.0 * 2.0 * 0.656 * SPACING / 6.0 * 240.0;
@@ -986,11 +1031,11 @@ mod tests {
     #[test]
     fn depth_is_that_of_the_nearest_plane() {
         let settings = settings();
-        let view = view(DVec2::new(1.5, -2.0), DVec2::new(0.1, 0.2), 64, 48);
+        let view = view(DVec2::new(1.5, -2.0), DVec2::new(0.1, 0.2), 64, 48).reduced(0);
         let sprites = cloud(4, 200, 9.0, &settings);
-        let all = depth(&sprites, &view, &settings, &nothing(&view));
+        let all = depth(&sprites, &view, 0, &settings, &nothing(&view));
         let single: Vec<_> =
-            sprites.iter().map(|s| depth(&[*s], &view, &settings, &nothing(&view))).collect();
+            sprites.iter().map(|s| depth(&[*s], &view, 0, &settings, &nothing(&view))).collect();
         for i in 0..all.data.len() {
             let least = single.iter().map(|one| one.data[i]).fold(EMPTY, f64::min);
             assert_eq!(all.data[i], least);
@@ -999,8 +1044,7 @@ mod tests {
         // Every point lies in the plane and in the ellipse; all pixels were looked at.
         for (sprite, drawn) in sprites.iter().zip(&single).take(60) {
             let foam = sprite.foam.min(1.0);
-            let ellipse =
-                Ellipse::new(sprite, &settings, AXIS * settings.radius() * depth_part(foam));
+            let ellipse = Ellipse::deep(sprite, foam, &view, &settings);
             for (x, y) in (0..48).flat_map(|y| (0..64).map(move |x| (x, y))) {
                 let hit = ellipse.meet(view.ray(x, y), view.near());
                 let hit = hit.filter(|_| foam > 0.0 && -sprite.center.z > view.near());
@@ -1037,7 +1081,7 @@ mod tests {
         let empty = Image::new(16, 16, EMPTY);
         let count = |sprites: &[Sprite]| {
             let sum = total(&thickness(sprites, &view, 0, &settings, &scene, &empty)).x;
-            (extents(&depth(sprites, &view, &settings, &scene)).0, sum)
+            (extents(&depth(sprites, &view, 0, &settings, &scene)).0, sum)
         };
         assert_eq!(count(&none), (0, 0.0));
         let (pixels, sum) = count(&[good]);
@@ -1051,8 +1095,8 @@ mod tests {
         // Nearer on the right: half of it is before the scene.
         let tilted = [moving([0.0, 0.0, -6.0], [20.0 * SPACING, 0.0, 18.0 * SPACING])];
         let wall = Image::new(120, 120, 6.0);
-        let open = depth(&tilted, &view, &settings, &nothing(&view));
-        let cut = depth(&tilted, &view, &settings, &wall);
+        let open = depth(&tilted, &view, 0, &settings, &nothing(&view));
+        let cut = depth(&tilted, &view, 0, &settings, &wall);
         for (open, cut) in open.data.iter().zip(&cut.data) {
             assert_eq!(*cut, if *open < 6.0 { *open } else { EMPTY });
         }
@@ -1060,10 +1104,11 @@ mod tests {
         assert!((0.4..0.7).contains(&ratio), "{ratio}");
         // What is no depth hides nothing.
         for none in [0.0, -4.0, f64::NAN, EMPTY] {
-            assert_eq!(depth(&tilted, &view, &settings, &Image::new(120, 120, none)), open);
+            assert_eq!(depth(&tilted, &view, 0, &settings, &Image::new(120, 120, none)), open);
         }
         let sum = |scene: &Image<f64>, level: u32| {
-            total(&thickness(&tilted, &view, level, &settings, scene, &open))
+            let foam = depth(&tilted, &view, level, &settings, scene);
+            total(&thickness(&tilted, &view, level, &settings, scene, &foam))
                 * f64::from(1 << (2 * level))
         };
         let (all, half) = (sum(&nothing(&view), 0).x, sum(&wall, 0).x);
@@ -1086,7 +1131,7 @@ mod tests {
         let of = |sprites: &[Sprite], foam: &Image<f64>| {
             thickness(sprites, &view, 0, &settings, &none, foam)
         };
-        let foam = depth(&[at_4, at_7, at_8], &view, &settings, &none);
+        let foam = depth(&[at_4, at_7, at_8], &view, 0, &settings, &none);
         assert!((foam.at(30, 30) - 4.0).abs() < 1e-9);
         let (all, near) = (of(&[at_4, at_7, at_8], &foam), of(&[at_4, at_7], &foam));
         for (x, y) in (0..61).flat_map(|y| (0..61).map(move |x| (x, y))) {
@@ -1097,7 +1142,7 @@ mod tests {
         }
         // Of little foam the depth is smaller than the thickness.
         let little = [Sprite { foam: 0.0625, ..at_4 }];
-        let rim = of(&little, &depth(&little, &view, &settings, &none));
+        let rim = of(&little, &depth(&little, &view, 0, &settings, &none));
         assert!(rim.data.iter().any(|t| t[0] > 0.0 && t[1] == 0.0));
         assert!(total(&all).y > 0.5 * total(&all).x);
         let all_in = Settings { front_depth: 4.2, ..settings };
@@ -1204,9 +1249,14 @@ mod tests {
     }
 
     impl Single {
-        /// `texels`: those of the thickness.
-        fn new(world: &Sprite, view: &View, settings: &Settings, texels: Option<&View>) -> Self {
-            let thickness = texels.is_some();
+        /// Of the depth, or of the thickness, in these texels.
+        fn new(
+            world: &Sprite,
+            view: &View,
+            settings: &Settings,
+            texels: &View,
+            thickness: bool,
+        ) -> Self {
             let to_eye = view.view.as_mat4();
             let c = to_eye.transform_point3(world.center.as_vec3());
             let u = to_eye.transform_vector3(world.velocity.as_vec3());
@@ -1233,13 +1283,11 @@ mod tests {
                 (e1 / e1.length(), e2, t)
             };
             let r = 0.656_f32 * spacing;
-            let b = 2.0 * r * if thickness { 1.0 } else { (8.0 * foam).min(1.0) };
-            let (mut half, mut torn) = (Vec2::new(b * (1.0 + t), b), 0.0);
-            if let Some(texels) = texels {
-                let texel = -c.z * texels.slope_step().as_vec2().abs().max_element();
-                torn = settings.noise as f32 * step(1.0, 2.0, b / (1.6 * texel));
-                half = half.max(Vec2::splat(1.5 * texel));
-            }
+            let b = 2.0 * r;
+            let texel = -c.z * texels.slope_step().as_vec2().abs().max_element();
+            let torn = settings.noise as f32 * step(1.0, 2.0, b / (1.6 * texel));
+            let part = if thickness { 1.0 } else { (8.0 * foam).min(1.0) };
+            let half = Vec2::new(b * (1.0 + t), b).max(Vec2::splat(1.5 * texel)) * part;
             let facing = e1.cross(e2).z.abs().max(0.2);
             let below = std::f32::consts::PI * 0.340003 * half.x * half.y * facing;
             let amplitude = foam * (spacing * spacing * spacing) / below;
@@ -1290,19 +1338,20 @@ mod tests {
             settings: &Settings,
             scene: &Image<f64>,
         ) -> [Image<f32>; 3] {
-            let all = |texels: Option<&View>| -> Vec<Self> {
-                world.iter().map(|s| Self::new(s, view, settings, texels)).collect()
-            };
             let reduced = view.reduced(level);
-            let (flat, thick) = (all(None), all(Some(&reduced)));
-            let depth = Image::from_fn(view.width, view.height, |x, y| {
-                let hits = flat.iter().filter_map(|s| s.meet(view, x, y, scene.at(x, y)));
+            let all = |thickness: bool| -> Vec<Self> {
+                world.iter().map(|s| Self::new(s, view, settings, &reduced, thickness)).collect()
+            };
+            let (flat, thick) = (all(false), all(true));
+            let depth = Image::from_fn(reduced.width, reduced.height, |x, y| {
+                let scene = in_full(scene, x, y, level);
+                let hits = flat.iter().filter_map(|s| s.meet(&reduced, x, y, scene));
                 hits.map(|hit| hit.0).fold(1e10, f32::min)
             });
             let mut sums = [0, 1].map(|_| Image::new(reduced.width, reduced.height, 0.0_f32));
             for (x, y) in (0..reduced.height).flat_map(|y| (0..reduced.width).map(move |x| (x, y)))
             {
-                let nearest = in_full(&depth, x, y, level);
+                let nearest = depth.at(x, y);
                 for (single, sprite) in thick.iter().zip(world) {
                     let scene = in_full(scene, x, y, level);
                     let Some((k, at)) = single.meet(&reduced, x, y, scene) else { continue };
@@ -1346,10 +1395,10 @@ mod tests {
                 ..*s
             };
             let sprites: Vec<Sprite> = world.iter().map(to_eye).collect();
-            let twin = depth(&sprites, view, settings, scene);
+            let twin = depth(&sprites, view, level, settings, scene);
             let sums = thickness(&sprites, view, level, settings, scene, &twin);
             let [all, front] = [0, 1].map(|i| sums.map(|t| t[i]));
-            let bounds = depth_bounds(&sprites, view, settings, scene);
+            let bounds = depth_bounds(&sprites, view, level, settings, scene);
             let [a, b, _] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
             let single = Single::draw(world, view, level, settings, scene);
             let images = [twin, all, front].into_iter().zip(single).zip([bounds, a, b]);

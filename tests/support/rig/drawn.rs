@@ -3,8 +3,8 @@
 use ash::vk;
 use whitewater::{HostImage, Layer, Recorded, SmoothingLevel, SmoothingLevels};
 
-use super::Rig;
-use crate::reference::Image;
+use super::{Rig, Shot};
+use crate::reference::{Image, foam};
 use crate::support::host;
 
 /// What a frame gave.
@@ -69,6 +69,19 @@ pub struct Foaming {
     pub lit: Option<Image<f32>>,
     /// Of the water before the frontmost.
     pub before: Image<f32>,
+    /// Times that all are halved.
+    pub level: u32,
+}
+
+impl Foaming {
+    /// What each pixel shows of it: depth, and both thicknesses.
+    pub fn seen(&self, shot: &Shot) -> Image<(f64, [f64; 2])> {
+        let (scene, layers) = (shot.scene_at(shot.size, 0), (&self.depth, &self.thickness));
+        let spacing = f64::from(shot.settings.water.spacing);
+        Image::from_fn(scene.width, scene.height, |x, y| {
+            foam::seen(layers, (x, y), self.level, scene.at(x, y), spacing)
+        })
+    }
 }
 
 /// What a frame with two sheets gave besides.
@@ -155,6 +168,7 @@ impl Rig<'_> {
             thickness: Image::new(0, 0, [0.0; 2]),
             lit: None,
             before: empty(),
+            level: self.config.thickness_level,
         };
         let mut foams = false;
         for layer in &recorded.layers {

@@ -186,7 +186,12 @@ pub fn collect(
         let mut depths = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
         for name in ["water.depth", "foam.depth"] {
             if let Some(layer) = headless.layer(name)? {
-                depths.data.iter_mut().zip(layer.data).for_each(|(z, other)| *z = z.min(other));
+                // Texels of a reduced layer are a power of two pixels wide.
+                let texel = depths.width.div_ceil(layer.width).next_power_of_two();
+                for (i, z) in depths.data.iter_mut().enumerate() {
+                    let (x, y) = (i % depths.width / texel, i / depths.width / texel);
+                    *z = z.min(layer.data[y * layer.width + x]);
+                }
             }
         }
         let samples = nearest(&depths, width);
