@@ -47,7 +47,7 @@ impl Headless {
     /// Draws one frame and waits for it.
     ///
     /// # Errors
-    /// As [`Renderer::record`].
+    /// As [`Renderer::record`](crate::Renderer::record).
     pub fn render(
         &mut self,
         camera: &Camera,
@@ -62,7 +62,7 @@ impl Headless {
     /// [`Smoothing::Query`](crate::water::Smoothing::Query).
     ///
     /// # Errors
-    /// As [`Renderer::record`].
+    /// As [`Renderer::record`](crate::Renderer::record).
     pub fn render_with_read_back(
         &mut self,
         camera: &Camera,
@@ -82,14 +82,15 @@ impl Headless {
         let particles = self.streams()?;
         let pictures = self.staged(background)?;
         let result = self.run_parts(|this, cmd| {
-            match (background, &pictures) {
-                (Background::Images { .. }, Some([color, depth])) => {
-                    this.upload(cmd, color, &this.color, COLOR_REST, COLOR_REST);
-                    this.upload(cmd, depth, &this.depth, DEPTH_REST, DEPTH_REST);
+            match background {
+                Background::Color(color) => this.clear(cmd, *color, camera),
+                Background::Scene => this.draw_scene(cmd, camera)?,
+                Background::Images { .. } => {
+                    if let Some([color, depth]) = &pictures {
+                        this.upload(cmd, color, &this.color, COLOR_REST, COLOR_REST);
+                        this.upload(cmd, depth, &this.depth, DEPTH_REST, DEPTH_REST);
+                    }
                 }
-                (Background::Color(color), _) => this.clear(cmd, *color, camera),
-                (Background::Scene, _) => this.draw_scene(cmd, camera)?,
-                (Background::Images { .. }, None) => {}
             }
             this.record_water(cmd, camera, settings, particles, read_back)
         });

@@ -45,7 +45,8 @@ impl Headless {
     /// Uploads the particles of a frame.
     ///
     /// # Errors
-    /// More than [`Config::max_particles`], densities of another length, no memory.
+    /// More than [`Config::max_particles`](crate::Config::max_particles), densities of another length,
+    /// no memory.
     pub fn particles(
         &mut self,
         positions: &[[f32; 3]],
@@ -93,9 +94,9 @@ impl Headless {
         Ok(())
     }
 
-    /// What of the particles is foam, with [`Config::foam`]: a step of a [`State`] by their
-    /// [`motion`](Self::motion). `dt`: seconds since the step before; without, or without ids, a
-    /// frame stands for itself.
+    /// What of the particles is foam, with [`Config::foam`](crate::Config::foam): a step of a
+    /// [`State`] by their [`motion`](Self::motion). `dt`: seconds since the step before; without, or
+    /// without ids, a frame stands for itself.
     ///
     /// # Errors
     /// No motion, no memory, and as [`State::record_step`].

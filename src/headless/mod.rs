@@ -3,7 +3,8 @@
 //!
 //! One frame at a time: [`Headless::new`]; then what a frame takes, by [`Headless::particles`] and
 //! [`Headless::motion`], [`Headless::sky`] or [`Headless::equirectangular`], [`Headless::scene`]; then
-//! [`Headless::render`], and the picture and its layers back. What is recorded is submitted and waited for at once.
+//! [`Headless::render`], and the picture and its layers back. What is recorded is submitted and waited
+//! for at once.
 
 mod device;
 mod draw;

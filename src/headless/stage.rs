@@ -18,8 +18,9 @@ pub(super) struct Stage {
 }
 
 impl Headless {
-    /// The scene to stand behind the water, drawn by [`Background::Scene`]; `antialias`: four
-    /// samples a pixel in its colour. Its light is baked: a new sun needs a new scene.
+    /// The scene to stand behind the water, drawn by
+    /// [`Background::Scene`](super::Background::Scene); `antialias`: four samples a pixel in its
+    /// colour. Its light is baked: a new sun needs a new scene.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
