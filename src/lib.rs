@@ -98,6 +98,7 @@
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
 //! | foam: depth, thickness, what water is before it (`foam`) | 5¼ w h | 4.6 MiB | 10.4 MiB |
+//! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ½ w h | 0.4 MiB | 1.0 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
@@ -130,10 +131,11 @@
 //!   has its own thickness and surface ([`Config::sheets`]); the thesis takes both for one (its
 //!   limitation, Fig. 5.13).
 //! - A foam sprite turns from an ellipse along its motion into a disc smoothly, by speed and by angle;
-//!   its depth is as wide as its thickness, which ends softly; what is foam of a particle is no water
-//!   of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
+//!   its depth is as wide as its thickness, which ends softly, before the scene too; what is foam of a
+//!   particle is no water of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
 //!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
-//!   the thesis' foam is flat.
+//!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
+//!   looks nine times a pixel, at depths that jump from sprite to sprite.
 //! - Spray is water that turns into droplets as its density falls, laid over the picture; the thesis
 //!   adds a sprite a particle ([`water::SprayLook::SOURCE`]).
 //! - The baseline's surface noise (van der Laan et al. 2009) is a height in metres along the normal, the
@@ -141,8 +143,9 @@
 //!   derivatives of the noise's image to the normal.
 //! - Shadows: percentage-closer filtering of the host's map, or its mask, or convolution shadow maps, which
 //!   the thesis takes; these span no more depth than there is in the map, and are damped so that few terms
-//!   keep the light's height ([`Shadows::Convolution`](water::Shadows)). Water and foam cast coloured shadows and caustics, which the
-//!   thesis leaves to the future. What share of the scene's light is the sun's is taken from level ground.
+//!   keep the light's height ([`Shadows::Convolution`](water::Shadows)). Water and foam cast coloured
+//!   shadows and caustics, which the thesis leaves to the future. What share of the scene's light is the
+//!   sun's is taken from level ground.
 //! - At borders the derivatives of texels on the same surface are blended, and shaded once.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]

@@ -69,10 +69,11 @@ impl Renderer {
         Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
         let gpu = Gpu::new(host)?;
         let made = Parts::new(&gpu, config).and_then(|parts| {
+            let environment = Environment::new(&gpu, config)?;
             let slots = (0..gpu.slots).map(|_| SlotState::new(&gpu, config));
-            Ok((parts, slots.collect::<Result<Vec<_>, _>>()?))
+            Ok((parts, environment, slots.collect::<Result<Vec<_>, _>>()?))
         });
-        let (parts, slots) = match made {
+        let (parts, environment, slots) = match made {
             Ok(made) => made,
             Err(error) => {
                 // Nothing was submitted with what was made before the failure.
@@ -92,7 +93,7 @@ impl Renderer {
             composite: parts.composite,
             light: parts.light,
             convolving: parts.convolving,
-            environment: parts.environment,
+            environment,
             scene_copy: parts.scene_copy,
         })
     }
@@ -324,16 +325,16 @@ impl Renderer {
         self.check_config(config)?;
         let new = self.make_parts(config);
         self.gpu.bury();
-        let (water, composite, (light, convolving), scene_copy, environment, descriptors) = new?;
+        let (parts, environment, descriptors) = new?;
         let new_environment = environment.is_some();
         self.config = *config;
         self.whole = true;
         let retired = &mut self.retired;
-        retired.retire(std::mem::replace(&mut self.water, water));
-        retired.retire(std::mem::replace(&mut self.composite, composite));
-        retired.retire(std::mem::replace(&mut self.light, light));
-        retired.retire(std::mem::replace(&mut self.convolving, convolving));
-        retired.retire(std::mem::replace(&mut self.scene_copy, scene_copy));
+        retired.retire(std::mem::replace(&mut self.water, parts.water));
+        retired.retire(std::mem::replace(&mut self.composite, parts.composite));
+        retired.retire(std::mem::replace(&mut self.light, parts.light));
+        retired.retire(std::mem::replace(&mut self.convolving, parts.convolving));
+        retired.retire(std::mem::replace(&mut self.scene_copy, parts.scene_copy));
         if let Some(new) = environment {
             retired.retire(std::mem::replace(&mut self.environment, new));
         }
@@ -344,33 +345,18 @@ impl Renderer {
         Ok(new_environment)
     }
 
-    #[allow(clippy::type_complexity)] // used once, right above
+    /// What a configuration needs anew: the environment only where its size changes.
     fn make_parts(
         &self,
         config: &Config,
-    ) -> Result<
-        (
-            Water,
-            Composite,
-            (Option<Light>, Option<Convolving>),
-            Option<Image>,
-            Option<Environment>,
-            Vec<Descriptors>,
-        ),
-        Error,
-    > {
+    ) -> Result<(Parts, Option<Environment>, Vec<Descriptors>), Error> {
         let gpu = &*self.gpu;
+        let parts = Parts::new(gpu, config)?;
         let same_environment = config.environment_size == self.config.environment_size;
-        Ok((
-            Water::new(gpu, config)?,
-            Composite::new(gpu, config)?,
-            (Parts::light(gpu, config)?, Parts::convolving(gpu, config)?),
-            Parts::scene_copy(gpu, config)?,
-            if same_environment { None } else { Some(Environment::new(gpu, config)?) },
-            (0..gpu.slots)
-                .map(|_| Descriptors::new(gpu, SlotState::sets(gpu, config)))
-                .collect::<Result<_, _>>()?,
-        ))
+        let environment = (!same_environment).then(|| Environment::new(gpu, config)).transpose()?;
+        let descriptors =
+            (0..gpu.slots).map(|_| Descriptors::new(gpu, SlotState::sets(gpu, config)));
+        Ok((parts, environment, descriptors.collect::<Result<_, _>>()?))
     }
 
     /// The configuration in force.
@@ -435,13 +421,12 @@ impl Renderer {
     }
 }
 
-/// What depends on the configuration.
+/// What any change of the configuration makes anew.
 struct Parts {
     water: Water,
     composite: Composite,
     light: Option<Light>,
     convolving: Option<Convolving>,
-    environment: Environment,
     scene_copy: Option<Image>,
 }
 
@@ -452,7 +437,6 @@ impl Parts {
             composite: Composite::new(gpu, config)?,
             light: Self::light(gpu, config)?,
             convolving: Self::convolving(gpu, config)?,
-            environment: Environment::new(gpu, config)?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
     }
@@ -518,8 +502,7 @@ impl SlotState {
     }
 }
 
-/// The layers that a frame leaves to the host.
-/// The layers of a frame of this size.
+/// The layers that a frame of this size leaves to the host.
 fn kept(
     config: &Config,
     water: &Water,

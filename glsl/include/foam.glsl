@@ -4,7 +4,7 @@
 struct FoamSprite {
     vec4 centre;   // eye space; foam, 0 to 1
     vec4 velocity; // eye space; age in seconds
-    vec4 rest;     // bits of the id
+    vec4 rest;     // bits of the id; share of the sun's light
 };
 
 // Half-axis across the motion in drawn radii. That of the depth shrinks with the last of the foam; else

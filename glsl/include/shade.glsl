@@ -309,19 +309,20 @@ float relief(vec2 h, float z, float sun) {
 }
 
 // Thesis Sec. 3.2.3: the more foam right behind the frontmost, the nearer the front colour (Listing
-// A.20; Eq. 3.9 has them the other way round).
-Foam foam_of(vec2 pixel, vec3 sun) {
+// A.20; Eq. 3.9 has them the other way round). What of it the sun lights is the sprites' (the source asks at
+// the mean of nine depths): a sprite by itself is no surface, its outline would be a shadow's.
+Foam foam_of(vec2 pixel) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 base = ivec2(floor(h));
     vec2 f = h - vec2(base);
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
     vec4 weights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    vec2 t = vec2(0.0);
+    vec3 t = vec3(0.0);
     Foam foam;
     foam.water = vec2(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), last);
-        t += weights[i] * texelFetch(foam_thickness, texel, 0).xy;
+        t += weights[i] * texelFetch(foam_thickness, texel, 0).xyz;
         foam.water += weights[i] * texelFetch(thickness, texel, 0).xy;
     }
     foam.t = t.x;
@@ -333,7 +334,9 @@ Foam foam_of(vec2 pixel, vec3 sun) {
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
     float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * t.y);
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
-    foam.color *= under(sun) * relief(h, foam.depth, sun.g);
+    float sun = SHADOW == 1u ? past_scene(vec3(0.0), pixel) : 1.0;
+    sun *= (SHADOW > 1u || CAST == 1u) && t.y > 0.0 ? clamp(t.z / t.y, 0.0, 1.0) : 1.0;
+    foam.color *= under(vec3(sun)) * relief(h, foam.depth, sun);
     return foam;
 }
 
@@ -364,24 +367,6 @@ Sheet between(Foam foam, vec2 pixel, float t) {
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     t = scene > 0.0 && foam.depth < 0.5 * EMPTY ? min(t, max(scene - foam.depth, 0.0)) : t;
     return Sheet(t * length(vec3(ray_slope(pixel, frame.slope), 1.0)), vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
-}
-
-// The sun's share at the foam, by the mean depth of its frontmost about a pixel (thesis Sec. 4.9.4 has the
-// nine next to each other): a sprite by itself is no surface, its outline would be a shadow's.
-vec3 sun_on_foam(vec2 pixel) {
-    float here = min(texelFetch(foam_depth, ivec2(pixel), 0).x, frame.depth.w);
-    float step = clamp(frame.particle.x / (frame.texel.x * here), 1.0, 32.0);
-    float sum = 0.0;
-    float count = 0.0;
-    for (int i = 0; i < 9; ++i) {
-        ivec2 at = ivec2(pixel + step * vec2(i % 3 - 1, i / 3 - 1));
-        float z = texelFetch(foam_depth, clamp(at, ivec2(0), ivec2(frame.extent.xy) - 1), 0).x;
-        bool same = abs(z - here) <= frame.smoothing.y;
-        sum += same ? z - here : 0.0;
-        count += same ? 1.0 : 0.0;
-    }
-    float mean = here + sum / max(count, 1.0);
-    return sunlight(mean * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
 }
 
 // Colour of scene, water and foam at a pixel (its centre, at +0.5).
@@ -442,7 +427,7 @@ vec3 layers_at(vec2 pixel, float front) {
     Foam foam;
     bool past = false;
     if (FOAM == 1u) {
-        foam = foam_of(pixel, SHADOW + CAST > 0u ? sun_on_foam(pixel) : vec3(1.0));
+        foam = foam_of(pixel);
         // One looks between the spheres of the front sheet, if only its foam is there.
         past = foam.depth < boundary && front >= boundary;
         // Foam behind the air between two sheets is among the other.

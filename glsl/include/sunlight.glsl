@@ -122,6 +122,13 @@ vec3 through_fluid(vec3 eye) {
     return t.inside ? 1.0 - lost : vec3(1.0);
 }
 
+// Share of the sun's light at a point of foam, of all colours together: what it is in is foam more than
+// water. Not a mask's part, which is the pixels'.
+float sun_in_foam(vec3 eye) {
+    float past = SHADOW == 1u ? 1.0 : past_scene(eye, vec2(0.0));
+    return CAST == 1u ? past * dot(through_fluid(eye), vec3(1.0 / 3.0)) : past;
+}
+
 // Share of the sun's light at a point of the fluid.
 vec3 sunlight(vec3 eye, vec2 pixel) {
     vec3 light = vec3(past_scene(eye, pixel));

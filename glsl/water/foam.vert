@@ -20,7 +20,7 @@ layout(location = 1) flat out vec3 along;  // over its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec4 look;   // amplitude; place in the noise
-layout(location = 5) flat out float torn;  // strength of the noise
+layout(location = 5) flat out vec2 torn;   // strength of the noise; share of the sun's light
 
 // Over the foam, that of the depth: whole before there is enough foam to be seen, for what is behind the
 // frontmost foam and what is before it changes at its outline.
@@ -38,10 +38,10 @@ void main() {
     vec4 scale = THICK == 1u ? frame.thick_slope : frame.slope;
     float depth = -sprite.centre.z;
     float pixel = depth * max(abs(scale.x), abs(scale.y));
-    torn = 0.0;
+    torn = vec2(0.0, sprite.rest.y);
     if (THICK == 1u) {
         // Cells of less than a texel cannot be told from each other; those of two are seen whole.
-        torn = frame.foam_noise.x * smoothstep(1.0, 2.0, b / (NOISE_CELLS * pixel));
+        torn.x = frame.foam_noise.x * smoothstep(1.0, 2.0, b / (NOISE_CELLS * pixel));
         a = max(a, LEAST_FOAM_AXIS * pixel);
         b = max(b, LEAST_FOAM_AXIS * pixel);
     }

@@ -1,13 +1,15 @@
 #version 460
 // Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2).
 // Spray is none: what is turning into it is that much less foam.
-// Reads: Counts (particles), positions, foam, velocities, ids, densities. Writes: Counts (foam), sprites.
+// Reads: Counts (particles), positions, foam, velocities, ids, densities, what casts shadows. Writes: Counts (foam), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
 #include "counts.glsl"
 #include "density.glsl"
 #include "foam.glsl"
+#include "convolution.glsl"
+#include "sunlight.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -15,9 +17,9 @@ layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions
 layout(set = 0, binding = 2, std430) readonly buffer Amounts { float amounts[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Velocities { float velocities[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Ids { uint ids[]; };
-layout(set = 0, binding = 5, std430) buffer CountBuffer { Counts counts; };
-layout(set = 0, binding = 6, std430) writeonly buffer Sprites { FoamSprite sprites[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Densities { float densities[]; };
+layout(set = 0, binding = 6, std430) buffer CountBuffer { Counts counts; };
+layout(set = 0, binding = 7, std430) writeonly buffer Sprites { FoamSprite sprites[]; };
 
 layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle
@@ -67,7 +69,7 @@ void visit(uint index) {
     age = age > 0.0 && age < 1.0e6 ? age : 0.0;
     uint slot = atomicAdd(counts.foam, 1u);
     sprites[slot] = FoamSprite(vec4(centre, foam), vec4(mat3(frame.view) * velocity, age),
-                               vec4(uintBitsToFloat(id), 0.0, 0.0, 0.0));
+                               vec4(uintBitsToFloat(id), sun_in_foam(centre), 0.0, 0.0));
 }
 
 void main() {

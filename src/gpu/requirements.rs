@@ -65,7 +65,8 @@ pub struct Offer {
     pub api_version: u32,
     /// `synchronization2` is supported.
     pub synchronization2: bool,
-    /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats.
+    /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats,
+    /// sunlight, and shadows on foam.
     pub blend_floats: bool,
     /// R32_SFLOAT and R32G32_SFLOAT can be blended colour attachments, and the latter a storage image,
     /// written without its format being known: foam.
@@ -200,6 +201,13 @@ impl Offer {
             return missing(
                 "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),
                 "Config.foam needs it; leave it off",
+            );
+        }
+        let lit = crate::water::foam_format(config) == vk::Format::R32G32B32A32_SFLOAT;
+        if !self.blend_floats && config.foam && lit {
+            return missing(
+                "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
+                "Config.foam with Config.shadow needs it; leave one off",
             );
         }
         if let Some(convolution) = crate::light::convolution(config) {

@@ -185,16 +185,18 @@ impl Headless {
             area.offset = vk::Offset2D { x, y };
             area.extent = vk::Extent2D { width: width as u32, height: height as u32 };
         }
-        if image == "water.thickness.sheets" {
-            let sheets: Picture<[f32; 4]> =
+        let channel = match name {
+            "water.thickness.back" | "foam.thickness.front" | "motion.Y" => 1,
+            _ => 0,
+        };
+        if layer.format == vk::Format::R32G32B32A32_SFLOAT {
+            let all: Picture<[f32; 4]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
-            let channel = usize::from(name.ends_with(".back"));
-            return Ok(Some(sheets.map(|sheets| sheets[channel])));
+            return Ok(Some(all.map(|all| all[channel])));
         }
         if layer.format == vk::Format::R32G32_SFLOAT {
             let both: Picture<[f32; 2]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
-            let channel = usize::from(name.ends_with(".front") || name.ends_with(".Y"));
             return Ok(Some(both.map(|both| both[channel])));
         }
         if layer.format == vk::Format::R32_UINT {

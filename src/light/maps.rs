@@ -103,13 +103,10 @@ impl Map {
         self.target.begin(gpu, cmd, self.image().extent.into(), clear);
         for index in 0..list.chunks {
             let first = index * list.chunk_size;
+            let others = [&particles.densities, &particles.foam];
+            let bound = Window::all(gpu, &particles.positions, others, first);
             // A stream that ends before the chunk has no particles in it: the count was clamped.
-            let Some(positions) = Window::new(gpu, &particles.positions, first) else { break };
-            let [Some(densities), Some(foam)] = [&particles.densities, &particles.foam]
-                .map(|stream| positions.or(gpu, stream, first))
-            else {
-                break;
-            };
+            let Some((positions, [densities, foam])) = bound else { break };
             let resources = [
                 (0, r.uniforms),
                 (1, positions.resource),

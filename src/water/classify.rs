@@ -211,15 +211,9 @@ impl Classify {
         let mut first = 0;
         while first < count {
             let chunk = self.chunk.min(count - first);
+            let bound = Window::all(gpu, &step.velocities, [&step.densities, &step.ids], first);
             // A stream that ends before the chunk has no particles in it: the count was clamped.
-            let Some(velocities) = Window::new(gpu, &step.velocities, first) else {
-                break;
-            };
-            let [Some(densities), Some(ids)] =
-                [&step.densities, &step.ids].map(|stream| velocities.or(gpu, stream, first))
-            else {
-                break;
-            };
+            let Some((velocities, [densities, ids])) = bound else { break };
             descriptors.bind(
                 gpu,
                 cmd,

@@ -385,12 +385,10 @@ impl Cull {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let chunk = self.list.chunk(index);
         let first = index * self.list.chunk_size;
+        let others = [&particles.densities, &particles.foam];
         // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let Some(positions) = Window::new(gpu, &particles.positions, first) else {
-            return Ok(());
-        };
-        let [Some(densities), Some(foam)] =
-            [&particles.densities, &particles.foam].map(|stream| positions.or(gpu, stream, first))
+        let Some((positions, [densities, foam])) =
+            Window::all(gpu, &particles.positions, others, first)
         else {
             return Ok(());
         };
@@ -500,11 +498,21 @@ impl Window {
         })
     }
 
-    /// The same of a stream that need not be there: then this one is bound and not read.
-    pub fn or(&self, gpu: &Gpu, stream: &Option<Stream>, first: u32) -> Option<Self> {
-        match stream {
-            Some(stream) => Self::new(gpu, stream, first),
-            None => Some(Self { word: 0, stride: 0, ..*self }),
+    /// Of a stream and of others that need not be there: in place of these the first is bound, and not
+    /// read. None when one of all ends before the particle.
+    pub fn all<const N: usize>(
+        gpu: &Gpu,
+        stream: &Stream,
+        others: [&Option<Stream>; N],
+        first: u32,
+    ) -> Option<(Self, [Self; N])> {
+        let bound = Self::new(gpu, stream, first)?;
+        let mut windows = [Self { word: 0, stride: 0, ..bound }; N];
+        for (window, other) in windows.iter_mut().zip(others) {
+            if let Some(other) = other {
+                *window = Self::new(gpu, other, first)?;
+            }
         }
+        Some((bound, windows))
     }
 }

@@ -4,27 +4,27 @@
 //! they turn into discs, smoothly (the source switches, which pops). The corners are pulled in the
 //! vertex shader, the fragment meets the sprite's plane exactly. Thickness is in metres, as that of
 //! the water: what a particle is foam of it is no water.
-//! Nothing pops or flickers: the depth's sprite is whole before its foam can be seen, no sprite of the
+//! Nothing pops or flickers: sprites sink into the scene softly, the depth's sprite is whole before its foam can be seen, no sprite of the
 //! thickness is narrower than what its texels can hold, finer noise fades, the front layer ends softly.
 //! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
-//! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost).
+//! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost),
+//! RGBA32F where there are shadows (the third: what of that layer the sun lights; a mask apart).
 
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::cull::{self, LIST_USE, SphereList, Window};
-use crate::contract::{Config, Particles, Stream};
+use super::cull::{self, SphereList};
+use super::settings::Shadows;
+use super::sprites::{Over, Sprites};
+use crate::contract::{Config, Particles};
 use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-    FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+    self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COPY_READ, FRAGMENT_SAMPLED,
 };
-use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
@@ -34,8 +34,6 @@ use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 48;
-/// Workgroups of the list at most; more particles share them.
-const MOST_GROUPS: u32 = 1024;
 
 /// Both images are read by compute (`reduce`) and by what shades.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
@@ -125,17 +123,12 @@ impl Blended {
         let area = reduced(r.extent, self.level).into();
         let clear = [clear, 0.0, 0.0, 0.0];
         self.target.begin(gpu, cmd, area, clear);
-        for index in 0..if any { list.chunks } else { 0 } {
-            let resources = [
-                (0, r.uniforms),
-                (1, foam.chunk(list, index)),
+        if any {
+            let more = [
                 (2, r.scene_depth),
                 (3, Resource::Sampled(foam.depth().view, gpu.samplers.nearest)),
             ];
-            r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
-            let draw = list.chunk(index).arguments + cull::FOAM;
-            // SAFETY: inside a render pass; the arguments are visible (barrier of the list).
-            unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
+            foam.sprites.draw(r, list, &self.pipeline, cull::FOAM, &more)?;
         }
         gpu.end_pass(cmd);
         gpu.barriers(cmd, &[access::image(&self.target.image, COLOR_ATTACHMENT, AFTER)], &[]);
@@ -146,12 +139,20 @@ impl Blended {
 fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
     let (name, format) = match kind {
         Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT),
-        Kind::Thickness => ("water/foam/thickness", vk::Format::R32G32_SFLOAT),
+        Kind::Thickness => ("water/foam/thickness", thickness_format(config)),
     };
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::COLOR_ATTACHMENT
         | vk::ImageUsageFlags::TRANSFER_SRC;
     ImageDesc::new(name, reduced(config.extent, level(config, kind)), format, usage)
+}
+
+/// With room for what the sun lights, where something casts shadows on foam.
+pub fn thickness_format(config: &Config) -> vk::Format {
+    match (config.shadow, config.cast) {
+        (None | Some(Shadows::Mask), None) => vk::Format::R32G32_SFLOAT,
+        _ => vk::Format::R32G32B32A32_SFLOAT,
+    }
 }
 
 fn level(config: &Config, kind: Kind) -> u32 {
@@ -163,24 +164,16 @@ fn level(config: &Config, kind: Kind) -> u32 {
 
 /// The pass.
 pub struct Foam {
-    list: Pipeline,
-    sprites: Buffer,
+    sprites: Sprites,
     depth: Blended,
     thickness: Blended,
 }
 
 impl Foam {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let (chunk, chunks) = super::chunks(&gpu.limits, config);
+        let list = (shader::WATER_FOAM_LIST_COMP, &crate::light::constants(config)[..]);
         Ok(Self {
-            list: Pipeline::compute(gpu, shader::WATER_FOAM_LIST_COMP, &[])?,
-            sprites: Buffer::new(
-                gpu,
-                "water/foam/sprites",
-                SPRITE * u64::from(chunk) * u64::from(chunks),
-                vk::BufferUsageFlags::STORAGE_BUFFER,
-                MemoryLocation::GpuOnly,
-            )?,
+            sprites: Sprites::new(gpu, config, "water/foam/sprites", SPRITE, list)?,
             depth: Blended::new(gpu, config, Kind::Depth)?,
             thickness: Blended::new(gpu, config, Kind::Thickness)?,
         })
@@ -194,12 +187,6 @@ impl Foam {
     ) -> Result<(), Error> {
         self.depth.target.resize(gpu, &desc(config, Kind::Depth), retired)?;
         self.thickness.target.resize(gpu, &desc(config, Kind::Thickness), retired)
-    }
-
-    /// A chunk's part of the sprites.
-    fn chunk(&self, list: &SphereList, index: u32) -> Resource {
-        let bytes = SPRITE * u64::from(list.chunk_size);
-        Resource::Buffer(self.sprites.handle, bytes * u64::from(index), bytes)
     }
 
     /// Eye depth of the frontmost foam.
@@ -220,97 +207,37 @@ impl Foam {
         list: &SphereList,
     ) -> Result<(), Error> {
         let scope = r.begin(c"foam");
-        let (gpu, cmd) = (r.gpu, r.cmd);
-        if let Some(foam) = &particles.foam {
-            let (counts, sprites) = (list.counts.handle, self.sprites.handle);
-            gpu.barriers(
-                cmd,
-                &[],
-                &[
-                    buffer(counts, LIST_USE, COMPUTE_READ_WRITE),
-                    buffer(sprites, VERTEX_READ, COMPUTE_WRITE),
-                ],
-            );
-            for index in 0..list.chunks {
-                self.record_list(r, particles, foam, list, index)?;
-            }
-            gpu.barriers(
-                cmd,
-                &[],
-                &[
-                    buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
-                    buffer(sprites, COMPUTE_WRITE, VERTEX_READ),
-                ],
-            );
-        }
         let any = particles.foam.is_some();
+        if any {
+            let streams =
+                [&particles.foam, &particles.velocities, &particles.ids, &particles.densities];
+            let over = Over { particles, streams, binding: 1 };
+            let sunlight = r.sunlight.resources();
+            self.sprites.record(r, list, &over, &sunlight, |chunk_first, positions, streams| {
+                let [amounts, velocities, ids, densities] = streams;
+                Push {
+                    position_word: positions.word,
+                    position_stride: positions.stride,
+                    amount_word: amounts.word,
+                    amount_stride: amounts.stride,
+                    velocity_word: velocities.word,
+                    velocity_stride: velocities.stride,
+                    id_word: ids.word,
+                    id_stride: ids.stride,
+                    density_word: densities.word,
+                    density_stride: densities.stride,
+                    chunk_first,
+                }
+            })?;
+        }
         self.depth.record(r, self, list, EMPTY, any)?;
         self.thickness.record(r, self, list, 0.0, any)?;
         r.end(scope);
         Ok(())
     }
 
-    fn record_list(
-        &self,
-        r: &Recording<'_>,
-        particles: &Particles,
-        foam: &Stream,
-        list: &SphereList,
-        index: u32,
-    ) -> Result<(), Error> {
-        let (gpu, cmd) = (r.gpu, r.cmd);
-        let first = index * list.chunk_size;
-        // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let bound = [&particles.positions, foam].map(|stream| Window::new(gpu, stream, first));
-        let [Some(positions), Some(amounts)] = bound else {
-            return Ok(());
-        };
-        let more = [&particles.velocities, &particles.ids, &particles.densities];
-        let [Some(velocities), Some(ids), Some(densities)] =
-            more.map(|stream| positions.or(gpu, stream, first))
-        else {
-            return Ok(());
-        };
-        r.descriptors.bind(
-            gpu,
-            cmd,
-            &self.list,
-            &[
-                (0, r.uniforms),
-                (1, positions.resource),
-                (2, amounts.resource),
-                (3, velocities.resource),
-                (4, ids.resource),
-                (5, list.chunk(index).counts),
-                (6, self.chunk(list, index)),
-                (7, densities.resource),
-            ],
-        )?;
-        self.list.push(
-            gpu,
-            cmd,
-            &Push {
-                position_word: positions.word,
-                position_stride: positions.stride,
-                amount_word: amounts.word,
-                amount_stride: amounts.stride,
-                velocity_word: velocities.word,
-                velocity_stride: velocities.stride,
-                id_word: ids.word,
-                id_stride: ids.stride,
-                density_word: densities.word,
-                density_stride: densities.stride,
-                chunk_first: first,
-            },
-        );
-        let groups = list.chunk_size.div_ceil(self.list.local_size[0]).min(MOST_GROUPS);
-        // SAFETY: outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
-        Ok(())
-    }
-
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.depth().size + self.thickness().size, self.sprites.size)
+        (self.depth().size + self.thickness().size, self.sprites.memory())
     }
 }

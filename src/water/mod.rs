@@ -17,6 +17,7 @@ mod smooth;
 mod smooth_query;
 mod split;
 mod spray;
+mod sprites;
 mod thickness;
 mod tiles;
 
@@ -36,6 +37,7 @@ use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
+pub(crate) use foam::thickness_format as foam_format;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule,

@@ -20,8 +20,9 @@ use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::cull::{SphereList, Window};
-use crate::contract::{Config, Layer, Particles, Stream};
+use super::cull::SphereList;
+use super::sprites::Over;
+use crate::contract::{Config, Layer, Particles};
 use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
@@ -35,9 +36,6 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
-
-/// Workgroups over the particles at most; more particles share them.
-const MOST_GROUPS: u32 = 4096;
 
 /// How the host finds the layer.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
@@ -201,14 +199,30 @@ impl Motion {
         self.front.push(gpu, cmd, &self.level);
         r.dispatch_over(reduced(r.extent, self.level), self.front.local_size);
         // Particles without velocities are at rest: nothing to sum.
-        if let Some(velocities) = &particles.velocities {
+        if particles.velocities.is_some() {
             let between = [
                 buffer(fronts, COMPUTE_WRITE, COMPUTE_READ),
                 buffer(sums, COMPUTE_WRITE, COMPUTE_READ_WRITE),
             ];
             gpu.barriers(cmd, &[], &between);
+            let streams = [&particles.velocities, &particles.densities, &particles.foam];
+            let over = Over { particles, streams, binding: 4 };
             for index in 0..list.chunks {
-                self.record_chunk(r, particles, velocities, list, index)?;
+                let own = [ours[1], ours[2], (3, list.chunk(index).counts)];
+                over.record(r, &self.each, (list, index), &own, |_, positions, streams| {
+                    let [velocities, densities, foam] = streams;
+                    Push {
+                        position_word: positions.word,
+                        position_stride: positions.stride,
+                        velocity_word: velocities.word,
+                        velocity_stride: velocities.stride,
+                        density_word: densities.word,
+                        density_stride: densities.stride,
+                        foam_word: foam.word,
+                        foam_stride: foam.stride,
+                        level: self.level,
+                    }
+                })?;
             }
             let after = [buffer(sums, COMPUTE_READ_WRITE, COMPUTE_READ)];
             gpu.barriers(cmd, &[], &after);
@@ -232,63 +246,6 @@ impl Motion {
         last.push(access::image(&self.image, COMPUTE_WRITE, AFTER));
         gpu.barriers(cmd, &last, &[]);
         r.end(scope);
-        Ok(())
-    }
-
-    fn record_chunk(
-        &self,
-        r: &Recording<'_>,
-        particles: &Particles,
-        velocities: &Stream,
-        list: &SphereList,
-        index: u32,
-    ) -> Result<(), Error> {
-        let (gpu, cmd) = (r.gpu, r.cmd);
-        let first = index * list.chunk_size;
-        // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let bound =
-            [&particles.positions, velocities].map(|stream| Window::new(gpu, stream, first));
-        let [Some(positions), Some(velocities)] = bound else {
-            return Ok(());
-        };
-        let [Some(densities), Some(foam)] =
-            [&particles.densities, &particles.foam].map(|stream| positions.or(gpu, stream, first))
-        else {
-            return Ok(());
-        };
-        r.descriptors.bind(
-            gpu,
-            cmd,
-            &self.each,
-            &[
-                (0, r.uniforms),
-                (1, Resource::buffer(&self.fronts)),
-                (2, Resource::buffer(&self.sums)),
-                (3, list.chunk(index).counts),
-                (4, positions.resource),
-                (5, velocities.resource),
-                (6, densities.resource),
-                (7, foam.resource),
-            ],
-        )?;
-        self.each.push(
-            gpu,
-            cmd,
-            &Push {
-                position_word: positions.word,
-                position_stride: positions.stride,
-                velocity_word: velocities.word,
-                velocity_stride: velocities.stride,
-                density_word: densities.word,
-                density_stride: densities.stride,
-                foam_word: foam.word,
-                foam_stride: foam.stride,
-                level: self.level,
-            },
-        );
-        let groups = list.chunk_size.div_ceil(self.each.local_size[0]).min(MOST_GROUPS);
-        // SAFETY: outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
         Ok(())
     }
 

@@ -13,19 +13,15 @@
 
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::cull::{self, LIST_USE, SphereList, Window};
+use super::cull::{self, SphereList};
+use super::sprites::{Over, Sprites};
 use crate::contract::{Config, Particles};
 use crate::error::Error;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
-use crate::gpu::access::{
-    self, Access, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED,
-    VERTEX_READ, buffer,
-};
-use crate::gpu::buffer::Buffer;
+use crate::gpu::access::{self, Access, COLOR_ATTACHMENT, COPY_READ, FRAGMENT_SAMPLED};
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
@@ -35,8 +31,6 @@ use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
 const SPRITE: u64 = 16;
-/// Workgroups of the list at most; more particles share them.
-const MOST_GROUPS: u32 = 1024;
 
 /// Last uses in a frame: by `composite`, or the host's copy of the layer.
 const BEFORE: Access = FRAGMENT_SAMPLED.and(COPY_READ);
@@ -68,9 +62,8 @@ shader::assert_layout!(
 
 /// The pass.
 pub struct Noise {
-    list: Pipeline,
+    sprites: Sprites,
     draw: Pipeline,
-    sprites: Buffer,
     target: Target,
     /// Of its resolution.
     pub level: u32,
@@ -79,7 +72,6 @@ pub struct Noise {
 impl Noise {
     /// `level`: as [`Config::noise`].
     pub fn new(gpu: &Gpu, config: &Config, level: u32) -> Result<Self, Error> {
-        let (chunk, chunks) = super::chunks(&gpu.limits, config);
         let target = Target::new(gpu, &desc(config, level), vk::AttachmentLoadOp::CLEAR)?;
         let draw = Pipeline::graphics(
             gpu,
@@ -92,16 +84,10 @@ impl Noise {
                 constants: &[],
             },
         )?;
+        let shader = shader::WATER_NOISE_LIST_COMP;
         Ok(Self {
-            list: Pipeline::compute(gpu, shader::WATER_NOISE_LIST_COMP, &[])?,
+            sprites: Sprites::new(gpu, config, "water/noise/sprites", SPRITE, (shader, &[]))?,
             draw,
-            sprites: Buffer::new(
-                gpu,
-                "water/noise/sprites",
-                SPRITE * u64::from(chunk) * u64::from(chunks),
-                vk::BufferUsageFlags::STORAGE_BUFFER,
-                MemoryLocation::GpuOnly,
-            )?,
             target,
             level,
         })
@@ -131,98 +117,33 @@ impl Noise {
     ) -> Result<(), Error> {
         let scope = r.begin(c"noise");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let (counts, sprites) = (list.counts.handle, self.sprites.handle);
-        let before = [
-            buffer(counts, LIST_USE, COMPUTE_READ_WRITE),
-            buffer(sprites, VERTEX_READ, COMPUTE_WRITE),
-        ];
-        gpu.barriers(cmd, &[], &before);
-        for index in 0..list.chunks {
-            self.record_list(r, particles, list, index)?;
-        }
-        let after = [
-            buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
-            buffer(sprites, COMPUTE_WRITE, VERTEX_READ),
-        ];
-        let to = [access::image(self.image(), BEFORE.discarded(), COLOR_ATTACHMENT)];
-        gpu.barriers(cmd, &to, &after);
-        self.target.begin(gpu, cmd, reduced(r.extent, self.level).into(), [0.0; 4]);
-        for index in 0..list.chunks {
-            let resources = [
-                (0, r.uniforms),
-                (1, self.chunk(list, index)),
-                (2, Resource::Sampled(depth.view, gpu.samplers.nearest)),
-            ];
-            r.descriptors.bind(gpu, cmd, &self.draw, &resources)?;
-            let arguments = list.chunk(index).arguments + cull::NOISE;
-            // SAFETY: inside a render pass; the arguments are visible (barrier of the list).
-            unsafe { gpu.device.cmd_draw_indirect(cmd, counts, arguments, 1, 16) };
-        }
-        gpu.end_pass(cmd);
-        gpu.barriers(cmd, &[access::image(self.image(), COLOR_ATTACHMENT, FRAGMENT_SAMPLED)], &[]);
-        r.end(scope);
-        Ok(())
-    }
-
-    /// A chunk's part of the sprites.
-    fn chunk(&self, list: &SphereList, index: u32) -> Resource {
-        let bytes = SPRITE * u64::from(list.chunk_size);
-        Resource::Buffer(self.sprites.handle, bytes * u64::from(index), bytes)
-    }
-
-    fn record_list(
-        &self,
-        r: &Recording<'_>,
-        particles: &Particles,
-        list: &SphereList,
-        index: u32,
-    ) -> Result<(), Error> {
-        let (gpu, cmd) = (r.gpu, r.cmd);
-        let first = index * list.chunk_size;
-        // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let Some(positions) = Window::new(gpu, &particles.positions, first) else {
-            return Ok(());
-        };
-        let [Some(densities), Some(ids)] =
-            [&particles.densities, &particles.ids].map(|stream| positions.or(gpu, stream, first))
-        else {
-            return Ok(());
-        };
-        r.descriptors.bind(
-            gpu,
-            cmd,
-            &self.list,
-            &[
-                (0, r.uniforms),
-                (1, positions.resource),
-                (2, densities.resource),
-                (3, ids.resource),
-                (4, list.chunk(index).counts),
-                (5, self.chunk(list, index)),
-            ],
-        )?;
-        self.list.push(
-            gpu,
-            cmd,
-            &Push {
+        let streams = [&particles.densities, &particles.ids];
+        let over = Over { particles, streams, binding: 1 };
+        self.sprites.record(r, list, &over, &[], |chunk_first, positions, [densities, ids]| {
+            Push {
                 position_word: positions.word,
                 position_stride: positions.stride,
                 density_word: densities.word,
                 density_stride: densities.stride,
                 id_word: ids.word,
                 id_stride: ids.stride,
-                chunk_first: first,
-            },
-        );
-        let groups = list.chunk_size.div_ceil(self.list.local_size[0]).min(MOST_GROUPS);
-        // SAFETY: outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+                chunk_first,
+            }
+        })?;
+        let to = COLOR_ATTACHMENT;
+        gpu.barriers(cmd, &[access::image(self.image(), BEFORE.discarded(), to)], &[]);
+        self.target.begin(gpu, cmd, reduced(r.extent, self.level).into(), [0.0; 4]);
+        let water = Resource::Sampled(depth.view, gpu.samplers.nearest);
+        self.sprites.draw(r, list, &self.draw, cull::NOISE, &[(2, water)])?;
+        gpu.end_pass(cmd);
+        gpu.barriers(cmd, &[access::image(self.image(), COLOR_ATTACHMENT, FRAGMENT_SAMPLED)], &[]);
+        r.end(scope);
         Ok(())
     }
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.image().size, self.sprites.size)
+        (self.image().size, self.sprites.memory())
     }
 }
 

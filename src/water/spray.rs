@@ -9,18 +9,17 @@
 
 use ash::vk;
 use bytemuck::NoUninit;
-use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::cull::{self, LIST_USE, SphereList, Window};
-use crate::contract::{Config, Particles, Stream};
+use super::cull::{self, SphereList};
+use super::sprites::{Over, Sprites};
+use crate::contract::{Config, Particles};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-    FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+    self, Access, COLOR_ATTACHMENT, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COPY_READ,
+    FRAGMENT_SAMPLED,
 };
-use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, blend};
@@ -30,8 +29,6 @@ use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 32;
-/// Workgroups of the list at most; more particles share them.
-const MOST_GROUPS: u32 = 1024;
 
 /// Read by compute (`reduce`) and by what shades.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
@@ -69,16 +66,14 @@ shader::assert_layout!(
 
 /// The pass.
 pub struct Spray {
-    list: Pipeline,
+    sprites: Sprites,
     draw: Pipeline,
-    sprites: Buffer,
     /// Optical depth, a full-resolution texel each.
     target: Target,
 }
 
 impl Spray {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let (chunk, chunks) = super::chunks(&gpu.limits, config);
         let target = Target::new(gpu, &desc(config), vk::AttachmentLoadOp::CLEAR)?;
         let draw = Pipeline::graphics(
             gpu,
@@ -91,16 +86,10 @@ impl Spray {
                 constants: &crate::light::constants(config),
             },
         )?;
+        let shader = shader::WATER_SPRAY_LIST_COMP;
         Ok(Self {
-            list: Pipeline::compute(gpu, shader::WATER_SPRAY_LIST_COMP, &[])?,
+            sprites: Sprites::new(gpu, config, "water/spray/sprites", SPRITE, (shader, &[]))?,
             draw,
-            sprites: Buffer::new(
-                gpu,
-                "water/spray/sprites",
-                SPRITE * u64::from(chunk) * u64::from(chunks),
-                vk::BufferUsageFlags::STORAGE_BUFFER,
-                MemoryLocation::GpuOnly,
-            )?,
             target,
         })
     }
@@ -130,21 +119,24 @@ impl Spray {
     ) -> Result<(), Error> {
         let scope = r.begin(c"spray");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let (counts, sprites) = (list.counts.handle, self.sprites.handle);
-        if let Some(densities) = &particles.densities {
-            let before = [
-                buffer(counts, LIST_USE, COMPUTE_READ_WRITE),
-                buffer(sprites, VERTEX_READ, COMPUTE_WRITE),
-            ];
-            gpu.barriers(cmd, &[], &before);
-            for index in 0..list.chunks {
-                self.record_list(r, particles, densities, list, index)?;
-            }
-            let after = [
-                buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
-                buffer(sprites, COMPUTE_WRITE, VERTEX_READ),
-            ];
-            gpu.barriers(cmd, &[], &after);
+        let any = particles.densities.is_some();
+        if any {
+            let streams = [&particles.densities, &particles.velocities, &particles.ids];
+            let over = Over { particles, streams, binding: 1 };
+            self.sprites.record(r, list, &over, &[], |chunk_first, positions, streams| {
+                let [densities, velocities, ids] = streams;
+                Push {
+                    position_word: positions.word,
+                    position_stride: positions.stride,
+                    density_word: densities.word,
+                    density_stride: densities.stride,
+                    velocity_word: velocities.word,
+                    velocity_stride: velocities.stride,
+                    id_word: ids.word,
+                    id_stride: ids.stride,
+                    chunk_first,
+                }
+            })?;
         }
         let to = [
             access::image(self.image(), BEFORE.discarded(), COLOR_ATTACHMENT),
@@ -152,23 +144,12 @@ impl Spray {
         ];
         gpu.barriers(cmd, &to, &[]);
         let area = r.extent.into();
-        let [shadow, thickness, basis, span] = r.sunlight.resources();
         self.target.begin(gpu, cmd, area, [0.0; 4]);
-        for index in 0..if particles.densities.is_some() { list.chunks } else { 0 } {
-            let resources = [
-                (0, r.uniforms),
-                (1, self.chunk(list, index)),
-                (2, r.scene_depth),
-                (3, Resource::Sampled(depth.view, gpu.samplers.nearest)),
-                shadow,
-                thickness,
-                basis,
-                span,
-            ];
-            r.descriptors.bind(gpu, cmd, &self.draw, &resources)?;
-            let arguments = list.chunk(index).arguments + cull::SPRAY;
-            // SAFETY: inside a render pass; the arguments are visible (barrier of the list).
-            unsafe { gpu.device.cmd_draw_indirect(cmd, counts, arguments, 1, 16) };
+        if any {
+            let [shadow, thickness, basis, span] = r.sunlight.resources();
+            let water = Resource::Sampled(depth.view, gpu.samplers.nearest);
+            let more = [(2, r.scene_depth), (3, water), shadow, thickness, basis, span];
+            self.sprites.draw(r, list, &self.draw, cull::SPRAY, &more)?;
         }
         gpu.end_pass(cmd);
         let back = [
@@ -180,70 +161,9 @@ impl Spray {
         Ok(())
     }
 
-    /// A chunk's part of the sprites.
-    fn chunk(&self, list: &SphereList, index: u32) -> Resource {
-        let bytes = SPRITE * u64::from(list.chunk_size);
-        Resource::Buffer(self.sprites.handle, bytes * u64::from(index), bytes)
-    }
-
-    fn record_list(
-        &self,
-        r: &Recording<'_>,
-        particles: &Particles,
-        densities: &Stream,
-        list: &SphereList,
-        index: u32,
-    ) -> Result<(), Error> {
-        let (gpu, cmd) = (r.gpu, r.cmd);
-        let first = index * list.chunk_size;
-        // A stream that ends before the chunk has no particles in it: the count was clamped.
-        let bound = [&particles.positions, densities].map(|stream| Window::new(gpu, stream, first));
-        let [Some(positions), Some(densities)] = bound else {
-            return Ok(());
-        };
-        let [Some(velocities), Some(ids)] =
-            [&particles.velocities, &particles.ids].map(|stream| positions.or(gpu, stream, first))
-        else {
-            return Ok(());
-        };
-        r.descriptors.bind(
-            gpu,
-            cmd,
-            &self.list,
-            &[
-                (0, r.uniforms),
-                (1, positions.resource),
-                (2, densities.resource),
-                (3, velocities.resource),
-                (4, ids.resource),
-                (5, list.chunk(index).counts),
-                (6, self.chunk(list, index)),
-            ],
-        )?;
-        self.list.push(
-            gpu,
-            cmd,
-            &Push {
-                position_word: positions.word,
-                position_stride: positions.stride,
-                density_word: densities.word,
-                density_stride: densities.stride,
-                velocity_word: velocities.word,
-                velocity_stride: velocities.stride,
-                id_word: ids.word,
-                id_stride: ids.stride,
-                chunk_first: first,
-            },
-        );
-        let groups = list.chunk_size.div_ceil(self.list.local_size[0]).min(MOST_GROUPS);
-        // SAFETY: outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
-        Ok(())
-    }
-
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.image().size, self.sprites.size)
+        (self.image().size, self.sprites.memory())
     }
 }
 

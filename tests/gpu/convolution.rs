@@ -165,27 +165,58 @@ fn the_basis_is_the_twins_and_foam_is_in_its_shade() {
             let name = format!("convolved-{terms}-{bits}-{name}");
             let worst = check_basis(&name, &twin, pages(&drawn));
             assert!(worst > 0.1, "{name}: idle bounds, {worst}");
-            check_foam(&name, &case, &drawn, |p, by, _| {
-                [twin.past(pages(&drawn), p, by, bits_between); 3]
-            });
+            let sun = |p: DVec3, by: f64| [twin.past(pages(&drawn), p, by, bits_between); 3];
+            check_foam(&name, &case, &drawn, Some(&sun), |_| 1.0);
         }
     }
 }
 
-/// The sun's share at each pixel with foam, and where in the map and how far along the light it is.
-fn shares(case: &Foamy, map: &Map, drawn: &Drawn) -> Vec<([f64; 2], f64, f64)> {
+/// As the wall, of sprites that do not overlap: what a pixel shows is the light in the middle of one.
+fn scattered() -> (Foamy, Vec3, Vec3) {
+    let (mut case, at, sun) = lit_wall();
+    let mut random = Random(8);
+    let points: Vec<_> = (0..28 * 19)
+        .map(|i| [i % 28, i / 28].map(|i| i as f32))
+        .map(|[i, j]| [0.16 * i - 2.2, 0.16 * j - 1.5].map(|v| v + random.between(-0.01, 0.01)))
+        .map(|[x, y]| [x, y, 2.0])
+        .collect();
+    case.shot.positions = scenes::world(&case.shot.camera, &points);
+    case.shot.settings.water.spacing *= 0.5;
+    case.amounts = vec![[1.0, 0.0]; points.len()];
+    case.velocities = vec![[0.0; 3]; points.len()];
+    (case, at, sun)
+}
+
+/// The sun's share of each sprite in view, and where in the map and how far along the light it is, of nine
+/// frames with the sprites elsewhere.
+fn shares(rig: &mut Rig<'_>, case: &mut Foamy, map: &Map) -> Vec<([f64; 2], f64, f64)> {
+    let positions = case.shot.positions.clone();
+    let mut all = Vec::new();
+    for i in 0..9 {
+        let by = [i % 3, i / 3].map(|i| 0.053 * i as f32);
+        let moved = positions.iter().map(|[x, y, z]| [x + by[0], y + by[1], *z]);
+        case.shot.positions = moved.collect();
+        let drawn = case.draw(rig);
+        all.extend(shares_of(case, map, &drawn));
+    }
+    case.shot.positions = positions;
+    all
+}
+
+fn shares_of(case: &Foamy, map: &Map, drawn: &Drawn) -> Vec<([f64; 2], f64, f64)> {
     let foam = drawn.foam.as_ref().expect("foam");
     let convolution = Convolution::default();
     let twin = map.twin(case, convolution);
+    let view = case.shot.view(SIZE);
     let white = f64::from(case.shot.settings.foam.front_color[0]);
     let mut shares = Vec::new();
-    for (i, color) in drawn.output.data.iter().enumerate() {
-        let at = (i % drawn.output.width, i / drawn.output.width);
-        if f64::from(foam.depth.data[i]) >= 1e9 || foam.thickness.data[i][1] < 1e-3 {
-            continue;
-        }
-        let Some((depth, _)) = crate::light::mean_depth(case, &foam.depth, at) else { continue };
-        let (p, by): (DVec3, f64) = crate::light::seen(&case.shot, depth, at);
+    for position in &case.shot.positions {
+        let (p, by) = crate::light::middle(&case.shot, *position);
+        let ndc = (view.projection * view.view).project_point3(p);
+        let size = [drawn.output.width, drawn.output.height];
+        let [x, y] = [0, 1].map(|i| ((0.5 * ndc[i] + 0.5) * size[i] as f64).floor() as isize);
+        let Some(color) = drawn.output.checked(x, y) else { continue };
+        assert!(foam.thickness.clamped(x, y)[1] > 1e-3, "no foam at ({x}, {y})");
         let Some((uv, z, false)) = twin.seen(p, by) else { continue };
         let size = [map.part.width, map.part.height];
         let place = [0, 1].map(|i| uv[i].v * size[i] as f64);
@@ -203,7 +234,7 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
     for (terms, bits, width) in [(16, 8, 9.0_f32), (16, 16, 3.0), (8, 8, 9.0), (4, 16, 5.0)] {
         let convolution = Convolution { terms, texels: 128, bits };
         let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
-        let (mut case, at, sun) = lit_wall();
+        let (mut case, at, sun) = scattered();
         let (_, view_projection, reversed) = light_views(sun, at)[0];
         let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
         for scale in [1.0, 1.25_f32] {
@@ -211,7 +242,6 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
             let edge = 52;
             let part = Image::from_fn(101, 23, |x, _| depth(if x < edge { 2.5 } else { -2.5 }));
             let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
-            let drawn = case.draw(&mut rig);
             let twin = map.twin(&case, convolution);
             // What rings well past the ramp, where the wall is; a basis a rounding off, of sines and of
             // what is kept.
@@ -227,12 +257,12 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
                 .sum();
             let bits_between = gpu.limits().sub_texel_precision_bits;
             let bound = rings + rounding + 2.0 * 2.0_f64.powi(-(bits_between as i32));
-            let mut shares: Vec<_> = shares(&case, &map, &drawn)
+            let mut shares: Vec<_> = shares(&mut rig, &mut case, &map)
                 .into_iter()
                 .map(|(at, _, s)| (at[0] - 52.0, s))
                 .collect();
             shares.sort_by(|a, b| a.0.total_cmp(&b.0));
-            assert!(shares.len() > 2000 && bound < 0.2, "{} shares, {bound}", shares.len());
+            assert!(shares.len() > 800 && bound < 0.2, "{} shares, {bound}", shares.len());
             let mut seen = [0; 3];
             let half = 0.5 * f64::from(width);
             for &(x, s) in &shares {
@@ -252,7 +282,7 @@ fn an_edge_is_half_lit_and_the_light_grows_across_it() {
                 assert!(s >= most - 2.0 * bound, "{s} after {most}");
                 most = most.max(s);
             }
-            assert!(seen.iter().all(|n| *n > 30), "{seen:?}");
+            assert!(seen.iter().all(|n| *n > 15), "{seen:?}");
         }
     }
 }
@@ -264,17 +294,17 @@ fn away_from_edges_and_contacts_it_is_a_hard_comparison() {
     let gpu = Gpu::shared();
     let convolution = Convolution { terms: 16, texels: 64, bits: 16 };
     let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
-    let (mut case, at, sun) = lit_wall();
+    let (mut case, at, sun) = scattered();
     case.shot.settings.shadow.width = 0.0;
     for (name, view_projection, reversed) in light_views(sun, at) {
         let depth = |along: f32| view_projection.project_point3(at + along * sun).z;
         let open = if reversed { 0.0 } else { 1.0 };
         let part = blocks(29, 31, [depth(1.5), depth(-1.5)], open);
         let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
-        let drawn = case.draw(&mut rig);
-        let twin = map.twin(&case, convolution);
         let mut seen = [0; 2];
-        for (place, z, s) in shares(&case, &map, &drawn) {
+        let shares = shares(&mut rig, &mut case, &map);
+        let twin = map.twin(&case, convolution);
+        for (place, z, s) in shares {
             let base = place.map(|v| (v - 0.5).floor() as isize);
             let about: Vec<_> = (-1..3)
                 .flat_map(|j| (-1..3).map(move |i| (i, j)))
@@ -293,7 +323,7 @@ fn away_from_edges_and_contacts_it_is_a_hard_comparison() {
             seen[verdict] += 1;
             assert!((s - verdict as f64).abs() < 0.01, "{name}: {s} at {place:?}, not {verdict}");
         }
-        assert!(seen.iter().all(|n| *n > 100), "{name}: {seen:?}");
+        assert!(seen.iter().all(|n| *n > 50), "{name}: {seen:?}");
     }
 }
 
@@ -303,7 +333,7 @@ fn the_convention_does_not_show() {
     let gpu = Gpu::shared();
     let convolution = Convolution { terms: 16, texels: 64, bits: 16 };
     let mut rig = Rig::lit(&gpu, &convolving(convolution), 1);
-    let (mut case, at, sun) = lit_wall();
+    let (mut case, at, sun) = scattered();
     let view = Mat4::look_at_rh(at + 6.0 * sun, at, Vec3::Y);
     let flat = |near, far| Mat4::orthographic_rh(-0.9, 0.9, -0.7, 0.7, near, far) * view;
     let mut draw = |view_projection: Mat4, reversed| {
@@ -314,11 +344,10 @@ fn the_convention_does_not_show() {
             i => depth(0.9 * i as f32 - 1.3 + 0.01 * (x + y) as f32),
         });
         let map = Map::new(&rig, &mut case, part, (view_projection, reversed), 0.0);
-        let drawn = case.draw(&mut rig);
-        shares(&case, &map, &drawn)
+        shares(&mut rig, &mut case, &map)
     };
     let expected = draw(flat(1.0, 11.0), false);
-    assert!(expected.iter().filter(|s| (0.1..0.9).contains(&s.2)).count() > 300);
+    assert!(expected.iter().filter(|s| (0.1..0.9).contains(&s.2)).count() > 50);
     for (view_projection, reversed) in
         [(flat(11.0, 1.0), true), (flat(-9.0, 11.0), false), (flat(2.0, 60.0), false)]
     {

@@ -85,7 +85,7 @@ impl Foamy {
     }
 
     /// As the twin takes them.
-    fn sprites(&self) -> Vec<Sprite> {
+    pub fn sprites(&self) -> Vec<Sprite> {
         let view = self.shot.camera_view();
         let wide = |v: &[f32; 3]| DVec3::from(v.map(f64::from));
         (0..self.amounts.len())
@@ -95,11 +95,12 @@ impl Foamy {
                 velocity: view.transform_vector3(wide(&self.velocities[i])),
                 age: f64::from(self.amounts[i][1]),
                 id: self.ids.as_ref().map_or(i as u32, |ids| ids[i]),
+                sun: [1.0; 2],
             })
             .collect()
     }
 
-    fn settings(&self) -> foam::Settings {
+    pub fn settings(&self) -> foam::Settings {
         let (look, spacing) = (&self.shot.settings.foam, self.shot.settings.water.spacing);
         foam::Settings {
             spacing: f64::from(spacing),
@@ -122,16 +123,25 @@ fn wide(image: &Image<f32>) -> Image<f64> {
 
 /// Depth and both thicknesses of a frame are the twin's.
 fn check(name: &str, case: &Foamy, drawn: &Drawn, level: u32) {
+    check_sprites(name, case, &case.sprites(), drawn, level);
+}
+
+/// And what of the second the sun lights, if the frame has it.
+pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn, level: u32) {
     let (shot, found) = (&case.shot, of(drawn));
-    let (view, sprites, settings) = (shot.view(shot.size), case.sprites(), case.settings());
+    let (view, settings) = (shot.view(shot.size), case.settings());
     let scene = shot.scene_at(shot.size, 0);
-    let bounds = foam::depth_bounds(&sprites, &view, &settings, &scene);
+    let bounds = foam::depth_bounds(sprites, &view, &settings, &scene);
     compare::between(&format!("{name}-depth"), &found.depth, &bounds);
     let depth = Between { low: wide(&found.depth), high: wide(&found.depth) };
-    let bounds = foam::thickness_bounds(&sprites, &view, level, &settings, &scene, &depth);
-    for (i, bounds) in bounds.iter().enumerate() {
+    let [all, front, lit] =
+        foam::thickness_bounds(sprites, &view, level, &settings, &scene, &depth);
+    for (i, bounds) in [all, front].iter().enumerate() {
         let found = found.thickness.map(|t| t[i]);
         compare::between(&format!("{name}-thickness-{i}"), &found, bounds);
+    }
+    if let Some(found) = &found.lit {
+        compare::between(&format!("{name}-lit"), found, &lit);
     }
 }
 

@@ -61,6 +61,8 @@ pub struct Sprite {
     pub age: f64,
     /// What it is known by: the noise goes by it.
     pub id: u32,
+    /// Share of the sun's light in its middle, at least and at most.
+    pub sun: [f64; 2],
 }
 
 /// What foam is drawn by.
@@ -103,6 +105,12 @@ impl Settings {
     }
 
     /// r, the drawn radius of a whole particle, world units.
+    /// How much of a sprite there still is so far before the scene: it sinks into it within half a
+    /// spacing.
+    fn sunk(&self, before: f64) -> f64 {
+        (before / (0.5 * self.spacing)).clamp(0.0, 1.0)
+    }
+
     fn radius(&self) -> f64 {
         RADIUS * self.spacing
     }
@@ -301,6 +309,7 @@ pub fn thickness(
             let Some(hit) = hit.filter(|hit| hit.k < hidden) else { continue };
             let torn = 1.0 + torn * noise(sprite.place(hit.at.x, hit.at.y, settings));
             let value = amplitude * kernel(hit.at.length_squared()) * torn.max(0.0);
+            let value = value * settings.sunk(hidden - hit.k);
             let nearest = in_full(foam_depth, x, y, level);
             let front = if is_surface(nearest) { settings.within(hit.k - nearest) } else { 0.0 };
             let texel = thickness.at_mut(x, y);
@@ -687,7 +696,8 @@ pub fn depth_bounds(
     Between { low, high }
 }
 
-/// Bounds of both channels of [`thickness`] for single precision, of sums in any order. What may or
+/// Bounds of both channels of [`thickness`], and of what of the second the sun lights, for single
+/// precision, of sums in any order. What may or
 /// may not be there, by the ellipse's rim, the scene or the depth of the foam, is left out of `low`
 /// and in `high`. `foam_depth`: that of [`depth_bounds`], or twice the image itself if it is known.
 pub fn thickness_bounds(
@@ -697,12 +707,13 @@ pub fn thickness_bounds(
     settings: &Settings,
     scene: &Image<f64>,
     foam_depth: &Between,
-) -> [Between; 2] {
+) -> [Between; 3] {
     let (full, view, near) = (view, &view.reduced(level), view.near());
-    let mut low = Image::new(view.width, view.height, [0.0; 2]);
+    let mut low = Image::new(view.width, view.height, [0.0; 3]);
     let mut high = low.clone();
     let mut count = Image::new(view.width, view.height, 0.0);
     for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
+        let [darkest, brightest] = [sprite.sun[0] * (1.0 - U), sprite.sun[1] * (1.0 + U)];
         let ellipses = LooseEllipse::all(sprite, full, settings, AXIS);
         let ellipses: Vec<_> = ellipses.into_iter().map(|e| e.wide(view, settings)).collect();
         let reach = ellipses.iter().map(|(e, _)| e.reach()).fold(0.0, f64::max);
@@ -713,7 +724,16 @@ pub fn thickness_bounds(
             let found = span(&ellipses, |(ellipse, strength)| {
                 let hit = ellipse.meet(ray, near, scene)?;
                 let bounds = value_bounds(sprite, (ellipse, *strength), &hit, foam, settings);
-                let (least, most) = bounds;
+                // The scene's depth is made of the projection, 8u; the difference, the product and the
+                // quotient 4u.
+                let sunk = |sign: f64| {
+                    if scene.is_infinite() {
+                        return 1.0;
+                    }
+                    let there = scene * (1.0 + sign * 8.0 * U) - (hit.k.v - sign * hit.k.e);
+                    settings.sunk(there) * (1.0 + sign * 4.0 * U)
+                };
+                let (least, most) = (bounds.0 * sunk(-1.0), bounds.1 * sunk(1.0));
                 // The end of the layer is rounded by 2u, the ramp by 16u; it falls by 1.5 a spacing.
                 let share = |there: f64, k: f64, by: f64| {
                     let off = 4.0 * U * (k.abs() + there + settings.front_depth);
@@ -733,10 +753,12 @@ pub fn thickness_bounds(
                     true => 1.0,
                     false => 0.0,
                 };
-                Some(([least, surely * least], [most, maybe * most], hit.sure))
+                let front = [surely * least, maybe * most];
+                let lit = [front[0] * darkest, front[1] * brightest];
+                Some(([least, front[0], lit[0]], [most, front[1], lit[1]], hit.sure))
             });
             let Some((least, most, sure)) = found else { continue };
-            for i in 0..2 {
+            for i in 0..3 {
                 let least = if sure && drawn { least[i] } else { 0.0 };
                 low.at_mut(x, y)[i] += settings.in_steps(least, -1.0);
                 high.at_mut(x, y)[i] += settings.in_steps(most[i], 1.0);
@@ -744,8 +766,8 @@ pub fn thickness_bounds(
             *count.at_mut(x, y) += 1.0;
         }
     }
-    [0, 1].map(|i| {
-        let sum = |sums: &Image<[f64; 2]>, sign: f64| Image {
+    [0, 1, 2].map(|i| {
+        let sum = |sums: &Image<[f64; 3]>, sign: f64| Image {
             width: sums.width,
             height: sums.height,
             data: (sums.data.iter().zip(&count.data))
@@ -803,7 +825,7 @@ mod tests {
     /// A whole one at rest.
     fn sprite(center: [f64; 3]) -> Sprite {
         let center = DVec3::from(center);
-        Sprite { center, foam: 1.0, velocity: DVec3::ZERO, age: 0.0, id: 7 }
+        Sprite { center, foam: 1.0, velocity: DVec3::ZERO, age: 0.0, id: 7, sun: [1.0; 2] }
     }
 
     fn moving(center: [f64; 3], velocity: [f64; 3]) -> Sprite {
@@ -843,7 +865,7 @@ mod tests {
             let held = |v: DVec3| v.as_vec3().as_dvec3();
             let (foam, age) = (random(&mut r, 0.0, 1.1), random(&mut r, 0.0, 60.0).powi(2));
             let id = r.bits() as u32;
-            Sprite { center: held(center), foam, velocity: held(velocity), age, id }
+            Sprite { center: held(center), foam, velocity: held(velocity), age, id, sun: [1.0; 2] }
         });
         cloud.collect()
     }
@@ -1282,9 +1304,10 @@ mod tests {
             {
                 let nearest = in_full(&depth, x, y, level);
                 for (single, sprite) in thick.iter().zip(world) {
-                    let hit = single.meet(&reduced, x, y, in_full(scene, x, y, level));
-                    let Some((k, at)) = hit else { continue };
-                    let value = single.value(sprite, at, settings);
+                    let scene = in_full(scene, x, y, level);
+                    let Some((k, at)) = single.meet(&reduced, x, y, scene) else { continue };
+                    let before = (scene_depth(scene) as f32 - k) / (0.5 * settings.spacing as f32);
+                    let value = single.value(sprite, at, settings) * before.min(1.0);
                     *sums[0].at_mut(x, y) += value;
                     if nearest < 1e9 {
                         let end = settings.front_depth as f32;
@@ -1327,7 +1350,7 @@ mod tests {
             let sums = thickness(&sprites, view, level, settings, scene, &twin);
             let [all, front] = [0, 1].map(|i| sums.map(|t| t[i]));
             let bounds = depth_bounds(&sprites, view, settings, scene);
-            let [a, b] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
+            let [a, b, _] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
             let single = Single::draw(world, view, level, settings, scene);
             let images = [twin, all, front].into_iter().zip(single).zip([bounds, a, b]);
             for (i, ((twin, single), bounds)) in images.enumerate() {

@@ -149,7 +149,7 @@ fn sprites_of(
         all.push((1.0 - foam, vec![ellipse]));
     }
     if foam * body > 0.0 {
-        let sprite = Sprite { center, foam, velocity, age: 0.0, id: 0 };
+        let sprite = Sprite { center, foam, velocity, age: 0.0, id: 0, sun: [1.0; 2] };
         let look = foam::Settings {
             motion_threshold: settings.motion_threshold,
             ..foam::Settings::new(settings.spacing)

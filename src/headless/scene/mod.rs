@@ -213,9 +213,9 @@ impl Material {
             "stone" => Self::new([0.47, 0.40, 0.32], 0.8, Pattern::Stone { course: 0.3 }),
             "steel" => Self::new([0.13, 0.14, 0.15], 0.45, Pattern::Plain),
             "bamboo" => Self::new([0.34, 0.36, 0.10], 0.5, Pattern::Plain),
-            "sand" => Self::new([0.55, 0.46, 0.34], 0.95, Pattern::Sand),
+            "sand" => Self::new([0.44, 0.37, 0.275], 0.95, Pattern::Sand),
             "ground" | "paving" => {
-                Self::new([0.46, 0.42, 0.36], 0.85, Pattern::Paving { size: 0.5 })
+                Self::new([0.35, 0.315, 0.265], 0.85, Pattern::Paving { size: 0.5 })
             }
             _ => return None,
         })

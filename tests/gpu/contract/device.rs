@@ -1,7 +1,7 @@
 //! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
 
 use ash::vk;
-use whitewater::water::{Gate, Shading, Smoothing};
+use whitewater::water::{Gate, Shading, Shadows, Smoothing};
 use whitewater::{Config, Enabled, Error, Renderer, Slot};
 
 use crate::support::device::Gpu;
@@ -37,6 +37,7 @@ fn what_a_device_lacks_is_named() {
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
     let foam = Config { foam: true, ..config };
     let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
+    let lit_foam = Config { shadow: Some(Shadows::Map), ..foam };
     let motion = Config { motion: true, ..config };
     let noise = Config { noise: Some(1), ..config };
     let unsummed = whitewater::Offer { blend_floats: false, foam_floats: false, ..offer };
@@ -55,6 +56,7 @@ fn what_a_device_lacks_is_named() {
         (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
         (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
         (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
+        (whitewater::Offer { blend_floats: false, ..offer }, lit_foam, "R32G32B32A32_SFLOAT"),
         (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
         (
             whitewater::Offer { basis: [true, false], ..offer },
@@ -76,6 +78,8 @@ fn what_a_device_lacks_is_named() {
     }
     let unblended = whitewater::Offer { blend_floats: false, ..offer };
     unblended.check(&config).expect("the compute paths need no blending");
+    let masked = Config { shadow: Some(Shadows::Mask), ..foam };
+    unblended.check(&masked).expect("a mask is the pixels', not the sprites'");
     let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
     unfoamed.check(&raster).expect("water needs nothing of foam's");
     let other = whitewater::Offer { basis: [true, false], ..offer };
@@ -134,10 +138,11 @@ fn memory_is_as_documented() {
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
         // The light's maps, and a lit scene in place of the copied one, which is of half precision
-        // too.
-        for cast in [None, Some(256), Some(1024)].into_iter().filter(|_| whole) {
+        // too; in a texel of foam 8 bytes more.
+        let ways = [(None, false), (Some(256), false), (Some(256), true), (Some(1024), false)];
+        for (cast, foam) in ways.into_iter().filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
-            let config = Config { cast, ..Config::new(extent(width, height), format, count) };
+            let config = Config { cast, foam, ..Config::new(extent(width, height), format, count) };
             // SAFETY: live handles.
             let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
             let memory = renderer.memory();
@@ -145,9 +150,10 @@ fn memory_is_as_documented() {
             unsafe { renderer.destroy() };
             let maps = cast.map_or(0.0, |n| 36.0 * f64::from(n * n));
             let found = (memory.images + memory.buffers) as f64;
-            let said = needed(width, height, count, (2, 3, false, false)) + maps;
+            let lit = if cast.is_some() && foam { 0.5 * pixels } else { 0.0 };
+            let said = needed(width, height, count, (2, 3, foam, false)) + maps + lit;
             let off = (found - said).abs();
-            assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}: {found}, said {said}");
+            assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}, {foam}: {found}, said {said}");
         }
         // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
         for (thickness_level, said) in

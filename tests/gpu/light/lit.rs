@@ -47,7 +47,7 @@ fn grounded(lens: Lens, height: f64) -> Foamy {
 
 /// The scene's point in a pixel, and metres that it may be off: by the depth's quotient, whose
 /// divisor is a difference, and by the way to the world.
-pub fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
+fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
     let view = shot.view(SIZE);
     let back = view.view.inverse();
     let p = back.transform_point3(view.ray(x, y) * depth);

@@ -18,8 +18,7 @@ use crate::reference::light::{Light, Maps, Particle};
 use crate::support::rig::{Drawn, Shot, config};
 use crate::support::scenes::{self, Lens, Random};
 
-pub use lit::seen;
-pub use shade::{check_foam, even, light_views, mean_depth, shadows, wall};
+pub use shade::{check_foam, even, light_views, middle, shadows, wall};
 
 pub const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 

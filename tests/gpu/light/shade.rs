@@ -15,8 +15,7 @@ use crate::support::rounded::{Rounded, exact, off};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::tolerance::U;
 
-use super::lit::seen;
-use super::{SIZE, casting, maps, twin, water};
+use super::{SIZE, casting, maps, twin, water, wide};
 
 const SAMPLED: Access = Access::new(
     vk::PipelineStageFlags2::FRAGMENT_SHADER,
@@ -59,68 +58,62 @@ pub fn wall(lens: Lens) -> Foamy {
     case
 }
 
-/// The mean of the frontmost foam's nine depths a radius apart that lie on the surface of a pixel, and how
-/// far off that makes a point; none where rounding decides which those are.
-pub fn mean_depth(case: &Foamy, foam: &Image<f32>, (x, y): (usize, usize)) -> Option<(f64, f64)> {
-    let (view, shot) = (case.shot.view(SIZE), &case.shot);
-    let here = f64::from(foam.at(x, y));
-    let step = f64::from(shot.settings.water.radius()) / (view.c_x() * here);
-    let step = step.clamp(1.0, 32.0);
-    let falloff = f64::from(shot.falloff());
-    let (mut sum, mut count) = (0.0, 0.0);
-    for i in 0..9_i32 {
-        let mut at = [x, y];
-        for (axis, by) in [(0, i % 3 - 1), (1, i / 3 - 1)] {
-            let place = at[axis] as f64 + 0.5 + step * f64::from(by);
-            if (place - place.round()).abs() < 32.0 * U * (1.0 + place.abs()) {
-                return None;
-            }
-            let last = [foam.width, foam.height][axis] - 1;
-            at[axis] = (place.max(0.0) as usize).min(last);
-        }
-        let off = f64::from(foam.at(at[0], at[1])) - here;
-        if (off.abs() - falloff).abs() < 8.0 * U * (here + falloff) {
-            return None;
-        }
-        if off.abs() < falloff {
-            (sum, count) = (sum + off, count + 1.0);
-        }
-    }
-    // Differences, their sums, a quotient and a sum; a ray is no longer than two of its depths here.
-    Some((here + sum / count, 2.0 * 24.0 * U * (here + falloff)))
+/// Where a particle is in the world and how far single precision takes it from there.
+pub fn middle(shot: &Shot, position: [f32; 3]) -> (DVec3, f64) {
+    let view = shot.view(SIZE).view;
+    let (p, eye) = (wide(position), view.inverse().w_axis.truncate().length());
+    // To eye space and back, by a matrix that is rounded itself.
+    (p, U * (8.0 * view.transform_point3(p).length() + 24.0 * (p.length() + 2.0 * eye)))
 }
 
-/// Opaque foam is as light as the sun on it; what part of the pixels is neither lit nor dark.
+/// The light in the foam is that of its sprites, by the sun's share in the middle of each; foam that nothing
+/// shows through is as light as that and the mask say. All kinds of light are seen.
 pub fn check_foam(
     name: &str,
     case: &Foamy,
     drawn: &Drawn,
-    sun: impl Fn(DVec3, f64, (usize, usize)) -> [Rounded; 3],
+    sun: Option<&dyn Fn(DVec3, f64) -> [Rounded; 3]>,
+    mask: impl Fn((usize, usize)) -> f64,
 ) {
     let (settings, foam) = (&case.shot.settings, drawn.foam.as_ref().expect("foam"));
+    assert_eq!(foam.lit.is_some(), sun.is_some(), "{name}");
+    let mut sprites = case.sprites();
+    let mut sharp = 0;
+    for (sprite, position) in sprites.iter_mut().zip(&case.shot.positions) {
+        let Some(sun) = sun else { break };
+        let (p, by) = middle(&case.shot, *position);
+        let [r, g, b] = sun(p, by);
+        let share = off(1.0 / 3.0, 1.0) * (r + g + b);
+        sprite.sun = [-1.0, 1.0].map(|sign| (share.v + sign * share.e).clamp(0.0, 1.0));
+        sharp += usize::from(sprite.sun[1] - sprite.sun[0] < 0.01);
+    }
+    if sun.is_some() {
+        let (few, all) = (sprites.len() - sharp, sprites.len());
+        assert!(few * 4 < all, "{name}: of {all} sprites the light of {few} is open");
+    }
+    crate::foam::check_sprites(name, case, &sprites, drawn, 0);
+
     let (mut seen_foam, mut kinds, mut wrong) = (0, [0; 3], String::new());
     for (i, found) in drawn.output.data.iter().enumerate() {
         let (x, y) = (i % drawn.output.width, i / drawn.output.width);
-        let depth = f64::from(foam.depth.data[i]);
-        if depth >= 1e9 || foam.thickness.data[i][1] < 1e-3 {
+        let [_, front] = foam.thickness.data[i];
+        if foam.depth.data[i] >= 1e9 || front < 1e-3 {
             continue;
         }
-        // Which nine they are rounding may turn.
-        let Some((depth, off_by)) = mean_depth(case, &foam.depth, (x, y)) else { continue };
         seen_foam += 1;
-        let (p, by) = seen(&case.shot, depth, (x, y));
-        let by = by + off_by;
-        let sun = sun(p, by, (x, y));
-        kinds[if sun[0].v < 0.05 { 0 } else { 1 + usize::from(sun[0].v > 0.95) }] += 1;
+        let lit = foam.lit.as_ref().map_or(front, |lit| lit.data[i]);
+        let sun = exact(mask((x, y))) * off(f64::from(lit) / f64::from(front), 4.0);
+        let sun = sun.clamp(0.0, 1.0);
+        kinds[((3.0 * sun.v) as usize).min(2)] += 1;
         for c in 0..3 {
             let (shade, most) = (settings.light.shade[c], settings.light.irradiance[c]);
             let white =
                 f64::from(settings.foam.front_color[c]) * f64::from(most) / std::f64::consts::PI;
             let dark = off(f64::from(shade) / f64::from(most), 5.0);
-            let expected = off(white, 40.0) * (dark + (exact(1.0) - dark) * sun[c]);
+            let expected = off(white, 40.0) * (dark + (exact(1.0) - dark) * sun);
             let v = f64::from(found[c]);
             if (v - expected.v).abs() > expected.e + 40.0 * U {
-                wrong += &format!("({x}, {y}) {c}: {v}, not {expected:?}, sun {:?}\n", sun[c]);
+                wrong += &format!("({x}, {y}) {c}: {v}, not {expected:?}, sun {sun:?}\n");
             }
         }
     }
@@ -158,13 +151,12 @@ fn foam_is_in_the_shade_of_a_mask() {
             case.shot.sun.shadow =
                 Some(Shadow { image: host, view_projection: Mat4::NAN, bias: f32::NAN });
             let drawn = case.draw(&mut rig);
-            check_foam(&format!("mask-{composite:?}-{width}"), &case, &drawn, |_, _, (x, y)| {
+            check_foam(&format!("mask-{composite:?}-{width}"), &case, &drawn, None, |(x, y)| {
                 let part = |i: usize, texels: usize, pixels: u32| {
                     ((i as f64 + 0.5) / f64::from(pixels) * texels as f64).floor() as usize
                 };
                 let at = (part(x, width, SIZE.width), part(y, height, SIZE.height));
-                let v = f64::from(whole.at(at.0 + 2, at.1 + 1)).clamp(0.0, 1.0);
-                [exact(v); 3]
+                f64::from(whole.at(at.0 + 2, at.1 + 1)).clamp(0.0, 1.0)
             });
         }
     }
@@ -224,7 +216,7 @@ fn foam_is_in_the_shade_of_a_map() {
             };
             let drawn = case.draw(&mut rig);
             let name = format!("map-{name}-{bias}");
-            check_foam(&name, &case, &drawn, |p, by, _| [map.past(p, by); 3]);
+            check_foam(&name, &case, &drawn, Some(&|p, by| [map.past(p, by); 3]), |_| 1.0);
         }
     }
 }
@@ -243,7 +235,7 @@ fn foam_is_in_its_own_shade() {
         let config = Config { shadow, thickness_level: 0, sheets: 2, ..casting(64) };
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = wall(Lens::Standard);
-        let texels = Image::from_vec(2, 1, vec![1.0, 0.25]).expect("two");
+        let texels = Image::from_vec(2, 1, vec![0.25, 1.0]).expect("two");
         let image = shadows(&rig, Shadows::Mask, &texels);
         let none = Shadow { image: image.host_image(), view_projection: Mat4::ZERO, bias: 0.0 };
         case.shot.sun.shadow = shadow.map(|_| none);
@@ -256,15 +248,17 @@ fn foam_is_in_its_own_shade() {
         case.shot.positions.extend(scenes::world(&case.shot.camera, &lump));
         case.amounts.extend((0..n).map(|i| [(i % 2) as f32, 0.0]));
         case.velocities.resize(case.shot.positions.len(), [0.0; 3]);
-        case.shot.settings.foam.shadow = 6.0;
+        case.shot.settings.foam.shadow = 2.0;
+        // Some of the wall is behind the front layer, or in part.
+        case.shot.settings.foam.front_depth = 0.15;
         case.shot.settings.water.medium = medium;
         let center = at.to_array();
         case.shot.sun.region = Some(Region { center, radius: 2.0 });
         let drawn = case.draw(&mut rig);
         let (light, maps) = (twin(&case.shot, &config), maps(&drawn));
-        check_foam(&format!("own-{i}"), &case, &drawn, |p, by, (x, _)| {
-            let past = if shadow.is_some() && 2 * x + 1 >= 97 { 0.25 } else { 1.0 };
-            light.at(&maps, p, by).0.map(|v| exact(past) * v)
+        let sun = |p: DVec3, by: f64| light.at(&maps, p, by).0;
+        check_foam(&format!("own-{i}"), &case, &drawn, Some(&sun), |(x, _)| {
+            if shadow.is_some() && 2 * x + 1 < 97 { 0.25 } else { 1.0 }
         });
     }
 }

@@ -65,6 +65,8 @@ pub struct Foaming {
     pub depth: Image<f32>,
     /// Of all foam, and of what lies right behind the frontmost.
     pub thickness: Image<[f32; 2]>,
+    /// What of the second the sun lights, where something casts shadows.
+    pub lit: Option<Image<f32>>,
     /// Of the water before the frontmost.
     pub before: Image<f32>,
 }
@@ -148,8 +150,12 @@ impl Rig<'_> {
             surface: empty(),
             plan: Image::new(0, 0, 0),
         });
-        let mut foam =
-            Foaming { depth: empty(), thickness: Image::new(0, 0, [0.0; 2]), before: empty() };
+        let mut foam = Foaming {
+            depth: empty(),
+            thickness: Image::new(0, 0, [0.0; 2]),
+            lit: None,
+            before: empty(),
+        };
         let mut foams = false;
         for layer in &recorded.layers {
             let whole = layer.extent.into();
@@ -179,10 +185,15 @@ impl Rig<'_> {
                     drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
                 }
                 "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
+                "foam.thickness" if layer.format == vk::Format::R32G32B32A32_SFLOAT => {
+                    let three = self.threes(layer, whole);
+                    foam.thickness = three.map(|t| [t[0], t[1]]);
+                    foam.lit = Some(three.map(|t| t[2]));
+                }
                 "foam.thickness" => foam.thickness = self.pairs(layer, whole),
                 "water.thickness.sheets" => {
                     let sheets = sheets.as_mut().expect("boundaries of two sheets");
-                    sheets.thickness = self.sheets(layer, whole);
+                    sheets.thickness = self.threes(layer, whole);
                 }
                 "water.surface" => {
                     drawn.surface = self.floats(layer, area(levels.finer()));
@@ -242,8 +253,7 @@ impl Rig<'_> {
         Image { width, height, data: words(&self.bytes(layer, area)).collect() }
     }
 
-    /// Front, back and window.
-    fn sheets(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 3]> {
+    fn threes(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 3]> {
         assert_eq!(layer.format, vk::Format::R32G32B32A32_SFLOAT);
         picture(layer.format, area.extent, &self.bytes(layer, area))
             .map(|[x, y, z, _]| [*x, *y, *z])

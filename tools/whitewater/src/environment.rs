@@ -124,7 +124,7 @@ impl Environment {
     pub fn exposure(&self) -> f32 {
         let level = self.sky_irradiance + self.sun_irradiance * self.sun.y.max(0.0);
         let white = level.dot(LUMINANCE) / PI;
-        if white > 0.0 { (1.35 / white).log2().clamp(-20.0, 20.0) } else { 0.0 }
+        if white > 0.0 { (1.1 / white).log2().clamp(-20.0, 20.0) } else { 0.0 }
     }
 }
 

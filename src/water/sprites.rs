@@ -1,0 +1,156 @@
+//! What passes over the host's particles share: the binding of the streams they read, chunk by chunk,
+//! and for `foam`, `spray` and `noise` the sprites that such a pass lists and a draw then reads.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::Recording;
+use super::cull::{self, LIST_USE, SphereList, Window};
+use crate::contract::{Config, Particles, Stream};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{COMPUTE_READ_WRITE, COMPUTE_WRITE, VERTEX_READ, buffer};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader::Shader;
+
+/// Workgroups over a chunk at most; more particles share them. With 64 invocations each they fill the
+/// largest device; groups past the count, which the CPU need not know, would be started for nothing.
+const MOST_GROUPS: u32 = 4096;
+
+/// A dispatch over the particles, an invocation each.
+pub struct Over<'a, const N: usize> {
+    pub particles: &'a Particles,
+    /// What is read beside the positions; of one that is not there the window's stride is 0.
+    pub streams: [&'a Option<Stream>; N],
+    /// Of the positions; the streams follow.
+    pub binding: u32,
+}
+
+impl<const N: usize> Over<'_, N> {
+    /// The first binding after the streams.
+    fn next_binding(&self) -> u32 {
+        self.binding + 1 + N as u32
+    }
+
+    /// One chunk of `list`. `own`: the pass' other resources. `push`: its constants, from the chunk's
+    /// first particle, the positions and the streams.
+    pub fn record<P: NoUninit>(
+        &self,
+        r: &Recording<'_>,
+        pipeline: &Pipeline,
+        (list, index): (&SphereList, u32),
+        own: &[(u32, Resource)],
+        push: impl FnOnce(u32, Window, [Window; N]) -> P,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let first = index * list.chunk_size;
+        let bound = Window::all(gpu, &self.particles.positions, self.streams, first);
+        // A stream that ends before the chunk has no particles in it: the count was clamped.
+        let Some((positions, streams)) = bound else { return Ok(()) };
+        let mut resources = vec![(0, r.uniforms), (self.binding, positions.resource)];
+        resources.extend((self.binding + 1..).zip(streams.map(|stream| stream.resource)));
+        resources.extend_from_slice(own);
+        r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+        pipeline.push(gpu, cmd, &push(first, positions, streams));
+        let groups = list.chunk_size.div_ceil(pipeline.local_size[0]).min(MOST_GROUPS);
+        // SAFETY: outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+        Ok(())
+    }
+}
+
+/// Sprites of the particles of one kind: listed by a dispatch, drawn by an instance each.
+pub struct Sprites {
+    list: Pipeline,
+    buffer: Buffer,
+    /// Bytes of a sprite.
+    size: u64,
+}
+
+impl Sprites {
+    /// `shader`, specialised by `constants`: lists them. Its bindings are the frame's uniforms, positions,
+    /// streams, `Counts`, sprites, and what is the pass' own.
+    pub fn new(
+        gpu: &Gpu,
+        config: &Config,
+        name: &str,
+        size: u64,
+        (shader, constants): (Shader, &[(u32, u32)]),
+    ) -> Result<Self, Error> {
+        let (chunk, chunks) = cull::chunks(&gpu.limits, config);
+        let bytes = size * u64::from(chunk) * u64::from(chunks);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Ok(Self {
+            list: Pipeline::compute(gpu, shader, constants)?,
+            buffer: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
+            size,
+        })
+    }
+
+    /// Lists them. `list`: of `cull`, for its counts, which come and go as [`LIST_USE`]. `own`, `push`: as
+    /// [`Over::record`].
+    pub fn record<P: NoUninit, const N: usize>(
+        &self,
+        r: &Recording<'_>,
+        list: &SphereList,
+        over: &Over<'_, N>,
+        own: &[(u32, Resource)],
+        push: impl Fn(u32, Window, [Window; N]) -> P,
+    ) -> Result<(), Error> {
+        let (counts, sprites) = (list.counts.handle, self.buffer.handle);
+        let before = [
+            buffer(counts, LIST_USE, COMPUTE_READ_WRITE),
+            buffer(sprites, VERTEX_READ, COMPUTE_WRITE),
+        ];
+        r.gpu.barriers(r.cmd, &[], &before);
+        let binding = over.next_binding();
+        for index in 0..list.chunks {
+            let sprites = self.chunk(list, index);
+            let mut resources = vec![(binding, list.chunk(index).counts), (binding + 1, sprites)];
+            resources.extend_from_slice(own);
+            over.record(r, &self.list, (list, index), &resources, &push)?;
+        }
+        let after = [
+            buffer(counts, COMPUTE_READ_WRITE, LIST_USE),
+            buffer(sprites, COMPUTE_WRITE, VERTEX_READ),
+        ];
+        r.gpu.barriers(r.cmd, &[], &after);
+        Ok(())
+    }
+
+    /// Draws them, inside a render pass; they are binding 1. `arguments`: where in `Counts` those of
+    /// the draw are.
+    pub fn draw(
+        &self,
+        r: &Recording<'_>,
+        list: &SphereList,
+        pipeline: &Pipeline,
+        arguments: u64,
+        more: &[(u32, Resource)],
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        for index in 0..list.chunks {
+            let mut resources = vec![(0, r.uniforms), (1, self.chunk(list, index))];
+            resources.extend_from_slice(more);
+            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            let draw = list.chunk(index).arguments + arguments;
+            // SAFETY: inside a render pass; the arguments are visible (barrier of the list).
+            unsafe { gpu.device.cmd_draw_indirect(cmd, list.counts.handle, draw, 1, 16) };
+        }
+        Ok(())
+    }
+
+    /// A chunk's part of them.
+    fn chunk(&self, list: &SphereList, index: u32) -> Resource {
+        let bytes = self.size * u64::from(list.chunk_size);
+        Resource::Buffer(self.buffer.handle, bytes * u64::from(index), bytes)
+    }
+
+    /// Bytes of device memory.
+    pub fn memory(&self) -> u64 {
+        self.buffer.size
+    }
+}
