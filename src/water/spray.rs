@@ -1,4 +1,4 @@
-//! Pass `spray`: particles too few together to be a body of water (thesis Sec. 4.3 and 4.10).
+//! Pass `spray`: particles too few together to be a body of water (thesis Sec. 4.3 and 4.9.5).
 //!
 //! What of a particle its density makes spray is drawn as droplets round it, each a sprite that faces
 //! the eye and streaks along its motion; `composite` lays them over all else. The source draws one
