@@ -283,7 +283,8 @@ impl Splats {
 }
 
 enum Path {
-    Raster { depth: Blended, thickness: Blended },
+    /// Depth and thickness.
+    Raster(Box<[Blended; 2]>),
     Compute(Box<Splats>),
 }
 
@@ -303,7 +304,7 @@ impl Foam {
             Splat::Raster => {
                 let depth = Blended::new(gpu, config, Kind::Depth)?;
                 let thickness = Blended::new(gpu, config, Kind::Thickness)?;
-                (sprites(VERTEX_READ)?, Path::Raster { depth, thickness })
+                (sprites(VERTEX_READ)?, Path::Raster(Box::new([depth, thickness])))
             }
             Splat::Compute => {
                 let splats = Box::new(Splats::new(gpu, config)?);
@@ -320,7 +321,8 @@ impl Foam {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         match &mut self.path {
-            Path::Raster { depth, thickness } => {
+            Path::Raster(both) => {
+                let [depth, thickness] = &mut **both;
                 depth.target.resize(gpu, &desc(config, Kind::Depth), retired)?;
                 thickness.target.resize(gpu, &desc(config, Kind::Thickness), retired)
             }
@@ -331,7 +333,7 @@ impl Foam {
     /// Eye depth of the frontmost foam.
     pub fn depth(&self) -> &Image {
         match &self.path {
-            Path::Raster { depth, .. } => &depth.target.image,
+            Path::Raster(both) => &both[0].target.image,
             Path::Compute(splats) => &splats.depth,
         }
     }
@@ -339,7 +341,7 @@ impl Foam {
     /// Metres of foam.
     pub fn thickness(&self) -> &Image {
         match &self.path {
-            Path::Raster { thickness, .. } => &thickness.target.image,
+            Path::Raster(both) => &both[1].target.image,
             Path::Compute(splats) => &splats.thickness,
         }
     }
@@ -376,7 +378,8 @@ impl Foam {
             })?;
         }
         match &self.path {
-            Path::Raster { depth, thickness } => {
+            Path::Raster(both) => {
+                let [depth, thickness] = &**both;
                 depth.record(r, self, list, EMPTY, any)?;
                 thickness.record(r, self, list, 0.0, any)?;
             }
@@ -389,7 +392,7 @@ impl Foam {
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         let sums = match &self.path {
-            Path::Raster { .. } => 0,
+            Path::Raster(_) => 0,
             Path::Compute(splats) => splats.sums.size,
         };
         (self.depth().size + self.thickness().size, self.sprites.memory() + sums)

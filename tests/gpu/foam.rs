@@ -456,7 +456,7 @@ fn the_scenes_outline_in_foam_is_sharp() {
         (wall.amounts, wall.velocities) =
             (vec![[1.0, 0.0]; block.len()], vec![[0.0; 3]; block.len()]);
         wall.ids = None;
-        let before = |x: u32| x / 7 % 2 == 0;
+        let before = |x: u32| (x / 7).is_multiple_of(2);
         // By more than a spacing.
         wall.shot.scene_depth(|x, _| before(x).then_some(1.0));
         let drawn = wall.draw(&mut rig);
