@@ -105,13 +105,13 @@ pub fn check_foam(
         let sun = exact(mask((x, y))) * off(f64::from(lit) / f64::from(front), 4.0);
         let sun = sun.clamp(0.0, 1.0);
         kinds[((3.0 * sun.v) as usize).min(2)] += 1;
-        for c in 0..3 {
+        for (c, v) in found.iter().take(3).enumerate() {
             let (shade, most) = (settings.light.shade[c], settings.light.irradiance[c]);
             let white =
                 f64::from(settings.foam.front_color[c]) * f64::from(most) / std::f64::consts::PI;
             let dark = off(f64::from(shade) / f64::from(most), 5.0);
             let expected = off(white, 40.0) * (dark + (exact(1.0) - dark) * sun);
-            let v = f64::from(found[c]);
+            let v = f64::from(*v);
             if (v - expected.v).abs() > expected.e + 40.0 * U {
                 wrong += &format!("({x}, {y}) {c}: {v}, not {expected:?}, sun {sun:?}\n");
             }
