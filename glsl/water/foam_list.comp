@@ -1,7 +1,8 @@
 #version 460
 // Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2).
 // Spray is none: what is turning into it is that much less foam.
-// Reads: Counts (particles), positions, foam, velocities, ids, densities, what casts shadows. Writes: Counts (foam), sprites.
+// Reads: Counts (particles), positions, foam, velocities, ids, densities, what casts shadows. Writes:
+// Counts (foam), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"

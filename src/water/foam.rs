@@ -25,7 +25,7 @@ use gpu_allocator::MemoryLocation;
 use super::Recording;
 use super::cull::{self, SphereList};
 use super::depth::DEFAULT_SPLAT;
-use super::settings::Shadows;
+use super::settings::{Shadows, Splat};
 use super::sprites::{Over, Sprites};
 use crate::contract::{Config, Particles};
 use crate::error::Error;
@@ -42,7 +42,6 @@ use crate::gpu::pipeline::{Graphics, Pipeline, blend};
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::gpu::target::Target;
-use crate::water::settings::Splat;
 
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 48;

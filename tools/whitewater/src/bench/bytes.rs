@@ -1,7 +1,7 @@
 //! Bytes that each pass has to move at least, from what was drawn: every input read once and every
 //! output written once, at the sizes they have. Caches may save reads, no pass can save these.
 
-use whitewater::water::{Convolution, Shadows};
+use whitewater::water::{Convolution, Shadows, Splat};
 
 use super::Drawn;
 
@@ -25,9 +25,11 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         // Cleared, spheres in, covered pixels written.
         "depth" => 4 * full + 16 * front + 4 * drawn.covered,
         // Two words a particle in; of those with foam position and velocity in, the sprite out and in
-        // twice; both images cleared. What blending moves is not counted.
+        // twice; depth and thickness out, and two sums cleared and read where they are not blended.
         "foam" => {
-            8 * u64::from(drawn.particles) + (24 + 3 * 48) * drawn.foaming + 4 * full + 8 * thick
+            let summed = drawn.config.thickness_splat != Some(Splat::Raster);
+            let texel = if summed { 4 + 8 + 16 } else { 4 + 8 };
+            8 * u64::from(drawn.particles) + (24 + 3 * 48) * drawn.foaming + texel * thick
         }
         // Positions and densities in; of those that are spray position in, the sprite out and in; the
         // image cleared. What blending moves is not counted.
