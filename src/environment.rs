@@ -117,22 +117,7 @@ impl Environment {
     /// A first, black environment, so that a frame may sample it.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu.barriers(cmd, &[access::image(&self.cube, access::NOTHING, access::CLEAR)], &[]);
-        let range = vk::ImageSubresourceRange {
-            aspect_mask: vk::ImageAspectFlags::COLOR,
-            level_count: vk::REMAINING_MIP_LEVELS,
-            layer_count: vk::REMAINING_ARRAY_LAYERS,
-            ..Default::default()
-        };
-        // SAFETY: cmd is recording outside a render pass; the image is in TRANSFER_DST_OPTIMAL.
-        unsafe {
-            gpu.device.cmd_clear_color_image(
-                cmd,
-                self.cube.handle,
-                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                &vk::ClearColorValue { float32: [0.0, 0.0, 0.0, 1.0] },
-                &[range],
-            );
-        }
+        gpu.clear_color(cmd, &self.cube, [0.0, 0.0, 0.0, 1.0]);
         gpu.barriers(cmd, &[access::image(&self.cube, access::CLEAR, SAMPLED)], &[]);
     }
 

@@ -4,7 +4,9 @@
 use ash::vk;
 
 use super::Gpu;
+use super::access::{CLEAR, whole};
 use super::graveyard::{Grave, Owned};
+use super::image::Image;
 use crate::error::{Error, VkContext};
 
 /// One attachment.
@@ -172,6 +174,16 @@ impl Gpu {
             self.device.cmd_begin_render_pass(cmd, &info, vk::SubpassContents::INLINE);
             self.device.cmd_set_viewport(cmd, 0, &[viewport]);
             self.device.cmd_set_scissor(cmd, 0, &[area]);
+        }
+    }
+
+    /// Clears all of a colour image to one value, outside a pass; it is in [`CLEAR`](super::access::CLEAR).
+    pub fn clear_color(&self, cmd: vk::CommandBuffer, image: &Image, value: [f32; 4]) {
+        let value = vk::ClearColorValue { float32: value };
+        let all = [whole(vk::ImageAspectFlags::COLOR)];
+        // SAFETY: cmd is recording outside a render pass; the image is in the layout.
+        unsafe {
+            self.device.cmd_clear_color_image(cmd, image.handle, CLEAR.layout, &value, &all);
         }
     }
 

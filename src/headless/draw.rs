@@ -165,12 +165,6 @@ impl Headless {
     /// One colour, and nothing in front of the far plane.
     fn clear(&self, cmd: vk::CommandBuffer, color: [f32; 3], camera: &Camera) {
         let far = Lens::new(camera).map_or(1.0, |lens| lens.nothing());
-        let range = |image: &Image| vk::ImageSubresourceRange {
-            aspect_mask: aspect_of(image.format),
-            level_count: 1,
-            layer_count: 1,
-            ..Default::default()
-        };
         let [r, g, b] = color;
         self.gpu.barriers(
             cmd,
@@ -180,21 +174,15 @@ impl Headless {
             ],
             &[],
         );
-        // SAFETY: both images are in TRANSFER_DST_OPTIMAL.
+        self.gpu.clear_color(cmd, &self.color, [r, g, b, 1.0]);
+        // SAFETY: the image is in TRANSFER_DST_OPTIMAL.
         unsafe {
-            self.gpu.device.cmd_clear_color_image(
-                cmd,
-                self.color.handle,
-                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                &vk::ClearColorValue { float32: [r, g, b, 1.0] },
-                &[range(&self.color)],
-            );
             self.gpu.device.cmd_clear_depth_stencil_image(
                 cmd,
                 self.depth.handle,
                 vk::ImageLayout::TRANSFER_DST_OPTIMAL,
                 &vk::ClearDepthStencilValue { depth: far, stencil: 0 },
-                &[range(&self.depth)],
+                &[access::whole(aspect_of(self.depth.format))],
             );
         }
         self.gpu.barriers(

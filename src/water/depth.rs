@@ -164,23 +164,7 @@ impl Depth {
             }
             Path::Compute { small, large } => {
                 gpu.barriers(cmd, &[access::image(&self.image, BEFORE.discarded(), CLEAR)], &[]);
-                let value = vk::ClearColorValue { float32: [EMPTY, 0.0, 0.0, 0.0] };
-                let range = vk::ImageSubresourceRange {
-                    aspect_mask: vk::ImageAspectFlags::COLOR,
-                    level_count: 1,
-                    layer_count: 1,
-                    ..Default::default()
-                };
-                // SAFETY: the image is in TRANSFER_DST_OPTIMAL.
-                unsafe {
-                    gpu.device.cmd_clear_color_image(
-                        cmd,
-                        self.image.handle,
-                        vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                        &value,
-                        &[range],
-                    );
-                }
+                gpu.clear_color(cmd, &self.image, [EMPTY, 0.0, 0.0, 0.0]);
                 gpu.barriers(cmd, &[access::image(&self.image, CLEAR, COMPUTE_READ_WRITE)], &[]);
                 dispatch_sprites(
                     r,

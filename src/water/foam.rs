@@ -235,19 +235,9 @@ impl Splats {
             ],
             &[buffer(sums, COMPUTE_READ, CLEAR)],
         );
-        let value = vk::ClearColorValue { float32: [EMPTY, 0.0, 0.0, 0.0] };
-        let range = vk::ImageSubresourceRange {
-            aspect_mask: vk::ImageAspectFlags::COLOR,
-            level_count: 1,
-            layer_count: 1,
-            ..Default::default()
-        };
-        let layout = CLEAR.layout;
-        // SAFETY: outside a render pass; the image is in its layout, the frame before has read both.
-        unsafe {
-            gpu.device.cmd_clear_color_image(cmd, depth.handle, layout, &value, &[range]);
-            gpu.device.cmd_fill_buffer(cmd, sums, 0, vk::WHOLE_SIZE, 0);
-        }
+        gpu.clear_color(cmd, depth, [EMPTY, 0.0, 0.0, 0.0]);
+        // SAFETY: outside a render pass; the frame before has read them.
+        unsafe { gpu.device.cmd_fill_buffer(cmd, sums, 0, vk::WHOLE_SIZE, 0) };
         gpu.barriers(
             cmd,
             &[access::image(depth, CLEAR, COMPUTE_READ_WRITE)],
