@@ -133,7 +133,8 @@
 //! - A foam sprite turns from an ellipse along its motion into a disc smoothly, by speed and by angle;
 //!   its depth is as wide as its thickness, which ends softly, before the scene too, and of its
 //!   resolution; what is foam of a
-//!   particle is no water of it, in metres. Water before the frontmost foam is told once a fragment, not once a particle.
+//!   particle is no water of it, in metres. Water before the frontmost foam is told once a fragment, not
+//!   once a particle.
 //!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
 //!   looks nine times a pixel, at depths that jump from sprite to sprite.

@@ -6,12 +6,13 @@ vec3 noise_phase(uint id) {
     return vec3(h) * (1.0 / 16777216.0);
 }
 
-// Of one of the twelve directions to the edges of a cube.
+// Of one of the twelve directions to the edges of a cube. Selections, not branches: within loops SwiftShader
+// took minutes and gigabytes to compile those.
 float lattice_gradient(uint hash, vec3 off) {
     uint h = hash & 15u;
-    float u = h < 8u ? off.x : off.y;
-    float v = h < 4u ? off.y : h == 12u || h == 14u ? off.x : off.z;
-    return ((h & 1u) != 0u ? -u : u) + ((h & 2u) != 0u ? -v : v);
+    float u = mix(off.y, off.x, h < 8u);
+    float v = mix(mix(off.z, off.x, (h & 13u) == 12u), off.y, h < 4u);
+    return mix(u, -u, (h & 1u) != 0u) + mix(v, -v, (h & 2u) != 0u);
 }
 
 // Along x, of a row whose hash is known.
