@@ -37,12 +37,6 @@ pub use texels::{pixels, scene_depth};
 const RADIUS: f64 = 0.656;
 /// Half-axis of a sprite at rest, in radii.
 const AXIS: f64 = 2.0;
-
-/// The part of the thickness' half-axes that the depth's have: eight times the foam, at most all.
-fn depth_part(foam: f64) -> f64 {
-    (8.0 * foam).min(1.0)
-}
-
 /// Slower than this, in spacings a second, there is no direction of motion.
 const STILL: f64 = 1e-6;
 /// The sine below which two directions span no plane.
@@ -61,6 +55,11 @@ const LEAST_AXIS: f64 = 1.5;
 const TOLD_APART: (f64, f64) = (1.0, 2.0);
 /// The noise of the particles begins within this many cells.
 const SPREAD: f64 = 64.0;
+
+/// The part of the thickness' half-axes that the depth's have: eight times the foam, at most all.
+fn depth_part(foam: f64) -> f64 {
+    (8.0 * foam).min(1.0)
+}
 
 /// A particle of foam, in eye space.
 #[derive(Clone, Copy, Debug, PartialEq)]
