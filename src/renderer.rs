@@ -307,7 +307,7 @@ impl Renderer {
 
     fn resize_parts(&mut self, config: &Config) -> Result<(), Error> {
         let copy = Parts::scene_copy(&self.gpu, config)?;
-        self.retired.retire(std::mem::replace(&mut self.scene_copy, copy));
+        self.retired.replace(&mut self.scene_copy, copy);
         if let Some(light) = &mut self.light {
             light.resize(&self.gpu, config, &mut self.retired)?;
         }
@@ -330,16 +330,16 @@ impl Renderer {
         self.config = *config;
         self.whole = true;
         let retired = &mut self.retired;
-        retired.retire(std::mem::replace(&mut self.water, parts.water));
-        retired.retire(std::mem::replace(&mut self.composite, parts.composite));
-        retired.retire(std::mem::replace(&mut self.light, parts.light));
-        retired.retire(std::mem::replace(&mut self.convolving, parts.convolving));
-        retired.retire(std::mem::replace(&mut self.scene_copy, parts.scene_copy));
+        retired.replace(&mut self.water, parts.water);
+        retired.replace(&mut self.composite, parts.composite);
+        retired.replace(&mut self.light, parts.light);
+        retired.replace(&mut self.convolving, parts.convolving);
+        retired.replace(&mut self.scene_copy, parts.scene_copy);
         if let Some(new) = environment {
-            retired.retire(std::mem::replace(&mut self.environment, new));
+            retired.replace(&mut self.environment, new);
         }
         for (slot, new) in self.slots.iter_mut().zip(descriptors) {
-            retired.retire(std::mem::replace(&mut slot.descriptors, new));
+            retired.replace(&mut slot.descriptors, new);
         }
         self.gpu.bury();
         Ok(new_environment)

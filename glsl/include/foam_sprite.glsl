@@ -39,9 +39,9 @@ vec4 foam_look(FoamSprite sprite, FoamPlane plane) {
                 phase + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y));
 }
 
-// What it adds where a ray meets it, to all foam, to the layer right behind the frontmost and to what of that the
-// sun lights: whole steps, their sums are exact, in any order. torn: strength of the noise, share of the
-// sun's light. before: metres to the scene.
+// What it adds where a ray meets it, to all foam, to the layer right behind the frontmost and to what of
+// that the sun lights: whole steps, their sums are exact, in any order. torn: strength of the noise, share
+// of the sun's light. before: metres to the scene.
 vec3 foam_steps(vec4 look, vec2 torn, vec2 place, float depth, float front, float before) {
     float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
     float amount = look.x * thickness_kernel(dot(place, place));

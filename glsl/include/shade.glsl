@@ -3,7 +3,8 @@
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment.
-// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl, surface_noise.glsl.
+// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
+// surface_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `foam`, raster path: a quad round each sprite, in its plane (thesis Sec. 4.6.2; Listing A.10 does it in
-// a geometry shader); the ellipse is the fragment's. Seen from its edge, or through the near plane, it is
+// Pass `foam`, raster path: a quad round each sprite, in its plane (thesis Sec. 4.6.2; Listing A.10 does it
+// in a geometry shader); the ellipse is the fragment's. Seen from its edge, or through the near plane, it is
 // the box of a sphere round it.
 // Reads: sprites. Writes: corners, the sprite's plane, noise and light.
 

@@ -1,6 +1,6 @@
 #version 460
-// Pass `spray`: how much of the light from behind droplets before scene and water take away (thesis Sec. 4.9.5
-// adds a colour instead).
+// Pass `spray`: how much of the light from behind droplets before scene and water take away (thesis
+// Sec. 4.9.5 adds a colour instead).
 // Reads: scene depth, water depth. Writes: spray (RG16F), summed.
 
 #include "frame.glsl"

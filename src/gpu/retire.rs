@@ -22,6 +22,11 @@ impl RetireList {
         }
     }
 
+    /// Puts an object in another's place, which it retires.
+    pub fn replace<T: Send + 'static>(&mut self, old: &mut T, new: T) {
+        self.retire(std::mem::replace(old, new));
+    }
+
     /// A slot has come back: its work is done, or it was never submitted.
     pub fn collect(&mut self, slot: u32) {
         self.out &= !(1 << slot);

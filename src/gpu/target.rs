@@ -35,8 +35,8 @@ impl Target {
     ) -> Result<(), Error> {
         let image = Image::new(gpu, desc)?;
         let framebuffer = gpu.framebuffer(desc.name, self.pass.handle, image.view, image.extent)?;
-        retired.retire(std::mem::replace(&mut self.framebuffer, framebuffer));
-        retired.retire(std::mem::replace(&mut self.image, image));
+        retired.replace(&mut self.framebuffer, framebuffer);
+        retired.replace(&mut self.image, image);
         Ok(())
     }
 

@@ -87,8 +87,8 @@ impl Back {
     ) -> Result<(), Error> {
         let image = Self::image(gpu, config)?;
         let blocks = blocks_buffer(gpu, "water/back/blocks", config)?;
-        retired.retire(std::mem::replace(&mut self.image, image));
-        retired.retire(std::mem::replace(&mut self.blocks, blocks));
+        retired.replace(&mut self.image, image);
+        retired.replace(&mut self.blocks, blocks);
         Ok(())
     }
 

@@ -121,9 +121,9 @@ impl Depth {
         let image = Self::image(gpu, config)?;
         if let Path::Raster { pass, framebuffer, .. } = &mut self.path {
             let new = gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
-            retired.retire(std::mem::replace(framebuffer, new));
+            retired.replace(framebuffer, new);
         }
-        retired.retire(std::mem::replace(&mut self.image, image));
+        retired.replace(&mut self.image, image);
         Ok(())
     }
 

@@ -212,9 +212,9 @@ impl Splats {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let (depth, thickness, sums) = Self::sized(gpu, config)?;
-        retired.retire(std::mem::replace(&mut self.depth, depth));
-        retired.retire(std::mem::replace(&mut self.thickness, thickness));
-        retired.retire(std::mem::replace(&mut self.sums, sums));
+        retired.replace(&mut self.depth, depth);
+        retired.replace(&mut self.thickness, thickness);
+        retired.replace(&mut self.sums, sums);
         Ok(())
     }
 

@@ -77,7 +77,7 @@ impl Front {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let (columns, rows, cells) = Self::cells(gpu, config)?;
-        retired.retire(std::mem::replace(&mut self.cells, cells));
+        retired.replace(&mut self.cells, cells);
         (self.columns, self.rows) = (columns, rows);
         Ok(())
     }

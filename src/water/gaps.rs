@@ -135,11 +135,11 @@ impl Gaps {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let [cells, found, spread_out, boundaries, blocks] = Self::sized(gpu, config)?;
-        retired.retire(std::mem::replace(&mut self.cells, cells));
-        retired.retire(std::mem::replace(&mut self.found, found));
-        retired.retire(std::mem::replace(&mut self.spread_out, spread_out));
-        retired.retire(std::mem::replace(&mut self.boundaries, boundaries));
-        retired.retire(std::mem::replace(&mut self.blocks, blocks));
+        retired.replace(&mut self.cells, cells);
+        retired.replace(&mut self.found, found);
+        retired.replace(&mut self.spread_out, spread_out);
+        retired.replace(&mut self.boundaries, boundaries);
+        retired.replace(&mut self.blocks, blocks);
         Ok(())
     }
 

@@ -154,9 +154,9 @@ impl Motion {
     ) -> Result<(), Error> {
         self.level = level(gpu, config);
         let (fronts, sums, image) = Self::sized(gpu, config, self.level)?;
-        retired.retire(std::mem::replace(&mut self.fronts, fronts));
-        retired.retire(std::mem::replace(&mut self.sums, sums));
-        retired.retire(std::mem::replace(&mut self.image, image));
+        retired.replace(&mut self.fronts, fronts);
+        retired.replace(&mut self.sums, sums);
+        retired.replace(&mut self.image, image);
         Ok(())
     }
 

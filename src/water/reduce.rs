@@ -103,7 +103,7 @@ impl Reduce {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let plan = Self::plan(gpu, config)?;
-        retired.retire(std::mem::replace(&mut self.plan, plan));
+        retired.replace(&mut self.plan, plan);
         Ok(())
     }
 

@@ -132,8 +132,8 @@ impl Smooth {
         if let Form::Query(query) = &mut self.form {
             query.resize(gpu, &a, &b, retired)?;
         }
-        retired.retire(std::mem::replace(&mut self.a, a));
-        retired.retire(std::mem::replace(&mut self.b, b));
+        retired.replace(&mut self.a, a);
+        retired.replace(&mut self.b, b);
         Ok(())
     }
 

@@ -68,7 +68,7 @@ impl Split {
     ) -> Result<(), Error> {
         let lists = Self::lists(gpu, config)?;
         self.middle = Atlas::new(config).tiles();
-        retired.retire(std::mem::replace(&mut self.lists, lists));
+        retired.replace(&mut self.lists, lists);
         Ok(())
     }
 

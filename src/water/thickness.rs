@@ -204,15 +204,15 @@ impl Thickness {
         match &mut self.path {
             Path::Raster { pass, framebuffer, .. } => {
                 let new = Self::framebuffer(gpu, pass.handle, &image, sheets.as_ref())?;
-                retired.retire(std::mem::replace(framebuffer, new));
+                retired.replace(framebuffer, new);
             }
             Path::Compute { sums, .. } => {
                 let new = Self::sums(gpu, config, &image)?;
-                retired.retire(std::mem::replace(sums, new));
+                retired.replace(sums, new);
             }
         }
-        retired.retire(std::mem::replace(&mut self.image, image));
-        retired.retire(std::mem::replace(&mut self.sheets, sheets));
+        retired.replace(&mut self.image, image);
+        retired.replace(&mut self.sheets, sheets);
         Ok(())
     }
 

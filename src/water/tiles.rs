@@ -88,8 +88,8 @@ impl Tiles {
     ) -> Result<(), Error> {
         let atlas = Atlas::new(config);
         let (work, list) = Self::sized(gpu, &atlas)?;
-        retired.retire(std::mem::replace(&mut self.work, work));
-        retired.retire(std::mem::replace(&mut self.list, list));
+        retired.replace(&mut self.work, work);
+        retired.replace(&mut self.list, list);
         self.atlas = atlas;
         Ok(())
     }

@@ -198,17 +198,10 @@ fn what_is_foam_is_no_water() {
         let spacing = f64::from(shot.settings.water.spacing);
         let sum = if splat == Splat::Raster { Sum::Float } else { Sum::Fixed };
         let front = wide(&of(&drawn).depth);
+        let spheres = spheres(&shot);
+        let splats = shot.splats(&spheres, 1, sum);
         let bounds = |share: &dyn Fn(usize, usize, f64) -> (f64, f64)| {
-            tolerance::thickness_where(
-                &spheres(&shot),
-                &view,
-                1,
-                &shot.scene_at(size, 1),
-                spacing.powi(3),
-                f64::from(shot.settings.water.radius()),
-                sum,
-                |x, y, sphere| share(x, y, -sphere.center.z),
-            )
+            tolerance::thickness_where(&splats, |x, y, sphere| share(x, y, -sphere.center.z))
         };
         // The share is a difference and a quotient, and back again.
         let whole = (0.75 * (1.0 - 4.0 * U), 0.75 * (1.0 + 4.0 * U));

@@ -91,16 +91,9 @@ fn a_shifted_image_is_not_the_twins() {
     let shot = water(size);
     let drawn = rig.draw(&shot);
     let view = shot.view(size);
-    let depth = tolerance::depth(&spheres(&shot), &view);
-    let thickness = tolerance::thickness(
-        &spheres(&shot),
-        &view,
-        0,
-        &shot.scene_at(size, 0),
-        f64::from(shot.settings.water.spacing).powi(3),
-        f64::from(shot.settings.water.radius()),
-        tolerance::Sum::Float,
-    );
+    let water = spheres(&shot);
+    let depth = tolerance::depth(&water, &view);
+    let thickness = tolerance::thickness(&shot.splats(&water, 0, tolerance::Sum::Float));
     compare::between("planted-depth", &drawn.depth, &depth);
     for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
         let (d, t) = (shifted(&drawn.depth, dx, dy), shifted(&drawn.thickness, dx, dy));
@@ -124,6 +117,12 @@ const CLEARED: Access = Access::new(
     vk::PipelineStageFlags2::ALL_TRANSFER,
     vk::AccessFlags2::TRANSFER_WRITE,
     vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+);
+/// What a host may think that a clear is ordered by.
+const UNORDERED: Access = Access::new(
+    vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
+    vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
+    CLEARED.layout,
 );
 
 /// Draws with a host that makes a mistake; returns what the layer says. The images are spoiled by
@@ -202,14 +201,9 @@ fn a_missing_barrier_of_the_hosts_is_reported() {
         return;
     }
     let gpu = Gpu::shared();
-    let unordered = Access {
-        stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-        access: vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
-        layout: CLEARED.layout,
-    };
     let messages = mistaken(&gpu, CLEARED, true, false);
     assert_eq!(messages, Vec::<String>::new(), "no mistake, no message");
-    let messages = mistaken(&gpu, unordered, true, false);
+    let messages = mistaken(&gpu, UNORDERED, true, false);
     assert!(messages.iter().any(|m| is_hazard(m)), "{messages:?}");
 }
 
@@ -228,12 +222,7 @@ fn a_missing_barrier_between_submissions_is_reported() {
         return;
     }
     let gpu = Gpu::shared();
-    let unordered = Access {
-        stage: vk::PipelineStageFlags2::COLOR_ATTACHMENT_OUTPUT,
-        access: vk::AccessFlags2::COLOR_ATTACHMENT_WRITE,
-        layout: CLEARED.layout,
-    };
-    let messages = mistaken(&gpu, unordered, true, true);
+    let messages = mistaken(&gpu, UNORDERED, true, true);
     assert!(messages.iter().any(|m| is_hazard(m)), "{messages:?}");
 }
 

@@ -124,17 +124,8 @@ fn the_order_of_the_particles_is_no_matter() {
     let mut rig = Rig::new(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..exact(size) });
     for shot in [&shot, &mixed] {
         let drawn = rig.draw(shot);
-        let level = rig.config.thickness_level;
-        let water = &shot.settings.water;
-        let bounds = tolerance::thickness(
-            &spheres(shot),
-            &shot.view(size),
-            level,
-            &shot.scene_at(size, level),
-            f64::from(water.spacing).powi(3),
-            f64::from(water.radius()),
-            Sum::Float,
-        );
+        let (spheres, level) = (spheres(shot), rig.config.thickness_level);
+        let bounds = tolerance::thickness(&shot.splats(&spheres, level, Sum::Float));
         compare::between("permutation-floats", &drawn.thickness, &bounds);
     }
 }
@@ -200,15 +191,7 @@ fn densities_are_the_twins() {
     assert!(culled.spray.len() > 50 && culled.visible.len() > 50, "both kinds");
     compare::between("densities-depth", &drawn.depth, &tolerance::depth(&culled.visible, &view));
     let level = rig.config.thickness_level;
-    let bounds = tolerance::thickness(
-        &culled.visible,
-        &view,
-        level,
-        &shot.scene_at(size, level),
-        f64::from(shot.settings.water.spacing).powi(3),
-        radius,
-        Sum::Fixed,
-    );
+    let bounds = tolerance::thickness(&shot.splats(&culled.visible, level, Sum::Fixed));
     compare::between("densities-thickness", &drawn.thickness, &bounds);
 
     for stray in [f32::NAN, f32::INFINITY, -f32::INFINITY, -5.0, f32::MAX, f32::MIN_POSITIVE] {
@@ -468,16 +451,8 @@ fn the_unit_of_length_does_not_show() {
         let bounds = tolerance::depth(&spheres(&open), &open.view(size));
         compare::between(&format!("unit-depth-{scale}"), &drawn.depth, &bounds);
         let drawn = rig.draw(&shot);
-        let level = rig.config.thickness_level;
-        let bounds = tolerance::thickness(
-            &spheres(&shot),
-            &shot.view(size),
-            level,
-            &shot.scene_at(size, level),
-            f64::from(shot.settings.water.spacing).powi(3),
-            f64::from(shot.settings.water.radius()),
-            Sum::Fixed,
-        );
+        let (spheres, level) = (spheres(&shot), rig.config.thickness_level);
+        let bounds = tolerance::thickness(&shot.splats(&spheres, level, Sum::Fixed));
         compare::between(&format!("unit-thickness-{scale}"), &drawn.thickness, &bounds);
     }
 }

@@ -6,6 +6,7 @@ use whitewater::water::{Gate, Rule, Shading, Smoothing};
 use crate::reduce::{params, wide};
 use crate::reference::{self, smooth};
 use crate::shading::close;
+use crate::smooth::forms;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
@@ -76,13 +77,7 @@ fn choice(counts: &[u32], cap: u32, coarsening: u32) -> f64 {
 fn a_coarser_level_is_the_configured_one() {
     let gpu = Gpu::shared();
     let free = draw(&gpu, &at(0, 0, 256));
-    let mut forms = vec![Smoothing::Tiles, Smoothing::Fused, Smoothing::Query(Gate::VertexCull)];
-    if gpu.enabled.draw_indirect_count {
-        forms.push(Smoothing::Query(Gate::DrawCount));
-    }
-    if gpu.enabled.conditional_rendering {
-        forms.push(Smoothing::Query(Gate::Predicate));
-    }
+    let forms = forms(&gpu);
     for (level, coarser) in [(0, 1), (0, 2), (1, 1)] {
         let counts = wanted(&free, level);
         // Most of the water would be over the cap one level finer.

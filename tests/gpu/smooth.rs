@@ -62,10 +62,8 @@ fn the_surface_is_the_twins() {
     }
 }
 
-/// All do the same arithmetic: bit for bit.
-#[test]
-fn all_forms_give_the_same_surface() {
-    let gpu = Gpu::shared();
+/// Every form of the smoothing that the device can run.
+pub fn forms(gpu: &Gpu) -> Vec<Smoothing> {
     let mut forms = vec![Smoothing::Tiles, Smoothing::Fused, Smoothing::Query(Gate::VertexCull)];
     if gpu.enabled.draw_indirect_count {
         forms.push(Smoothing::Query(Gate::DrawCount));
@@ -73,6 +71,14 @@ fn all_forms_give_the_same_surface() {
     if gpu.enabled.conditional_rendering {
         forms.push(Smoothing::Query(Gate::Predicate));
     }
+    forms
+}
+
+/// All do the same arithmetic: bit for bit.
+#[test]
+fn all_forms_give_the_same_surface() {
+    let gpu = Gpu::shared();
+    let forms = forms(&gpu);
     for (size, cap) in [(extent(97, 61), 256), (extent(130, 35), 7), (extent(3, 5), 40)] {
         for (rule, _) in rules() {
             let mut first = None;

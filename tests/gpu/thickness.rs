@@ -17,19 +17,9 @@ use crate::support::tolerance::{self, Sum, U, UNITS};
 const PATHS: [(Splat, Sum); 2] = [(Splat::Raster, Sum::Float), (Splat::Compute, Sum::Fixed)];
 
 fn check(name: &str, rig: &mut Rig<'_>, shot: &Shot, sum: Sum) {
-    let (size, level) = (rig.config.extent, rig.config.thickness_level);
     let drawn = rig.draw(shot);
-    let view = shot.view(size);
-    let water = &shot.settings.water;
-    let bounds = tolerance::thickness(
-        &spheres(shot),
-        &view,
-        level,
-        &shot.scene_at(size, level),
-        f64::from(water.spacing).powi(3),
-        f64::from(water.radius()),
-        sum,
-    );
+    let spheres = spheres(shot);
+    let bounds = tolerance::thickness(&shot.splats(&spheres, rig.config.thickness_level, sum));
     compare::between(name, &drawn.thickness, &bounds);
     assert!(drawn.thickness.data.iter().any(|t| *t > 0.0), "{name}: there is water");
 }

@@ -6,9 +6,6 @@
 //! an image is at ndc y = -1, device depth lies in 0..1, reversed or infinite as the projection
 //! has it. Pixel centres are at +0.5.
 
-// No test module uses all of it.
-#![allow(dead_code)]
-
 use glam::{DMat4, DVec2, DVec3};
 use std::fmt;
 use std::ops::Range;

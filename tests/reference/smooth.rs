@@ -300,33 +300,41 @@ mod tests {
         middle.map(|(x, y)| (after.at(x, y) - 500.0).abs() / 1e-3).fold(0.0, f64::max)
     }
 
-    /// What is left of a small wave of `k sigma_w = 1`: the response of the smoothed depth at the
-    /// wave's own number, under a window in the middle.
-    fn remains(
+    /// A small wave on a plane of water.
+    struct Wave {
+        /// Slope off the axis that the view looks along.
+        middle: DVec2,
+        /// C_y / C_x of the pixels.
+        aspect: f64,
+        /// Depth of the plane, how it is tilted and towards where.
         d: f64,
         tilt: f64,
         towards: f64,
+        /// Direction of the wave, from down the plane on.
         along: f64,
         extent: (usize, usize),
         rule: Rule,
+        /// Its number.
         k: f64,
-    ) -> f64 {
-        remains_at(DVec2::ZERO, 1.0, d, tilt, towards, along, extent, rule, k)
     }
 
-    /// The same round a slope off the axis, with C_y / C_x an aspect of the pixels.
-    #[allow(clippy::too_many_arguments)] // each is one thing of the wave
-    fn remains_at(
-        middle: DVec2,
-        aspect: f64,
-        d: f64,
-        tilt: f64,
-        towards: f64,
-        along: f64,
-        extent: (usize, usize),
-        rule: Rule,
-        k: f64,
-    ) -> f64 {
+    /// One of `k sigma_w = 1` on the axis; each test says what its own has else.
+    const WAVE: Wave = Wave {
+        middle: DVec2::ZERO,
+        aspect: 1.0,
+        d: 1500.0,
+        tilt: 0.0,
+        towards: 0.0,
+        along: 0.0,
+        extent: (128, 128),
+        rule: Rule::ConstantWidth,
+        k: 1.0 / 1.5,
+    };
+
+    /// What is left of a wave: the response of the smoothed depth at the wave's own number, under a
+    /// window in the middle.
+    fn remains(wave: Wave) -> f64 {
+        let Wave { middle, aspect, d, tilt, towards, along, extent, rule, k } = wave;
         let focal = DVec2::splat(5120.0 / extent.0 as f64 * 2.0)
             * DVec2::new(1.0, -1.0)
             * DVec2::new(1.0, extent.0 as f64 / (extent.1 as f64 * aspect));
@@ -362,15 +370,8 @@ mod tests {
         let expected = (-0.5_f64).exp();
         for d in [500.0, 1000.0, 2000.0] {
             for tilt in [0.0, 45.0_f64, 60.0] {
-                let left = remains(
-                    d,
-                    tilt.to_radians(),
-                    0.0,
-                    0.0,
-                    (256, 5),
-                    Rule::ConstantWidth,
-                    1.0 / 1.5,
-                );
+                let tilted = Wave { d, tilt: tilt.to_radians(), extent: (256, 5), ..WAVE };
+                let left = remains(tilted);
                 assert!((left / expected - 1.0).abs() < 0.03, "{left} at {d}, {tilt} degrees");
             }
         }
@@ -381,15 +382,7 @@ mod tests {
         let expected = (-0.5_f64).exp();
         for towards in [0.0, PI / 4.0, PI / 2.0] {
             for along in [0.0, PI / 4.0, PI / 2.0] {
-                let left = remains(
-                    1500.0,
-                    1.0,
-                    towards,
-                    along,
-                    (128, 128),
-                    Rule::ConstantWidth,
-                    1.0 / 1.5,
-                );
+                let left = remains(Wave { tilt: 1.0, towards, along, ..WAVE });
                 assert!((left / expected - 1.0).abs() < 0.04, "{left} at {towards}, {along}");
             }
         }
@@ -401,10 +394,7 @@ mod tests {
         for middle in [DVec2::new(1.0, 0.0), DVec2::new(-0.5, 0.8), DVec2::new(1.0, 1.0)] {
             for aspect in [1.0, 1.4] {
                 for (tilt, along) in [(0.0, 0.0), (0.0, PI / 2.0), (0.3, PI / 4.0)] {
-                    let k = 1.0 / 1.5;
-                    let (extent, rule) = ((128, 128), Rule::ConstantWidth);
-                    let left =
-                        remains_at(middle, aspect, 1500.0, tilt, 0.0, along, extent, rule, k);
+                    let left = remains(Wave { middle, aspect, tilt, along, ..WAVE });
                     assert!(
                         (left / expected - 1.0).abs() < 0.04,
                         "{left} at {middle}, {aspect}, {tilt}, {along}"
@@ -418,7 +408,8 @@ mod tests {
     fn the_source_diffuses_by_its_step() {
         for d in [500.0, 2000.0] {
             let pixel = d * 2.0 / (10240.0);
-            let left = remains(d, 0.0, 0.0, 0.0, (256, 5), Rule::Source, 1.5);
+            let source = Wave { d, extent: (256, 5), rule: Rule::Source, k: 1.5, ..WAVE };
+            let left = remains(source);
             let n = (4.8 / pixel).floor() + 1.0;
             let kappa = (0.053 / pixel).min(0.25);
             let expected = (1.0 - 4.0 * kappa * (0.75 * pixel).sin().powi(2)).powf(n);

@@ -78,8 +78,7 @@ pub struct Smooth {
     /// Depth per texel, and the same mean of the rises' absolute values.
     pub slope: [DVec2; 2],
     pub case: Case,
-    /// What the texels on the surface weigh of all round the pixel, and those not on the rim.
-    pub covered: f64,
+    /// What the texels on the surface and not on the rim weigh of all round the pixel.
     pub found: f64,
 }
 
@@ -189,7 +188,7 @@ impl<'a> Surfaces<'a> {
         let (seen, mut case, covered) = self.seen(x, y, depth, margin);
         if case == Case::Alone {
             let slope = [DVec2::ZERO; 2];
-            return Smooth { z: depth, slope, case, covered, found: 0.0 };
+            return Smooth { z: depth, slope, case, found: 0.0 };
         }
         let z: f64 = seen.iter().map(|t| t.2 * self.inputs.smoothed.at(t.0, t.1)).sum();
         let (mut slope, mut trust, mut whole) = ([DVec2::ZERO; 2], 0.0, 0.0);
@@ -213,7 +212,7 @@ impl<'a> Surfaces<'a> {
             case = if cut == slope[0] { Case::Rim } else { Case::SteepRim };
             slope[0] = cut;
         }
-        Smooth { z, slope, case, covered, found: whole * covered }
+        Smooth { z, slope, case, found: whole * covered }
     }
 
     /// The depth of the nearest texel of the smoothed image round a pixel.

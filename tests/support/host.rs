@@ -349,6 +349,28 @@ impl Stub {
         unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
     }
 
+    /// A barrier over a whole buffer.
+    fn buffer_barrier(
+        &self,
+        cmd: vk::CommandBuffer,
+        buffer: vk::Buffer,
+        before: Access,
+        after: Access,
+    ) {
+        let barriers = [vk::BufferMemoryBarrier2::default()
+            .buffer(buffer)
+            .size(vk::WHOLE_SIZE)
+            .src_stage_mask(before.stage)
+            .src_access_mask(before.access)
+            .dst_stage_mask(after.stage)
+            .dst_access_mask(after.access)
+            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)];
+        let info = vk::DependencyInfo::default().buffer_memory_barriers(&barriers);
+        // SAFETY: cmd is recording, the buffer is alive.
+        unsafe { self.device.cmd_pipeline_barrier2(cmd, &info) };
+    }
+
     /// Copies bytes into a whole image, which is left in a state.
     pub fn upload(&self, texture: &mut Texture, bytes: &[u8], after: Access) {
         let texels = u64::from(texture.extent.width) * u64::from(texture.extent.height);
@@ -436,22 +458,12 @@ impl Stub {
         region: vk::BufferImageCopy,
         back: &Data,
     ) {
-        let to_host = [vk::BufferMemoryBarrier2::default()
-            .buffer(back.buffer)
-            .size(vk::WHOLE_SIZE)
-            .src_stage_mask(COPIED_TO.stage)
-            .src_access_mask(COPIED_TO.access)
-            .dst_stage_mask(HOST_READ.stage)
-            .dst_access_mask(HOST_READ.access)
-            .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
-            .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)];
-        let info = vk::DependencyInfo::default().buffer_memory_barriers(&to_host);
         let layout = COPIED_FROM.layout;
         // SAFETY: cmd is recording, the image in the copy's layout, and the buffer has its size.
         unsafe {
             self.device.cmd_copy_image_to_buffer(cmd, image, layout, back.buffer, &[region]);
-            self.device.cmd_pipeline_barrier2(cmd, &info);
         }
+        self.buffer_barrier(cmd, back.buffer, COPIED_TO, HOST_READ);
     }
 
     /// Records the copy of an image into a buffer that the CPU reads.
@@ -471,33 +483,16 @@ impl Stub {
 
     /// Records the copy of a compute shader's buffer into one that the CPU reads.
     pub fn record_buffer_copy(&self, cmd: vk::CommandBuffer, from: vk::Buffer, back: &Data) {
-        let barrier = |buffer, before: Access, after: Access| {
-            [vk::BufferMemoryBarrier2::default()
-                .buffer(buffer)
-                .size(vk::WHOLE_SIZE)
-                .src_stage_mask(before.stage)
-                .src_access_mask(before.access)
-                .dst_stage_mask(after.stage)
-                .dst_access_mask(after.access)
-                .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
-                .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)]
-        };
         let written = Access::new(
             Stage::COMPUTE_SHADER,
             Mask::SHADER_STORAGE_WRITE,
             vk::ImageLayout::GENERAL,
         );
-        let before = barrier(from, written, COPIED_FROM);
-        let after = barrier(back.buffer, COPIED_TO, HOST_READ);
         let region = [vk::BufferCopy::default().size(back.size)];
+        self.buffer_barrier(cmd, from, written, COPIED_FROM);
         // SAFETY: cmd is recording; both buffers are alive and that large.
-        unsafe {
-            let info = vk::DependencyInfo::default().buffer_memory_barriers(&before);
-            self.device.cmd_pipeline_barrier2(cmd, &info);
-            self.device.cmd_copy_buffer(cmd, from, back.buffer, &region);
-            let info = vk::DependencyInfo::default().buffer_memory_barriers(&after);
-            self.device.cmd_pipeline_barrier2(cmd, &info);
-        }
+        unsafe { self.device.cmd_copy_buffer(cmd, from, back.buffer, &region) };
+        self.buffer_barrier(cmd, back.buffer, COPIED_TO, HOST_READ);
     }
 
     /// The functions, for commands that a test records itself.

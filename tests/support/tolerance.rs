@@ -234,35 +234,37 @@ impl Sum {
     }
 }
 
+/// What an image of the thickness is summed of.
+pub struct Splats<'a> {
+    /// In eye space.
+    pub spheres: &'a [Sphere],
+    /// The output's view, whose frustum culls by two radii.
+    pub full: View,
+    /// Times that the image is halved.
+    pub level: u32,
+    /// Eye depth of the scene at the image's resolution; its rounding is 8u.
+    pub scene: Image<f64>,
+    /// Of a whole particle, world units: its volume and its drawn radius.
+    pub volume: f64,
+    pub radius: f64,
+    /// How it is summed.
+    pub sum: Sum,
+}
+
 /// Bounds of the thickness splats: each sprite's centre is as uncertain as its distance from the
 /// ray; kernel and amplitude add 40u (exp 3 + 2·2 ulp, sqrt and quotients 2.5 ulp each), the sums as
-/// their kind. `full` is the output's view, whose frustum culls by two radii; the image is halved
-/// `level` times. `scene`: its eye depth at the image's resolution, whose rounding is 8u.
-pub fn thickness(
-    spheres: &[Sphere],
-    full: &View,
-    level: u32,
-    scene: &Image<f64>,
-    volume: f64,
-    radius: f64,
-    sum: Sum,
-) -> Between {
-    thickness_where(spheres, full, level, scene, volume, radius, sum, |_, _, _| (1.0, 1.0))
+/// their kind.
+pub fn thickness(splats: &Splats<'_>) -> Between {
+    thickness_where(splats, |_, _, _| (1.0, 1.0))
 }
 
 /// The same of the share of each sphere that counts at a texel: least and greatest. Where a share is
 /// none no addend is made.
-#[allow(clippy::too_many_arguments)] // each is one thing of the sums
 pub fn thickness_where(
-    spheres: &[Sphere],
-    full: &View,
-    level: u32,
-    scene: &Image<f64>,
-    volume: f64,
-    radius: f64,
-    sum: Sum,
+    splats: &Splats<'_>,
     share: impl Fn(usize, usize, &Sphere) -> (f64, f64),
 ) -> Between {
+    let &Splats { spheres, ref full, level, ref scene, volume, radius, sum } = splats;
     let view = &full.reduced(level);
     let planes = frustum(full);
     let near = view.near();

@@ -1,7 +1,7 @@
 //! The depth of the back sheet and its smoothing against the twins, on the tiles near gaps.
 
 use glam::{DVec2, DVec3};
-use whitewater::water::{Gate, Rule, Smoothing};
+use whitewater::water::Rule;
 use whitewater::{Config, SmoothingLevel, SmoothingLevels};
 
 use crate::composite::{Sky, twin_settings};
@@ -11,9 +11,10 @@ use crate::reference::composite::{self as twin};
 use crate::reference::sheets::{self, Boundaries};
 use crate::reference::thickness::Amplitude;
 use crate::reference::{EMPTY, Image, View, depth, is_surface, smooth};
+use crate::smooth::forms;
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Drawn, Rig, Sheets, Shot, Work, extent};
+use crate::support::rig::{Drawn, Rig, Sheets, Shot, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::{self, Sum, U};
 
@@ -193,25 +194,12 @@ pub fn twins_frame(shot: &Shot, smoothing_level: u32, thickness_level: u32) -> D
         plan: Image::new(0, 0, 0),
     };
     let mut drawn = Drawn {
-        output: Image::new(0, 0, [0.0; 4]),
-        whole: Image::new(0, 0, [0.0; 4]),
         surface: smoothed(&reduced, smoothing_level),
         depth,
-        plan: Image::new(0, 0, 0),
-        coarser: None,
         levels,
         thickness: thickness.map(|[front, back, _]| (front + back) as f32),
         sheets: Some(sheets),
-        foam: None,
-        spray: None,
-        lit_spray: None,
-        motion: None,
-        noise: None,
-        light_front: None,
-        light_thickness: None,
-        shadow_basis: None,
-        caustics: None,
-        work: Work::default(),
+        ..Drawn::empty()
     };
     let layers = Layers::new(&drawn, shot);
     let sky = Sky::Even.radiance(DVec3::Y);
@@ -343,13 +331,7 @@ fn the_back_surface_is_the_twins() {
 #[test]
 fn all_forms_give_the_same_back_surface() {
     let gpu = Gpu::shared();
-    let mut forms = vec![Smoothing::Tiles, Smoothing::Fused, Smoothing::Query(Gate::VertexCull)];
-    if gpu.enabled.draw_indirect_count {
-        forms.push(Smoothing::Query(Gate::DrawCount));
-    }
-    if gpu.enabled.conditional_rendering {
-        forms.push(Smoothing::Query(Gate::Predicate));
-    }
+    let forms = forms(&gpu);
     let sizes = [(extent(193, 121), 256), (extent(3, 5), 40), (extent(130, 35), 7)];
     for (size, cap) in sizes.into_iter().take(some(1)) {
         for (rule, _) in rules() {

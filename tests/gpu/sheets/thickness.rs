@@ -47,21 +47,13 @@ fn thickness_bounds(shot: &Shot, boundaries: &Image<f32>, level: u32, sum: Sum) 
     let (spheres, view, boundaries) = (visible(shot), shot.view(shot.size), wide(boundaries));
     [0, 1, 2].map(|i| {
         let rest = i == 1 && sum == Sum::Fixed;
-        tolerance::thickness_where(
-            &spheres,
-            &view,
-            level,
-            &shot.scene_at(shot.size, level),
-            spacing(shot).powi(3),
-            f64::from(shot.settings.water.radius()),
-            if rest { Sum::FixedRest } else { sum },
-            |x, y, sphere| match boundaries.at(x, y) {
-                boundary if is_surface(boundary) => {
-                    share_bounds(sphere, boundary, spacing(shot), &view)[i]
-                }
-                _ => (0.0, 0.0),
-            },
-        )
+        let splats = shot.splats(&spheres, level, if rest { Sum::FixedRest } else { sum });
+        tolerance::thickness_where(&splats, |x, y, sphere| match boundaries.at(x, y) {
+            boundary if is_surface(boundary) => {
+                share_bounds(sphere, boundary, spacing(shot), &view)[i]
+            }
+            _ => (0.0, 0.0),
+        })
     })
 }
 
@@ -75,16 +67,8 @@ pub fn check_thickness(
     level: u32,
     sum: Sum,
 ) -> usize {
-    let (spheres, view) = (visible(shot), shot.view(shot.size));
-    let bounds = tolerance::thickness(
-        &spheres,
-        &view,
-        level,
-        &shot.scene_at(shot.size, level),
-        spacing(shot).powi(3),
-        f64::from(shot.settings.water.radius()),
-        sum,
-    );
+    let spheres = visible(shot);
+    let bounds = tolerance::thickness(&shot.splats(&spheres, level, sum));
     compare::between(&format!("{name}-all"), all, &bounds);
     let bounds = thickness_bounds(shot, &found.boundaries, level, sum);
     let parts = ["front", "back", "window"];

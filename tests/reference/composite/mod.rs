@@ -285,8 +285,21 @@ fn before(
     color + w * (shine + surface.ripple.foam)
 }
 
-/// The picture: water over the scene with alpha 1, the scene as it is elsewhere. `env` gives the
-/// environment's radiance from a direction in the world.
+/// The picture by what each pixel shows, at its middle, where there is water: that over the scene with
+/// alpha 1, the scene as it is elsewhere.
+fn over_scene(
+    inputs: &Inputs<'_>,
+    view: &View,
+    water: impl Fn(usize, usize, DVec2) -> Option<DVec3> + Sync,
+) -> Image<[f64; 4]> {
+    Image::from_fn(view.width, view.height, |x, y| {
+        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+        let color = water(x, y, pixel).map(|color| color.extend(1.0).to_array());
+        color.unwrap_or_else(|| inputs.scene_color.at(x, y))
+    })
+}
+
+/// The picture of one sheet. `env` gives the environment's radiance from a direction in the world.
 pub fn shade(
     inputs: &Inputs<'_>,
     settings: &Settings,
@@ -294,12 +307,9 @@ pub fn shade(
     view: &View,
 ) -> Image<[f64; 4]> {
     let surfaces = Surfaces::new(inputs, settings, view);
-    Image::from_fn(view.width, view.height, |x, y| {
-        let Some(surface) = surfaces.at(x, y) else {
-            return inputs.scene_color.at(x, y);
-        };
-        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+    over_scene(inputs, view, |x, y, pixel| {
+        let surface = surfaces.at(x, y)?;
         let behind = background(inputs, settings, &surface, view, pixel);
-        before(settings, &surface, 1.0, behind, &env, view).extend(1.0).to_array()
+        Some(before(settings, &surface, 1.0, behind, &env, view))
     })
 }

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::super::surface::{Surface, Surfaces};
 use super::super::{Image, View, is_surface, smoothstep};
 
-use super::{Inputs, Settings, before, bent, cut_look_up, displacement, scene_at};
+use super::{Inputs, Settings, before, bent, cut_look_up, displacement, over_scene, scene_at};
 
 /// What a frame with two sheets has besides the [`Inputs`], whose thickness is that of all water.
 #[derive(Clone, Copy, Debug)]
@@ -194,11 +194,7 @@ pub fn shade_sheets(
     view: &View,
 ) -> Image<[f64; 4]> {
     let two = Two::new(inputs, behind, settings, view);
-    Image::from_fn(view.width, view.height, |x, y| {
-        let Some(shown) = two.at(x, y) else {
-            return inputs.scene_color.at(x, y);
-        };
-        let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-        shade_shown(inputs, &shown, settings, &env, view, pixel).extend(1.0).to_array()
+    over_scene(inputs, view, |x, y, pixel| {
+        Some(shade_shown(inputs, &two.at(x, y)?, settings, &env, view, pixel))
     })
 }

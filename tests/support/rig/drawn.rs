@@ -46,6 +46,34 @@ pub struct Drawn {
     pub work: Work,
 }
 
+impl Drawn {
+    /// What a frame gives of which nothing was read.
+    pub fn empty() -> Self {
+        let empty = || Image::new(0, 0, 0.0);
+        Self {
+            output: Image::new(0, 0, [0.0; 4]),
+            whole: Image::new(0, 0, [0.0; 4]),
+            depth: empty(),
+            surface: empty(),
+            plan: Image::new(0, 0, 0),
+            coarser: None,
+            levels: bytemuck::Zeroable::zeroed(),
+            thickness: empty(),
+            sheets: None,
+            foam: None,
+            spray: None,
+            lit_spray: None,
+            motion: None,
+            noise: None,
+            light_front: None,
+            light_thickness: None,
+            caustics: None,
+            shadow_basis: None,
+            work: Work::default(),
+        }
+    }
+}
+
 /// What a frame worked on.
 #[derive(Clone, Debug, Default)]
 pub struct Work {
@@ -109,27 +137,8 @@ impl Rig<'_> {
         let levels = self.levels(recorded);
         let whole = picture(output.format, output.extent, &bytes);
         let empty = || Image::new(0, 0, 0.0);
-        let mut drawn = Drawn {
-            output: crop(&whole, output.rect),
-            whole,
-            depth: empty(),
-            surface: empty(),
-            plan: Image::new(0, 0, 0),
-            coarser: None,
-            levels,
-            thickness: empty(),
-            sheets: None,
-            foam: None,
-            spray: None,
-            lit_spray: None,
-            motion: None,
-            noise: None,
-            light_front: None,
-            light_thickness: None,
-            caustics: None,
-            shadow_basis: None,
-            work: Work::default(),
-        };
+        let rect = crop(&whole, output.rect);
+        let mut drawn = Drawn { output: rect, whole, levels, ..Drawn::empty() };
         if let Some(counts) = &recorded.counts {
             let size = 256 * u64::from(counts.chunks);
             let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);

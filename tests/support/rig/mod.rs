@@ -13,7 +13,7 @@ use whitewater::{
 use super::device::Gpu;
 use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 
-pub use drawn::{Drawn, Foaming, Sheets, Work};
+pub use drawn::{Drawn, Foaming, Sheets};
 pub use shot::{AROUND, Shot};
 
 /// Format of the outputs: its rounding is that of the shaders.

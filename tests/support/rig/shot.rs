@@ -4,8 +4,9 @@ use ash::vk;
 use whitewater::{Camera, Frame, HostImage, Particles, Previous, Settings, Slot, Sun};
 
 use super::extent;
-use crate::reference::{Image, View};
+use crate::reference::{Image, Sphere, View};
 use crate::support::scenes;
+use crate::support::tolerance::{Splats, Sum};
 
 /// Colour beside a view.
 pub const AROUND: [f32; 4] = [50.0, 0.0, 25.0, 0.5];
@@ -153,6 +154,20 @@ impl Shot {
         Image::from_fn(width.div_ceil(block), height.div_ceil(block), |x, y| {
             eye.at(texel(x, width, eye.width), texel(y, height, eye.height))
         })
+    }
+
+    /// What the thickness of spheres is summed of, its image halved `level` times.
+    pub fn splats<'a>(&self, spheres: &'a [Sphere], level: u32, sum: Sum) -> Splats<'a> {
+        let water = &self.settings.water;
+        Splats {
+            spheres,
+            full: self.view(self.size),
+            level,
+            scene: self.scene_at(self.size, level),
+            volume: f64::from(water.spacing).powi(3),
+            radius: f64::from(water.radius()),
+            sum,
+        }
     }
 }
 

@@ -1,0 +1,191 @@
+//! Between what the images of foam must lie in single precision.
+
+use super::super::thickness::kernel;
+use super::super::{EMPTY, Image, View, is_surface};
+use super::loose::{LooseEllipse, LooseHit};
+use super::noise::{noise, noise_reach, noise_rounding, noise_slope};
+use super::off::{Off, ray_off};
+use super::texels::{in_full, pixels, scene_depth};
+use super::{AXIS, CELLS, Settings, Sprite, depth_part};
+use crate::support::rounded::{Rounded, exact};
+use crate::support::tolerance::{Between, U};
+
+/// The sprites that may be drawn, with their foam and whether they surely are: the near plane 8u.
+fn maybe_drawn<'a>(
+    sprites: &'a [Sprite],
+    view: &'a View,
+) -> impl Iterator<Item = (&'a Sprite, f64, bool)> {
+    let near = view.near();
+    sprites.iter().filter_map(move |sprite| {
+        let (d, e) = (-sprite.center.z, Off::point(sprite.center, view).e);
+        let foam = sprite.part().filter(|_| d + e > near * (1.0 - 8.0 * U))?;
+        Some((sprite, foam, d - e > near * (1.0 + 8.0 * U)))
+    })
+}
+
+/// Least and greatest of what the ellipses that rounding may make of a sprite are at a pixel, by
+/// `of`, and whether all of them are there.
+fn span<T, const N: usize>(
+    ellipses: &[T],
+    of: impl Fn(&T) -> Option<([f64; N], [f64; N], bool)>,
+) -> Option<([f64; N], [f64; N], bool)> {
+    let all: Vec<_> = ellipses.iter().map(of).collect();
+    let sure = all.iter().all(|one| one.is_some_and(|(_, _, sure)| sure));
+    let there = || all.iter().flatten();
+    there().next()?;
+    let low = std::array::from_fn(|i| there().map(|one| one.0[i]).fold(f64::INFINITY, f64::min));
+    let high = std::array::from_fn(|i| there().map(|one| one.1[i]).fold(0.0, f64::max));
+    Some((low, high, sure))
+}
+
+/// Bounds of [`depth`] for single precision: `low` is the nearest that any sprite may be, `high`
+/// the nearest of those that are surely there.
+pub fn depth_bounds(
+    sprites: &[Sprite],
+    view: &View,
+    level: u32,
+    settings: &Settings,
+    scene: &Image<f64>,
+) -> Between {
+    let (full, view, near) = (view, &view.reduced(level), view.near());
+    let mut low = Image::new(view.width, view.height, EMPTY);
+    let mut high = low.clone();
+    for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
+        let ellipses = LooseEllipse::all(sprite, full, settings, AXIS);
+        let deep = |ellipse: LooseEllipse| {
+            let (thick, _) = ellipse.wide(view, settings);
+            let part = exact(depth_part(foam));
+            LooseEllipse { a: thick.a * part, b: thick.b * part, ..thick }
+        };
+        let ellipses: Vec<_> = ellipses.into_iter().map(deep).collect();
+        let reach = ellipses.iter().map(LooseEllipse::reach).fold(0.0, f64::max);
+        for (x, y) in pixels(view, sprite.center, reach) {
+            let (ray, scene) = (ray_off(view, x, y), scene_depth(in_full(scene, x, y, level)));
+            let found = span(&ellipses, |ellipse| {
+                let LooseHit { k, sure, .. } = ellipse.meet(ray, near, scene)?;
+                Some(([(k.v - k.e).max(near * (1.0 - 8.0 * U))], [k.v + k.e], sure))
+            });
+            let Some(([least], [most], sure)) = found else { continue };
+            let pixel = low.at_mut(x, y);
+            *pixel = pixel.min(least);
+            if sure && drawn {
+                let pixel = high.at_mut(x, y);
+                *pixel = pixel.min(most);
+            }
+        }
+    }
+    Between { low, high }
+}
+
+/// Bounds of both channels of [`thickness`], and of what of the second the sun lights, for single
+/// precision, of sums in any order. What may or
+/// may not be there, by the ellipse's rim, the scene or the depth of the foam, is left out of `low`
+/// and in `high`. `foam_depth`: that of [`depth_bounds`], or twice the image itself if it is known.
+pub fn thickness_bounds(
+    sprites: &[Sprite],
+    view: &View,
+    level: u32,
+    settings: &Settings,
+    scene: &Image<f64>,
+    foam_depth: &Between,
+) -> [Between; 3] {
+    let (full, view, near) = (view, &view.reduced(level), view.near());
+    let mut low = Image::new(view.width, view.height, [0.0; 3]);
+    let mut high = low.clone();
+    let mut count = Image::new(view.width, view.height, 0.0);
+    for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
+        let [darkest, brightest] = [sprite.sun[0] * (1.0 - U), sprite.sun[1] * (1.0 + U)];
+        let ellipses = LooseEllipse::all(sprite, full, settings, AXIS);
+        let ellipses: Vec<_> = ellipses.into_iter().map(|e| e.wide(view, settings)).collect();
+        let reach = ellipses.iter().map(|(e, _)| e.reach()).fold(0.0, f64::max);
+        for (x, y) in pixels(view, sprite.center, reach) {
+            let (ray, scene) = (ray_off(view, x, y), scene_depth(in_full(scene, x, y, level)));
+            let nearest = foam_depth.low.at(x, y);
+            let farthest = foam_depth.high.at(x, y);
+            let found = span(&ellipses, |(ellipse, strength)| {
+                let hit = ellipse.meet(ray, near, scene)?;
+                let bounds = value_bounds(sprite, (ellipse, *strength), &hit, foam, settings);
+                // The scene's depth is made of the projection, 8u; the difference, the product and the
+                // quotient 4u.
+                let sunk = |sign: f64| {
+                    if scene.is_infinite() {
+                        return 1.0;
+                    }
+                    let there = scene * (1.0 + sign * 8.0 * U) - (hit.k.v - sign * hit.k.e);
+                    settings.sunk(there) * (1.0 + sign * 4.0 * U)
+                };
+                let (least, most) = (bounds.0 * sunk(-1.0), bounds.1 * sunk(1.0));
+                // The end of the layer is rounded by 2u, the ramp by 16u; it falls by 1.5 a spacing.
+                let share = |there: f64, k: f64, by: f64| {
+                    let off = 4.0 * U * (k.abs() + there + settings.front_depth);
+                    match is_surface(there) {
+                        true => {
+                            (settings.within(k - there - by * off) + by * 16.0 * U).clamp(0.0, 1.0)
+                        }
+                        false => 0.0,
+                    }
+                };
+                let surely = match is_surface(farthest) {
+                    true => share(nearest, hit.k.v + hit.k.e, -1.0),
+                    false => 0.0,
+                };
+                let maybe = match is_surface(nearest) {
+                    true if is_surface(farthest) => share(farthest, hit.k.v - hit.k.e, 1.0),
+                    true => 1.0,
+                    false => 0.0,
+                };
+                let front = [surely * least, maybe * most];
+                let lit = [front[0] * darkest, front[1] * brightest];
+                Some(([least, front[0], lit[0]], [most, front[1], lit[1]], hit.sure))
+            });
+            let Some((least, most, sure)) = found else { continue };
+            for i in 0..3 {
+                let least = if sure && drawn { least[i] } else { 0.0 };
+                low.at_mut(x, y)[i] += settings.in_steps(least, -1.0);
+                high.at_mut(x, y)[i] += settings.in_steps(most[i], 1.0);
+            }
+            *count.at_mut(x, y) += 1.0;
+        }
+    }
+    [0, 1, 2].map(|i| {
+        let sum = |sums: &Image<[f64; 3]>, sign: f64| Image {
+            width: sums.width,
+            height: sums.height,
+            data: (sums.data.iter().zip(&count.data))
+                .map(|(sum, n)| sum[i] * (1.0 + sign * n * U))
+                .collect(),
+        };
+        Between { low: sum(&low, -1.0), high: sum(&high, 1.0) }
+    })
+}
+
+/// Least and greatest that a sprite may add where a ray meets it. The kernel falls from the centre
+/// on; what is under its root is rounded once, u/2, the root by 9u, the exponential by 7 ulp, the
+/// three products by 3u.
+fn value_bounds(
+    sprite: &Sprite,
+    (ellipse, strength): (&LooseEllipse, Rounded),
+    hit: &LooseHit,
+    foam: f64,
+    settings: &Settings,
+) -> (f64, f64) {
+    let amplitude = ellipse.amplitude(foam, settings);
+    let rho_squared = hit.rho_squared;
+    let least = kernel((rho_squared.v + rho_squared.e).min(1.0));
+    let most = kernel((rho_squared.v - rho_squared.e).max(0.0));
+    let place = sprite.place(hit.x.v, hit.y.v, settings);
+    // One sum an axis, and the product with the age.
+    let sums = place.abs().element_sum() + (sprite.age * settings.noise_rate).abs();
+    let moved = CELLS * (hit.x.e + hit.y.e) + U * sums;
+    let (here, error) = (noise(place), noise_slope() * moved + noise_rounding());
+    let torn = |noise: f64, sign: f64| {
+        let noise = noise.clamp(-noise_reach(), noise_reach());
+        let part = strength.v * noise;
+        let rounding = strength.e * noise.abs() + U * (part.abs() + (1.0 + part).abs());
+        (1.0 + part + sign * rounding).max(0.0)
+    };
+    let rounding = U * (0.5 + 9.0 + 14.0 + 3.0);
+    let low = (amplitude.v - amplitude.e) * least * torn(here - error, -1.0);
+    let high = (amplitude.v + amplitude.e) * most * torn(here + error, 1.0);
+    (low.max(0.0) * (1.0 - rounding), high * (1.0 + rounding))
+}

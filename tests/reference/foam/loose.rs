@@ -1,0 +1,198 @@
+//! The ellipses that rounding may make of a sprite.
+
+use super::super::View;
+use super::super::thickness::J;
+use super::off::Off;
+use super::{
+    CELLS, EDGE_ON, HEAD_ON, LEAST_AXIS, LEAST_FACING, PARALLEL, STILL, Settings, Sprite,
+    TOLD_APART,
+};
+use crate::support::rounded::{self, Rounded, exact, off};
+use crate::support::tolerance::U;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Axes and their errors.
+#[derive(Clone, Copy, Debug)]
+struct LooseAxes {
+    e1: Off,
+    e2: Off,
+    stretch: Rounded,
+}
+
+/// All axes that rounding may give a sprite: more than one where it decides by a threshold.
+fn loose_axes(center: Off, velocity: Off, settings: &Settings) -> Vec<LooseAxes> {
+    let mut all = Vec::new();
+    let v = center.normalize();
+    let speed = velocity.length() / exact(settings.spacing);
+    let (mut moving, mut fallback) = (speed.v + speed.e > STILL, speed.v - speed.e <= STILL);
+    if moving {
+        let dir = velocity.normalize();
+        let across = dir.cross(v);
+        let sine = across.length();
+        moving = sine.v + sine.e >= PARALLEL;
+        fallback |= sine.v - sine.e < PARALLEL;
+        if moving {
+            // p = v x e2 = (dir - v (v.dir)) / |across|: on the side of dir, however rounded.
+            let e2 = across.normalize();
+            let p = v.cross(e2);
+            let facing = v.dot(dir);
+            let facing = Rounded { v: facing.v.abs(), ..facing };
+            let head_on = rounded::smoothstep(off(HEAD_ON.0, 1.0), exact(HEAD_ON.1), facing);
+            let by_speed = rounded::smoothstep(exact(0.0), exact(settings.motion_threshold), speed);
+            let stretch = by_speed * (exact(1.0) - head_on);
+            all.push(LooseAxes { e1: p.mix(dir, stretch).normalize(), e2, stretch });
+        }
+    }
+    if fallback {
+        let with = |axis: DVec3| v.cross(Off { v: axis, e: 0.0 });
+        let length = with(DVec3::Y).length();
+        let mut push = |side: Off| {
+            let e2 = side.normalize();
+            all.push(LooseAxes { e1: e2.cross(v), e2, stretch: exact(0.0) });
+        };
+        if length.v + length.e >= PARALLEL {
+            push(with(DVec3::Y));
+        }
+        if length.v - length.e < PARALLEL {
+            push(with(DVec3::X));
+        }
+    }
+    all
+}
+
+/// An ellipse and its errors.
+#[derive(Clone, Copy, Debug)]
+pub struct LooseEllipse {
+    pub center: Off,
+    pub e1: Off,
+    pub e2: Off,
+    pub n: Off,
+    pub a: Rounded,
+    pub b: Rounded,
+    /// The angle by which both axes may be turned in their plane, besides their errors.
+    pub turn: f64,
+}
+
+/// Where a ray may meet an ellipse.
+#[derive(Clone, Copy, Debug)]
+pub struct LooseHit {
+    /// The depth.
+    pub k: Rounded,
+    /// The place in half-axes.
+    pub(super) x: Rounded,
+    pub(super) y: Rounded,
+    /// The square of its distance from the centre.
+    pub rho_squared: Rounded,
+    /// Whether it does meet it, before the scene.
+    pub sure: bool,
+}
+
+impl LooseEllipse {
+    /// Those that rounding may make of a sprite, with the half-axis at rest in radii.
+    pub fn all(sprite: &Sprite, view: &View, settings: &Settings, half: f64) -> Vec<Self> {
+        let center = Off::point(sprite.center, view);
+        let axes = loose_axes(center, Off::direction(sprite.velocity), settings);
+        let ellipse = |axes: LooseAxes| {
+            let LooseAxes { e1, e2, stretch } = axes;
+            // The radius is a rounded number times the spacing.
+            let b = off(half * settings.radius(), 3.0);
+            let a = b * (exact(1.0) + stretch);
+            Self { center, e1, e2, n: e1.cross(e2), a, b, turn: 0.0 }
+        };
+        axes.into_iter().map(ellipse).collect()
+    }
+
+    /// The length in which all of it lies, by far more than its errors.
+    pub fn reach(&self) -> f64 {
+        1.01 * (self.a.v + self.a.e) + 32.0 * (self.center.e + U * self.center.v.length())
+    }
+
+    /// See [`Ellipse::wide`]. A texel: the depth's error, 2u of the slope and a product.
+    pub(super) fn wide(self, view: &View, settings: &Settings) -> (Self, Rounded) {
+        let z = Rounded { v: -self.center.v.z, e: self.center.e };
+        let pixel = z * off(view.slope_step().abs().max_element(), 3.0);
+        let cell = self.b / (off(CELLS, 1.0) * pixel);
+        let (from, to) = TOLD_APART;
+        let told = rounded::smoothstep(exact(from), exact(to), cell);
+        let least = exact(LEAST_AXIS) * pixel;
+        let (a, b) = (larger(self.a, least), larger(self.b, least));
+        (Self { a, b, ..self }, off(settings.noise, 1.0) * told)
+    }
+
+    /// Whether and where a ray may meet it before the scene.
+    ///
+    /// k. The error of n counts by `n.(c - k w)` alone, which is 0 without it: by the distance p
+    /// from the centre, not by the depth. Those of c and w count in whole, the two products by 3u,
+    /// the quotient by 5u, all but the last over `n.w`.
+    ///
+    /// x. The error of k counts by `w.e1`, which is small where the plane faces the ray. That of e1
+    /// counts by p, those of c and w in whole; u for `k w`, u for the difference, 3u for the
+    /// product.
+    pub fn meet(&self, ray: Off, near: f64, scene: f64) -> Option<LooseHit> {
+        let (n, c, w) = (self.n, self.center, ray);
+        let q = n.dot(w);
+        if q.v.abs() + q.e < EDGE_ON * (1.0 - U) {
+            return None;
+        }
+        let least = q.v.abs() - q.e;
+        let hit = if least > 0.0 {
+            let k = n.v.dot(c.v) / q.v;
+            let p = w.v * k - c.v;
+            let (far, ray_length) = (c.v.length(), w.v.length());
+            let from = (1.0 + n.e) * (c.e + k.abs() * w.e) + n.e * p.length();
+            let products = 3.0 * U * (1.0 + n.e) * (far + k.abs() * ray_length);
+            let k_e = (from + products) / least;
+            let k_e = k_e + 5.0 * U * (k.abs() + k_e);
+            let most = k.abs() + k_e;
+            let along = |e: Off, half: Rounded| {
+                let by_k = k_e * (w.v.dot(e.v).abs() + ray_length * e.e);
+                let point = most * w.e + c.e + U * most * ray_length;
+                let length = p.length() + k_e * ray_length;
+                let error = length * (e.e + 4.0 * U) + by_k + (1.0 + e.e) * point;
+                Rounded { v: p.dot(e.v), e: error } / half
+            };
+            let (x, y) = (along(self.e1, self.a), along(self.e2, self.b));
+            let mut rho_squared = x * x + y * y;
+            rho_squared.e += self.turned(p.length_squared());
+            (Rounded { v: k, e: k_e }, x, y, rho_squared)
+        } else {
+            // Anywhere.
+            let any = Rounded { v: 0.0, e: f64::INFINITY };
+            (any, any, any, any)
+        };
+        let (k, x, y, rho_squared) = hit;
+        // The near plane and the scene's depth are made of the projection: 8u.
+        let between = |near: f64, scene: f64, from: f64, to: f64| from >= near && to < scene;
+        let (less, more) = (1.0 - 8.0 * U, 1.0 + 8.0 * U);
+        let maybe = rho_squared.v - rho_squared.e <= 1.0
+            && between(near * less, scene * more, k.v + k.e, k.v - k.e);
+        let sure = rho_squared.v + rho_squared.e <= 1.0
+            && least >= EDGE_ON * (1.0 + U)
+            && between(near * more, scene * less, k.v - k.e, k.v + k.e);
+        maybe.then_some(LooseHit { k, x, y, rho_squared, sure })
+    }
+
+    /// What the turn makes of the square of a distance in half-axes: its slope by the angle is no
+    /// more than all that it ranges over, `d^2 (1/b^2 - 1/a^2)`. A circle may turn.
+    fn turned(&self, distance_squared: f64) -> f64 {
+        let (a, b) = (self.a.v + self.a.e, self.b.v - self.b.e);
+        let range = distance_squared * (1.0 / (b * b) - 1.0 / (a * a)).max(0.0);
+        if self.turn > 0.0 { self.turn.min(1.0) * range } else { 0.0 }
+    }
+
+    /// See [`Ellipse::amplitude`]. The volume 2u, pi J 3u, the least |n_z| u; a quotient more for
+    /// those that divide twice.
+    pub(super) fn amplitude(&self, foam: f64, settings: &Settings) -> Rounded {
+        let facing = Rounded { v: self.n.v.z.abs(), e: self.n.e };
+        let facing = facing.clamp(LEAST_FACING, f64::INFINITY);
+        let facing = Rounded { e: facing.e + U * LEAST_FACING, ..facing };
+        let above = exact(foam) * off(settings.spacing.powi(3), 2.0 + 5.0);
+        above / (off(PI * J, 3.0) * self.a * self.b * facing)
+    }
+}
+
+/// The larger of two, of which either may be.
+fn larger(a: Rounded, b: Rounded) -> Rounded {
+    Rounded { v: a.v.max(b.v), e: if a.v - a.e > b.v + b.e { a.e } else { a.e.max(b.e) } }
+}
