@@ -97,7 +97,7 @@
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
-//! | foam: depth, thickness and its sums, what water is before it (`foam`) | 2 w h | 1.8 MiB | 4.0 MiB |
+//! | foam: depth, thickness and its sums, what water is before it (`foam`) | 2½ w h | 2.2 MiB | 4.9 MiB |
 //! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¾ w h | 0.7 MiB | 1.5 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |

@@ -31,4 +31,5 @@ struct Counts {
     uint noise;           // instanceCount
     uint noise_vertex;
     uint noise_instance;
+    uint foam_groups[3];  // dispatch over the foam
 };

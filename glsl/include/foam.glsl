@@ -7,6 +7,8 @@ struct FoamSprite {
     vec4 rest;     // bits of the id; share of the sun's light
 };
 
+// Sprites to a workgroup of the compute path.
+const uint FOAM_GROUP = 64u;
 // Half-axis across the motion in drawn radii. That of the depth shrinks with the last of the foam; else
 // it is the thickness', which ends softly: a narrower one cuts it off (the source has 2 to 3).
 const float FOAM_AXIS = 2.0;

@@ -1,10 +1,22 @@
-// Sums of foam in whole steps (the compute path): of all foam, of what is behind the front layer, and of what
-// in that layer the sun does not light. The others are mostly none, and added seldom.
+// What the compute path of foam has of each texel, next to each other: sums in whole steps of all foam, of what
+// is behind the front layer, and of what in that layer the sun does not light. The others are mostly none, and
+// added seldom.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;
-const uint SUMS = 2u + LIT;
+
+// Bits of the depth of the frontmost, and of the scene's. Positive floats order as their bits do.
+const uint FRONT = 0u;
+const uint SCENE = 1u;
+const uint ALL = 2u;
+const uint LATE = 3u;
+const uint UNLIT = 4u;
+const uint WORDS = 4u + LIT;
 
 // No sum is more: single precision holds all whole numbers up to it. It is 4096 spacings of foam or more, and
 // leaves room for what 170 thousand invocations may add at once to one that is not yet full.
 const uint FULL = 16777216u;
+
+uint words_of(ivec2 texel) {
+    return WORDS * (uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x));
+}

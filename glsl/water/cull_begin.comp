@@ -31,7 +31,7 @@ void main() {
     uint groups = push.packets > 0u ? (here > 0u ? push.packets : 0u)
                                     : (here + push.group_size - 1u) / push.group_size;
     uint base = chunk * 64u;
-    uint values[36] = uint[36](
+    uint values[39] = uint[39](
         0u, 1u, 0u, 0u,
         4u, 0u, 0u, 0u,
         0u, 1u, 1u,
@@ -41,8 +41,9 @@ void main() {
         4u, 0u, 0u, 0u,
         4u, 0u, 0u, 0u,
         4u, here, 0u, 0u,
-        4u, 0u, 0u, 0u);
-    for (uint i = 0u; i < 36u; ++i) {
+        4u, 0u, 0u, 0u,
+        0u, 1u, 1u);
+    for (uint i = 0u; i < 39u; ++i) {
         words[base + i] = values[i];
     }
 }

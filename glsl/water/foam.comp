@@ -2,7 +2,7 @@
 // Pass `foam`, compute path: the frontmost foam (thesis Sec. 4.6.2), then the metres of all foam and of the
 // layer right behind the frontmost (Sec. 4.8), in whole steps. An invocation a sprite, or all of a group the
 // large ones. A noise of its own in each sprite, that changes as it ages, breaks up the discs.
-// Reads: Counts, sprites, scene depth, foam depth. Writes: foam depth, or sums.
+// Reads: Counts, sprites, words. Writes: words.
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -15,22 +15,19 @@
 #include "foam_sums.glsl"
 #include "plane.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = FOAM_GROUP) in;
 // 0: depth. 1: thickness.
 layout(constant_id = 0) const uint THICK = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprites[]; };
-layout(set = 0, binding = 2) uniform sampler2D scene_depth;
-// Positive floats order as their bits do.
-layout(set = 0, binding = 3, r32ui) uniform uimage2D foam_bits;
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
-layout(set = 0, binding = 5, std430) buffer Sums { uint sums[]; };
+layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
 // Texels of a box that an invocation does by itself.
 const int SMALL = 256;
 
 shared uint large_count;
-shared uint large[64];
+shared uint large[FOAM_GROUP];
 
 struct Splat {
     FoamPlane plane;
@@ -75,17 +72,10 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Metres to the scene; what hides a sprite has none.
-float before_scene(ivec2 texel, float depth) {
-    vec2 pixel = (vec2(texel) + 0.5) * frame.thick_extent.z;
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
-    return scene > 0.0 ? scene - depth : EMPTY;
-}
-
 // Full ones stay so: no number of sprites on one spot is too many.
 void add(uint at, uint steps) {
-    if (steps > 0u && sums[at] < FULL) {
-        atomicAdd(sums[at], steps);
+    if (steps > 0u && words[at] < FULL) {
+        atomicAdd(words[at], steps);
     }
 }
 
@@ -96,24 +86,25 @@ void splat(ivec2 texel, Splat s) {
     if (!plane_hit(s.plane.centre, s.along, s.across, s.plane.normal, slope, place, depth)) {
         return;
     }
-    uint bits = imageLoad(foam_bits, texel).x;
-    if (THICK == 0u) {
-        // Most lose: a read is cheaper than an atomic.
-        if (floatBitsToUint(depth) < bits && before_scene(texel, depth) > 0.0) {
-            imageAtomicMin(foam_bits, texel, floatBitsToUint(depth));
-        }
-        return;
-    }
-    float before = before_scene(texel, depth);
+    uint at = words_of(texel);
+    // Metres to the scene; what hides a sprite has none.
+    float before = uintBitsToFloat(words[at + SCENE]) - depth;
     if (!(before > 0.0)) {
         return;
     }
-    uvec3 steps = uvec3(foam_steps(s.look, s.torn, place, depth, uintBitsToFloat(bits), before));
-    uint at = SUMS * (uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x));
-    add(at, steps.x);
-    add(at + 1u, steps.x - min(steps.x, steps.y));
+    uint front = words[at + FRONT];
+    if (THICK == 0u) {
+        // Most lose: a read is cheaper than an atomic.
+        if (floatBitsToUint(depth) < front) {
+            atomicMin(words[at + FRONT], floatBitsToUint(depth));
+        }
+        return;
+    }
+    uvec3 steps = uvec3(foam_steps(s.look, s.torn, place, depth, uintBitsToFloat(front), before));
+    add(at + ALL, steps.x);
+    add(at + LATE, steps.x - min(steps.x, steps.y));
     if (LIT == 1u) {
-        add(at + 2u, steps.y - min(steps.y, steps.z));
+        add(at + UNLIT, steps.y - min(steps.y, steps.z));
     }
 }
 
@@ -132,29 +123,24 @@ void visit(uint index) {
 }
 
 void main() {
-    uint count = counts.foam;
+    uint index = gl_GlobalInvocationID.x;
     uint local = gl_LocalInvocationIndex;
-    // The same rounds for all of a group: they meet at the barriers.
-    for (uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x; first < count;
-         first += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
-        if (local == 0u) {
-            large_count = 0u;
-        }
-        barrier();
-        if (first + local < count) {
-            visit(first + local);
-        }
-        barrier();
-        uint wide = large_count;
-        for (uint i = 0u; i < wide; ++i) {
-            Splat s = splat_of(large[i]);
-            ivec2 lane = ivec2(local & 7u, local >> 3);
-            for (int y = s.box.y + lane.y; y <= s.box.w; y += 8) {
-                for (int x = s.box.x + lane.x; x <= s.box.z; x += 8) {
-                    splat(ivec2(x, y), s);
-                }
+    if (local == 0u) {
+        large_count = 0u;
+    }
+    barrier();
+    if (index < counts.foam) {
+        visit(index);
+    }
+    barrier();
+    uint wide = large_count;
+    for (uint i = 0u; i < wide; ++i) {
+        Splat s = splat_of(large[i]);
+        ivec2 lane = ivec2(local & 7u, local >> 3);
+        for (int y = s.box.y + lane.y; y <= s.box.w; y += 8) {
+            for (int x = s.box.x + lane.x; x <= s.box.z; x += 8) {
+                splat(ivec2(x, y), s);
             }
         }
-        barrier();
     }
 }

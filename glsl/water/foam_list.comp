@@ -69,6 +69,10 @@ void visit(uint index) {
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;
     age = age > 0.0 && age < 1.0e6 ? age : 0.0;
     uint slot = atomicAdd(counts.foam, 1u);
+    // The first of each group of the compute path.
+    if (slot % FOAM_GROUP == 0u) {
+        atomicAdd(counts.foam_groups[0], 1u);
+    }
     sprites[slot] = FoamSprite(vec4(centre, foam), vec4(mat3(frame.view) * velocity, age),
                                vec4(uintBitsToFloat(id), sun_in_foam(centre), 0.0, 0.0));
 }

@@ -1,22 +1,24 @@
 #version 460
 // Pass `foam`, compute path, last part: whole steps to metres.
-// Reads: sums. Writes: foam thickness (RG32F, or RGBA32F: what of the front layer the sun lights).
+// Reads: words. Writes: foam depth, foam thickness (RG32F, or RGBA32F: what of the front layer the sun lights).
 
 #include "frame.glsl"
 #include "foam_sums.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-layout(set = 0, binding = 1, std430) readonly buffer Sums { uint sums[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Words { uint words[]; };
 // Of a format that shaders may only be told of by a feature: written without being told.
 layout(set = 0, binding = 2) uniform writeonly image2D thickness;
+layout(set = 0, binding = 3, r32f) uniform writeonly image2D depth;
 
 void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (all(lessThan(p, ivec2(frame.thick_extent.xy)))) {
-        uint at = SUMS * (uint(p.y) * uint(frame.thick_extent.x) + uint(p.x));
-        uint all = min(sums[at], FULL);
-        uint front = all - min(sums[at + 1u], all);
-        uint lit = LIT == 1u ? front - min(sums[at + 2u], front) : 0u;
-        imageStore(thickness, p, vec4(all, front, lit, 0.0) * frame.foam_back.w);
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(texel, ivec2(frame.thick_extent.xy)))) {
+        uint at = words_of(texel);
+        uint all = min(words[at + ALL], FULL);
+        uint front = all - min(words[at + LATE], all);
+        uint lit = LIT == 1u ? front - min(words[at + UNLIT], front) : 0u;
+        imageStore(thickness, texel, vec4(all, front, lit, 0.0) * frame.foam_back.w);
+        imageStore(depth, texel, vec4(uintBitsToFloat(words[at + FRONT])));
     }
 }

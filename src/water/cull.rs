@@ -38,6 +38,7 @@ pub const FOAM: u64 = 80;
 pub const SPRAY: u64 = 96;
 pub const CAST: u64 = 112;
 pub const NOISE: u64 = 128;
+pub const FOAM_GROUPS: u64 = 144;
 
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "quads_vertices") == QUADS as usize);
 const _: () =
@@ -50,6 +51,8 @@ const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "foam_vertices") 
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "spray_vertices") == SPRAY as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "cast_vertices") == CAST as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "noise_vertices") == NOISE as usize);
+const _: () =
+    assert!(shader::WATER_CULL_COMP.offset("Counts", "foam_groups") == FOAM_GROUPS as usize);
 const _: () = assert!(shader::WATER_CULL_COMP.offset("Counts", "dropped") == DROPPED as usize);
 
 /// Particles of a chunk at most: 64 an invocation group, 65 535 groups.

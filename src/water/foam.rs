@@ -32,7 +32,7 @@ use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
+    self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
     COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
@@ -92,17 +92,15 @@ enum Kind {
 }
 
 fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
-    let (name, format, alias) = match kind {
-        Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT, Some(vk::Format::R32_UINT)),
-        Kind::Thickness => ("water/foam/thickness", thickness_format(config), None),
+    let (name, format) = match kind {
+        Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT),
+        Kind::Thickness => ("water/foam/thickness", thickness_format(config)),
     };
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::STORAGE
         | vk::ImageUsageFlags::COLOR_ATTACHMENT
-        | vk::ImageUsageFlags::TRANSFER_SRC
-        | vk::ImageUsageFlags::TRANSFER_DST;
-    let extent = reduced(config.extent, config.thickness_level);
-    ImageDesc { alias, ..ImageDesc::new(name, extent, format, usage) }
+        | vk::ImageUsageFlags::TRANSFER_SRC;
+    ImageDesc::new(name, reduced(config.extent, config.thickness_level), format, usage)
 }
 
 /// An image that sprites are blended into.
@@ -174,35 +172,37 @@ fn lit(config: &Config) -> bool {
 struct Splats {
     /// Of the depth and of the thickness.
     each: [Pipeline; 2],
+    begin: Pipeline,
     resolve: Pipeline,
     depth: Image,
     thickness: Image,
-    /// Whole steps of all thicknesses.
-    sums: Buffer,
+    /// Of each texel the depths of foam and scene, and whole steps of all thicknesses.
+    words: Buffer,
 }
 
 impl Splats {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let lit = (1, u32::from(lit(config)));
         let each = |thick| Pipeline::compute(gpu, shader::WATER_FOAM_COMP, &[(0, thick), lit]);
-        let (depth, thickness, sums) = Self::sized(gpu, config)?;
+        let (depth, thickness, words) = Self::sized(gpu, config)?;
         Ok(Self {
             each: [each(0)?, each(1)?],
+            begin: Pipeline::compute(gpu, shader::WATER_FOAM_BEGIN_COMP, &[lit])?,
             resolve: Pipeline::compute(gpu, shader::WATER_FOAM_RESOLVE_COMP, &[lit])?,
             depth,
             thickness,
-            sums,
+            words,
         })
     }
 
     fn sized(gpu: &Gpu, config: &Config) -> Result<(Image, Image, Buffer), Error> {
         let image = |kind| Image::new(gpu, &desc(config, kind));
         let (depth, thickness) = (image(Kind::Depth)?, image(Kind::Thickness)?);
-        let bytes = if lit(config) { 12 } else { 8 };
+        let bytes = if lit(config) { 20 } else { 16 };
         let bytes = bytes * u64::from(depth.extent.width) * u64::from(depth.extent.height);
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-        let sums = Buffer::new(gpu, "water/foam/sums", bytes, usage, MemoryLocation::GpuOnly)?;
-        Ok((depth, thickness, sums))
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let words = Buffer::new(gpu, "water/foam/words", bytes, usage, MemoryLocation::GpuOnly)?;
+        Ok((depth, thickness, words))
     }
 
     fn resize(
@@ -211,10 +211,10 @@ impl Splats {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let (depth, thickness, sums) = Self::sized(gpu, config)?;
+        let (depth, thickness, words) = Self::sized(gpu, config)?;
         retired.replace(&mut self.depth, depth);
         retired.replace(&mut self.thickness, thickness);
-        retired.replace(&mut self.sums, sums);
+        retired.replace(&mut self.words, words);
         Ok(())
     }
 
@@ -226,47 +226,36 @@ impl Splats {
         any: bool,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let (depth, thickness, sums) = (&self.depth, &self.thickness, self.sums.handle);
-        gpu.barriers(
-            cmd,
-            &[
-                access::image(depth, BEFORE.discarded(), CLEAR),
-                access::image(thickness, BEFORE.discarded(), COMPUTE_WRITE),
-            ],
-            &[buffer(sums, COMPUTE_READ, CLEAR)],
-        );
-        gpu.clear_color(cmd, depth, [EMPTY, 0.0, 0.0, 0.0]);
-        // SAFETY: outside a render pass; the frame before has read them.
-        unsafe { gpu.device.cmd_fill_buffer(cmd, sums, 0, vk::WHOLE_SIZE, 0) };
-        gpu.barriers(
-            cmd,
-            &[access::image(depth, CLEAR, COMPUTE_READ_WRITE)],
-            &[buffer(sums, CLEAR, COMPUTE_READ_WRITE)],
-        );
-        let more = [
-            (2, r.scene_depth),
-            (3, Resource::Storage(depth.alias_view)),
-            (5, Resource::buffer(&self.sums)),
-        ];
-        let [each_depth, each_thickness] = &self.each;
-        if any {
-            foam.sprites.splat(r, list, each_depth, &more)?;
-        }
+        let (depth, thickness, words) = (&self.depth, &self.thickness, self.words.handle);
+        let extent = reduced(r.extent, foam.level);
+        gpu.barriers(cmd, &[], &[buffer(words, COMPUTE_READ, COMPUTE_WRITE)]);
+        let resources = [(0, r.uniforms), (1, Resource::buffer(&self.words)), (2, r.scene_depth)];
+        r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
+        r.dispatch_over(extent, self.begin.local_size);
         let both = COMPUTE_READ_WRITE;
-        gpu.barriers(cmd, &[access::image(depth, both, both)], &[]);
         if any {
-            foam.sprites.splat(r, list, each_thickness, &more)?;
+            gpu.barriers(cmd, &[], &[buffer(words, COMPUTE_WRITE, both)]);
+            let [each_depth, each_thickness] = &self.each;
+            let more = [(5, Resource::buffer(&self.words))];
+            foam.sprites.splat(r, list, each_depth, cull::FOAM_GROUPS, &more)?;
+            gpu.barriers(cmd, &[], &[buffer(words, both, both)]);
+            foam.sprites.splat(r, list, each_thickness, cull::FOAM_GROUPS, &more)?;
         }
+        let images = [depth, thickness];
         gpu.barriers(
             cmd,
-            &[access::image(depth, both, AFTER)],
-            &[buffer(sums, both, COMPUTE_READ)],
+            &images.map(|image| access::image(image, BEFORE.discarded(), COMPUTE_WRITE)),
+            &[buffer(words, both, COMPUTE_READ)],
         );
-        let resources =
-            [(0, r.uniforms), (1, Resource::buffer(&self.sums)), (2, Resource::storage(thickness))];
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::buffer(&self.words)),
+            (2, Resource::storage(thickness)),
+            (3, Resource::storage(depth)),
+        ];
         r.descriptors.bind(gpu, cmd, &self.resolve, &resources)?;
-        r.dispatch_over(reduced(r.extent, foam.level), self.resolve.local_size);
-        gpu.barriers(cmd, &[access::image(thickness, COMPUTE_WRITE, AFTER)], &[]);
+        r.dispatch_over(extent, self.resolve.local_size);
+        gpu.barriers(cmd, &images.map(|image| access::image(image, COMPUTE_WRITE, AFTER)), &[]);
         Ok(())
     }
 }
@@ -380,10 +369,10 @@ impl Foam {
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        let sums = match &self.path {
+        let words = match &self.path {
             Path::Raster(_) => 0,
-            Path::Compute(splats) => splats.sums.size,
+            Path::Compute(splats) => splats.words.size,
         };
-        (self.depth().size + self.thickness().size, self.sprites.memory() + sums)
+        (self.depth().size + self.thickness().size, self.sprites.memory() + words)
     }
 }

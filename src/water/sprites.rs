@@ -148,23 +148,26 @@ impl Sprites {
         Ok(())
     }
 
-    /// The same by a dispatch, outside a render pass; `Counts` are binding 4.
+    /// The same by a dispatch, outside a render pass; `Counts` are binding 4. By exactly as many groups as
+    /// there are sprites for: a CPU shares them among its threads beforehand, many without work at the end
+    /// leave all of it to one.
     pub fn splat(
         &self,
         r: &Recording<'_>,
         list: &SphereList,
         pipeline: &Pipeline,
+        arguments: u64,
         more: &[(u32, Resource)],
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let groups = list.chunk_size.div_ceil(pipeline.local_size[0]).min(MOST_GROUPS);
         for index in 0..list.chunks {
             let counts = list.chunk(index).counts;
             let mut resources = vec![(0, r.uniforms), (1, self.chunk(list, index)), (4, counts)];
             resources.extend_from_slice(more);
             r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-            // SAFETY: outside a render pass, pipeline and set are bound.
-            unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+            let groups = list.chunk(index).arguments + arguments;
+            // SAFETY: outside a render pass; the arguments are visible (barrier of the list).
+            unsafe { gpu.device.cmd_dispatch_indirect(cmd, list.counts.handle, groups) };
         }
         Ok(())
     }

@@ -196,16 +196,17 @@ fn memory_is_as_documented() {
         }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
-        // Foam: of a texel 4 bytes of depth, 8 of thickness, 4 of water before it, sums of 8 each.
+        // Foam: of a texel 4 bytes of depth, 8 of thickness, 4 of water before it, sums of 8 each and two
+        // depths beside its own.
         for (sheets, coarsening, foam, spray, smoothing, more) in [
             (1, 3, false, false, 4.5, 0.0),
             (1, 0, false, false, 3.0, 0.0),
             (2, 3, false, false, 4.5, 2.5),
             (2, 0, false, false, 4.5, 2.5),
-            (1, 3, true, false, 4.5, 2.0),
-            (2, 3, true, false, 4.5, 4.5),
+            (1, 3, true, false, 4.5, 2.5),
+            (2, 3, true, false, 4.5, 5.0),
             (1, 3, false, true, 4.5, 4.0),
-            (2, 3, true, true, 4.5, 8.5),
+            (2, 3, true, true, 4.5, 9.0),
         ]
         .into_iter()
         .step_by(if whole { 1 } else { 7 })

@@ -31,10 +31,21 @@ pub fn noise(place: DVec3) -> f64 {
     mix(along_y(0), along_y(1), fade.z)
 }
 
+/// What a coordinate counts in the hash of a lattice point, and what mixes them: the primes of xxHash.
+const LATTICE: [u32; 3] = [2_654_435_761, 2_246_822_519, 3_266_489_917];
+const MIX: u32 = 668_265_263;
+
+/// Which of sixteen gradients, the twelve and four again, a lattice point has.
+pub(super) fn gradient_number([i, j, k]: [u32; 3]) -> u32 {
+    let [i, j, k] = [(i, 0), (j, 1), (k, 2)].map(|(c, axis)| c.wrapping_mul(LATTICE[axis]));
+    let joined = i ^ j ^ k;
+    (joined ^ (joined >> 15)).wrapping_mul(MIX) >> 28
+}
+
 /// The product of an offset with the gradient of a lattice point, one of twelve to the middle of a
 /// cube's edges.
-pub(super) fn gradient([i, j, k]: [u32; 3], offset: DVec3) -> f64 {
-    let h = pcg(i.wrapping_add(pcg(j.wrapping_add(pcg(k))))) & 15;
+pub(super) fn gradient(at: [u32; 3], offset: DVec3) -> f64 {
+    let h = gradient_number(at);
     let u = if h < 8 { offset.x } else { offset.y };
     let v = match h {
         0..4 => offset.y,

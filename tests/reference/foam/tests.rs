@@ -3,7 +3,7 @@
 use super::super::tests::view;
 use super::super::{EMPTY, Image, View, is_surface};
 use super::ellipse::{Ellipse, axes};
-use super::noise::gradient;
+use super::noise::{gradient, gradient_number};
 use super::single::Use;
 use super::*;
 use crate::support::scenes::Random;
@@ -353,6 +353,24 @@ fn the_gradients_are_the_twelve_edges() {
         let twice = [[1, 1, 0], [-1, 1, 0], [0, -1, 1], [0, -1, -1]].contains(&g);
         let expected = if twice { 512.0 } else { 256.0 };
         assert!((f64::from(count) - expected).abs() < 5.0 * expected.sqrt(), "{g:?}: {count}");
+    }
+}
+
+/// Of all pairs of gradients at neighbours each is as frequent: chi squared of 255 degrees of freedom is no more
+/// than six of its standard deviations above its mean.
+#[test]
+fn neighbours_gradients_do_not_know_of_each_other() {
+    const EDGE: u32 = 32;
+    for step in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1], [1, 1, 1]] {
+        let mut pairs = [0_u32; 256];
+        for n in 0..EDGE.pow(3) {
+            let at = [n % EDGE, n / EDGE % EDGE, n / EDGE / EDGE];
+            let next = [0, 1, 2].map(|axis| at[axis] + step[axis]);
+            pairs[(16 * gradient_number(at) + gradient_number(next)) as usize] += 1;
+        }
+        let mean = f64::from(EDGE.pow(3)) / 256.0;
+        let chi: f64 = pairs.iter().map(|&n| (f64::from(n) - mean).powi(2) / mean).sum();
+        assert!(chi < 255.0 + 6.0 * 510.0_f64.sqrt(), "{chi} {step:?}");
     }
 }
 

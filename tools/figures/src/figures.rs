@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::Outcome;
 use crate::curves::{self, Curve};
 use crate::panels::{self, amount, depth, grid, iterations, normals};
-use crate::tool::{Tool, total};
+use crate::tool::{Tool, sequence, total};
 
 type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
@@ -155,10 +155,10 @@ const WAYS: [(&str, &str); 4] = [
     ("default: constant width, two sheets, foam", "--foam auto"),
 ];
 
-fn measure(tool: &Tool, scene: &str, files: &[PathBuf], camera: &Path) -> Outcome<Vec<Curve>> {
+fn measure(tool: &Tool, scene: &str, frames: &[String], camera: &Path) -> Outcome<Vec<Curve>> {
     let mut curves: Vec<Curve> = Vec::new();
     for (name, more) in WAYS {
-        let times = tool.times(scene, files, camera, more)?;
+        let times = tool.times(scene, frames, camera, more)?;
         let all: f64 = times.iter().map(total).sum();
         let mut shares: Vec<(&str, f64)> = Vec::new();
         for (pass, ms) in times.iter().flatten() {
@@ -182,25 +182,29 @@ fn measure(tool: &Tool, scene: &str, files: &[PathBuf], camera: &Path) -> Outcom
 /// Figure 5.9: a zoom to the waterfall's basin, over one frame.
 fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
     const STEPS: u32 = 16;
+    // Frames before them, in which foam comes.
+    const LEAD: u32 = 60;
     let still = tool.scene("waterfall")?.join("waterfall_0240.bgeo");
-    let mut files = Vec::new();
-    for step in 1..=STEPS {
-        let file = tool.temporary(&format!("zoom_{step:04}.bgeo"));
+    for frame in 1..=LEAD + STEPS {
+        let file = tool.temporary(&format!("zoom_{frame:04}.bgeo"));
         std::fs::copy(&still, &file).map_err(|error| format!("{}: {error}", file.display()))?;
-        files.push(file);
     }
     // From ten metres to one, each step as much nearer as the one before in proportion.
     let keys: Vec<_> = (1..=STEPS)
         .map(|step| {
             let away = 10.0_f64.powf(1.0 - f64::from(step - 1) / f64::from(STEPS - 1));
             let eye = [-0.1 + 0.35 * away, 0.15 + 0.45 * away, 0.82 * away];
-            json!({"frame": step, "eye": eye, "target": [-0.1, 0.15, 0.0]})
+            json!({"frame": LEAD + step, "eye": eye, "target": [-0.1, 0.15, 0.0]})
         })
         .collect();
     let camera = tool.temporary("zoom.json");
     std::fs::write(&camera, json!({"fov_y_degrees": 38.0, "keys": keys}).to_string())
         .map_err(|error| format!("{}: {error}", camera.display()))?;
-    let curves = measure(tool, "waterfall", &files, &camera)?;
+    let frames = [
+        tool.temporary("zoom_%04d.bgeo").display().to_string(),
+        format!("--frames={}-{}", LEAD + 1, LEAD + STEPS),
+    ];
+    let curves = measure(tool, "waterfall", &frames, &camera)?;
     curves::plot("Zoom, waterfall", "from 10 m to 1 m", &curves, &pictures(docs, "cost-zoom.svg"))
 }
 
@@ -208,9 +212,9 @@ fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
 fn flights(tool: &Tool, docs: &Path) -> Outcome<()> {
     for scene in ["waterfall", "corridor", "bamboo"] {
         let folder = tool.scene(scene)?;
-        let files: Vec<_> =
-            (1..=16).map(|i| folder.join(format!("{scene}_{:04}.bgeo", 15 * i))).collect();
-        let curves = measure(tool, scene, &files, &folder.join("camera.json"))?;
+        let more = ["--frames=15-240", "--every=15"].map(str::to_owned);
+        let frames = [&[sequence(&folder, scene)][..], &more].concat();
+        let curves = measure(tool, scene, &frames, &folder.join("camera.json"))?;
         let to = pictures(docs, &format!("cost-{scene}.svg"));
         curves::plot(&format!("Fly-through, {scene}"), "frame / 15", &curves, &to)?;
     }

@@ -2,8 +2,8 @@
 //!
 //! ```sh
 //! cargo build --release -p whitewater-cli -p whitewater-figures
-//! target/release/figures --caches DIR            # all of them, into docs/
-//! target/release/figures --caches DIR --only thresholds
+//! target/release/whitewater-figures --caches DIR            # all of them, into docs/
+//! target/release/whitewater-figures --caches DIR --only thresholds
 //! ```
 //!
 //! Scenes that are not yet in DIR are simulated first, some minutes each. Figures are drawn by the command

@@ -76,13 +76,15 @@ impl Tool {
         Ok(folder)
     }
 
-    /// A frame of a scene. `more` are further arguments.
+    /// A frame of a scene's sequence, with the foam that the frames before have left. `more` are further
+    /// arguments.
     pub fn frame(&self, scene: &str, frame: u32, more: &str) -> Outcome<Frame> {
         let folder = self.scene(scene)?;
-        let (exr, png) = (self.temporary("frame.exr"), self.temporary("frame.png"));
+        let (exr, png) = (self.temporary("frame_%d.exr"), self.temporary("frame_%d.png"));
         let mut arguments = vec![
             "render".to_owned(),
-            folder.join(format!("{scene}_{frame:04}.bgeo")).display().to_string(),
+            sequence(&folder, scene),
+            format!("--frames={frame}"),
             format!("--scene={}", folder.join("scene.json").display()),
             format!("--size={}x{}", SIZE.0, SIZE.1),
             format!("--sun={SUN}"),
@@ -95,16 +97,18 @@ impl Tool {
         }
         arguments.extend(more.split_whitespace().map(str::to_owned));
         self.run(&arguments)?;
+        let [exr, png] = ["exr", "png"].map(|e| self.temporary(&format!("frame_{frame}.{e}")));
         let layers = picture::read(&exr).map_err(|error| error.to_string())?;
         let picture = image::open(&png).map_err(|error| error.to_string())?.into_rgb8();
         Ok(Frame { layers, picture })
     }
 
-    /// Times of the frames in `files` from a moving camera, at the best of three runs each.
+    /// Times of a scene's frames from a moving camera, at the best of three runs each. `frames` are those
+    /// files and which of them.
     pub fn times(
         &self,
         scene: &str,
-        files: &[PathBuf],
+        frames: &[String],
         camera: &Path,
         more: &str,
     ) -> Outcome<Vec<Times>> {
@@ -112,7 +116,7 @@ impl Tool {
         for _ in 0..3 {
             let csv = self.temporary("times.csv");
             let mut arguments = vec!["render".to_owned()];
-            arguments.extend(files.iter().map(|file| file.display().to_string()));
+            arguments.extend_from_slice(frames);
             arguments.extend([
                 format!("--scene={}", self.scene(scene)?.join("scene.json").display()),
                 format!("--camera={}", camera.display()),
@@ -135,6 +139,11 @@ impl Tool {
         }
         Ok(best)
     }
+}
+
+/// All files of a scene.
+pub fn sequence(folder: &Path, scene: &str) -> String {
+    folder.join(format!("{scene}_%04d.bgeo")).display().to_string()
 }
 
 /// Milliseconds of all passes.

@@ -1,5 +1,6 @@
 //! The command line. What a flag means stands in its help.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -72,6 +73,9 @@ pub struct RenderArgs {
     /// whole sequence, so that its parts fit together
     #[arg(long, value_name = "A-B")]
     pub frames: Option<String>,
+    /// Draws each Nth of them, from the first on; foam goes by all frames all the same
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub every: NonZeroUsize,
     /// Particle radius of the solver, half the spacing at rest [default: estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,

@@ -26,6 +26,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         Some(range) => sequence::expand(&args.inputs, Some(range))?,
         None => all.clone(),
     };
+    let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
     let checked = session::check(&args.draw, all.len() > 1)?;
     let numbered = checked.0.iter().all(output::Target::is_numbered);
     let settings = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;

@@ -81,6 +81,9 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
     for frame in 3..=4 {
         folder.run(&format!("compare a_{frame}.exr b_{frame}.exr")).ok();
     }
+    folder.run(&format!("render f_*.csv -o e_%d.exr {common} --frames 2-4 --every 2")).ok();
+    folder.run("compare a_4.exr e_4.exr").ok();
+    assert!(folder.path("e_2.exr").exists() && !folder.path("e_3.exr").exists());
     let foam = |name: &str| -> f32 {
         let picture = folder.picture(name);
         let layer = picture.channels.iter().find(|c| c.name == "foam.thickness");

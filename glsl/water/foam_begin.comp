@@ -1,0 +1,28 @@
+#version 460
+// Pass `foam`, compute path, first part: nothing in any texel, and the scene's depth at its middle: sprites ask for
+// it many times, and a word beside the sums is read sooner than a texel of an image.
+// Reads: scene depth. Writes: words.
+
+#include "frame.glsl"
+#include "foam_sums.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(set = 0, binding = 1, std430) writeonly buffer Words { uint words[]; };
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(texel, ivec2(frame.thick_extent.xy)))) {
+        vec2 pixel = (vec2(texel) + 0.5) * frame.thick_extent.z;
+        float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+        uint at = words_of(texel);
+        words[at + FRONT] = floatBitsToUint(EMPTY);
+        // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+        words[at + SCENE] = floatBitsToUint(scene > 0.0 ? scene : 2.0 * EMPTY);
+        words[at + ALL] = 0u;
+        words[at + LATE] = 0u;
+        if (LIT == 1u) {
+            words[at + UNLIT] = 0u;
+        }
+    }
+}
