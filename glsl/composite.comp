@@ -44,7 +44,7 @@ void shade_block(int tile, int block) {
 }
 
 void main() {
-    uint tiles = arguments[(CONFIGURED == 1u ? 4u : 6u) + SHEETS - 1u].w;
+    uint tiles = arguments[(CONFIGURED == 1u ? 8u : 12u) + 2u * FOAM + SHEETS - 1u].w;
     uint i = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     // The last row of tiles may be short.
     if (i < tiles) {

@@ -18,6 +18,7 @@ use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
 use crate::water::coarsening;
 use crate::water::settings::Shading;
+use crate::water::split::{DISPATCHES, KINDS};
 use crate::water::{Recording, WaterLayers};
 
 /// As fast as compute on lavapipe (docs/performance.md); GPUs are still to be measured.
@@ -42,9 +43,9 @@ pub struct Surroundings {
     pub environment: Resource,
 }
 
-/// Of one sheet and of two at the configured level, and at any other; in the order of the arguments
-/// of `split`. None of what the configuration rules out.
-type Pipelines = [Option<Pipeline>; 4];
+/// Of each kind of tiles at the configured level, and at any other; in the order of the arguments of
+/// `split`. None of what the configuration rules out.
+type Pipelines = [Option<Pipeline>; 2 * KINDS as usize];
 
 enum Path {
     Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
@@ -66,17 +67,20 @@ fn pipelines(
         _ => 2,
     };
     let beside = [
-        (9, u32::from(config.foam)),
         (10, u32::from(config.spray)),
         (14, u32::from(config.noise.is_some())),
     ];
     let light = crate::light::constants(config);
-    let make = |configured: u32, sheets: u32| {
-        let wanted = sheets <= config.sheets && (configured == 1 || coarsening(config) > 0);
-        let own = [(0, thickness), (2, configured), (8, sheets)];
-        wanted.then(|| make(&[&own[..], &beside, &light].concat())).transpose()
-    };
-    Ok([make(1, 1)?, make(1, 2)?, make(0, 1)?, make(0, 2)?])
+    let mut all = Pipelines::default();
+    for (i, pipeline) in (0..).zip(&mut all) {
+        let (configured, foam, sheets) = (u32::from(i < KINDS), i >> 1 & 1, 1 + (i & 1));
+        let coarse = configured == 1 || coarsening(config) > 0;
+        if coarse && sheets <= config.sheets && foam <= u32::from(config.foam) {
+            let own = [(0, thickness), (2, configured), (8, sheets), (9, foam)];
+            *pipeline = Some(make(&[&own[..], &beside, &light].concat())?);
+        }
+    }
+    Ok(all)
 }
 
 impl Composite {
@@ -179,7 +183,7 @@ impl Composite {
             (20, Resource::Sampled(layers.noise.unwrap_or(layers.thickness).view, nearest)),
         ];
         let arguments = layers.split.arguments.handle;
-        let middle = layers.split.middle();
+        let first = |i: u32| layers.split.most * (i % KINDS);
         // Of the pipelines half have nothing to do at the level.
         match &self.path {
             Path::Raster { pass, pipelines } => {
@@ -187,7 +191,7 @@ impl Composite {
                 for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    pipeline.push(gpu, cmd, &(middle * (i % 2)));
+                    pipeline.push(gpu, cmd, &first(i));
                     let draw = 16 * u64::from(i);
                     // SAFETY: inside the render pass; the arguments are visible since `split`.
                     unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, draw, 1, 16) };
@@ -217,8 +221,8 @@ impl Composite {
                 for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    pipeline.push(gpu, cmd, &(middle * (i % 2)));
-                    let dispatch = 16 * u64::from(4 + i);
+                    pipeline.push(gpu, cmd, &first(i));
+                    let dispatch = DISPATCHES + 16 * u64::from(i);
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 {

@@ -5,7 +5,8 @@
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;
 
-// Bits of the depth of the frontmost, and of the scene's. Positive floats order as their bits do.
+// Bits of the depth of the frontmost, of the scene's where there is none before it, and of the scene's. Positive
+// floats order as their bits do.
 const uint FRONT = 0u;
 const uint SCENE = 1u;
 const uint ALL = 2u;
@@ -13,9 +14,10 @@ const uint LATE = 3u;
 const uint UNLIT = 4u;
 const uint WORDS = 4u + LIT;
 
-// No sum is more: single precision holds all whole numbers up to it. It is 4096 spacings of foam or more, and
-// leaves room for what 170 thousand invocations may add at once to one that is not yet full.
+// No sum is more: single precision holds all whole numbers up to it. It is 4096 spacings of foam or more.
 const uint FULL = 16777216u;
+// From here on nothing is added: room is left for what 85 thousand invocations may be adding at once.
+const uint HALF_FULL = 2147483648u;
 
 uint words_of(ivec2 texel) {
     return WORDS * (uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x));

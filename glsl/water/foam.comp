@@ -24,10 +24,14 @@ layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts
 layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
 // Texels of a box that an invocation does by itself.
-const int SMALL = 256;
+const int SMALL = 1024;
 
-shared uint large_count;
-shared uint large[FOAM_GROUP];
+// Classes of sprites by their texels, two to each power of two.
+const uint CLASSES = 24u;
+
+shared int texels[FOAM_GROUP];
+shared uint order[FOAM_GROUP];
+shared uint before[CLASSES];
 
 struct Splat {
     FoamPlane plane;
@@ -72,11 +76,18 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Full ones stay so: no number of sprites on one spot is too many.
-void add(uint at, uint steps) {
-    if (steps > 0u && words[at] < FULL) {
-        atomicAdd(words[at], steps);
-    }
+// Adds to the sum of all foam, and to the two after it what they get, mostly nothing. No number of sprites on one
+// spot is too many: what comes to a word that is half full is taken out again. All in one loop: at each atomic
+// that it finds a CPU goes through the invocations one by one, whether or not they have something to add.
+void add(uint word, uvec3 steps) {
+    do {
+        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x < HALF_FULL;
+        steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
+        word += over ? 0u : 1u;
+        bool next = !over && steps.x == 0u;
+        steps = next ? uvec3(steps.yz, 0u) : steps;
+        word += next ? 1u : 0u;
+    } while (steps.x > 0u);
 }
 
 void splat(ivec2 texel, Splat s) {
@@ -87,55 +98,79 @@ void splat(ivec2 texel, Splat s) {
         return;
     }
     uint at = words_of(texel);
-    // Metres to the scene; what hides a sprite has none.
-    float before = uintBitsToFloat(words[at + SCENE]) - depth;
-    if (!(before > 0.0)) {
-        return;
-    }
     uint front = words[at + FRONT];
     if (THICK == 0u) {
-        // Most lose: a read is cheaper than an atomic.
+        // Most lose, to the scene or to others: a read is cheaper than an atomic.
         if (floatBitsToUint(depth) < front) {
             atomicMin(words[at + FRONT], floatBitsToUint(depth));
         }
         return;
     }
-    uvec3 steps = uvec3(foam_steps(s.look, s.torn, place, depth, uintBitsToFloat(front), before));
-    add(at + ALL, steps.x);
-    add(at + LATE, steps.x - min(steps.x, steps.y));
-    if (LIT == 1u) {
-        add(at + UNLIT, steps.y - min(steps.y, steps.z));
+    uint scene = words[at + SCENE];
+    // Metres to the scene; what hides a sprite has none.
+    float before = uintBitsToFloat(scene) - depth;
+    if (!(before > 0.0)) {
+        return;
+    }
+    float frontmost = front < scene ? uintBitsToFloat(front) : EMPTY;
+    uvec3 steps = uvec3(foam_steps(s.look, s.torn, place, depth, frontmost, before));
+    if (steps.x > 0u) {
+        uint lit = LIT == 1u ? min(steps.z, steps.y) : steps.y;
+        add(at + ALL, uvec3(steps.x, steps.x - min(steps.x, steps.y), steps.y - lit));
     }
 }
 
-void visit(uint index) {
-    Splat s = splat_of(index);
-    ivec2 size = max(s.box.zw - s.box.xy + 1, ivec2(0));
-    if (size.x * size.y > SMALL) {
-        large[atomicAdd(large_count, 1u)] = index;
-        return;
+int texels_of(ivec4 box) {
+    ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
+    return size.x * size.y;
+}
+
+uint class_of(int texels) {
+    uint n = uint(max(texels, 1));
+    uint power = uint(findMSB(n));
+    return min(2u * power + (power > 0u ? n >> (power - 1u) & 1u : 0u), CLASSES - 1u);
+}
+
+// Invocations that run in step wait for the one with the most texels: a group's sprites in the order of their
+// classes.
+uint in_order(int own) {
+    uint local = gl_LocalInvocationIndex;
+    if (local < CLASSES) {
+        before[local] = 0u;
     }
-    for (int y = s.box.y; y <= s.box.w; ++y) {
-        for (int x = s.box.x; x <= s.box.z; ++x) {
-            splat(ivec2(x, y), s);
+    texels[local] = own;
+    barrier();
+    uint place = atomicAdd(before[class_of(own)], 1u);
+    barrier();
+    if (local == 0u) {
+        uint sum = 0u;
+        for (uint i = 0u; i < CLASSES; ++i) {
+            uint here = before[i];
+            before[i] = sum;
+            sum += here;
         }
     }
+    barrier();
+    order[before[class_of(own)] + place] = local;
+    barrier();
+    return order[local];
 }
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
     uint local = gl_LocalInvocationIndex;
-    if (local == 0u) {
-        large_count = 0u;
+    uint first = gl_WorkGroupID.x * FOAM_GROUP;
+    uint mine = in_order(first + local < counts.foam ? texels_of(splat_of(first + local).box) : 0);
+    if (texels[mine] > 0 && texels[mine] <= SMALL) {
+        Splat s = splat_of(first + mine);
+        for (int y = s.box.y; y <= s.box.w; ++y) {
+            for (int x = s.box.x; x <= s.box.z; ++x) {
+                splat(ivec2(x, y), s);
+            }
+        }
     }
-    barrier();
-    if (index < counts.foam) {
-        visit(index);
-    }
-    barrier();
-    uint wide = large_count;
-    for (uint i = 0u; i < wide; ++i) {
-        Splat s = splat_of(large[i]);
+    // The last of them all together.
+    for (uint i = FOAM_GROUP; i > 0u && texels[order[i - 1u]] > SMALL; --i) {
+        Splat s = splat_of(first + order[i - 1u]);
         ivec2 lane = ivec2(local & 7u, local >> 3);
         for (int y = s.box.y + lane.y; y <= s.box.w; y += 8) {
             for (int x = s.box.x + lane.x; x <= s.box.z; x += 8) {

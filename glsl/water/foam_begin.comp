@@ -16,9 +16,10 @@ void main() {
         vec2 pixel = (vec2(texel) + 0.5) * frame.thick_extent.z;
         float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
         uint at = words_of(texel);
-        words[at + FRONT] = floatBitsToUint(EMPTY);
         // Reversed infinite depth at infinity: 1/0, or negative by rounding.
-        words[at + SCENE] = floatBitsToUint(scene > 0.0 ? scene : 2.0 * EMPTY);
+        uint bits = floatBitsToUint(scene > 0.0 ? min(scene, EMPTY) : EMPTY);
+        words[at + FRONT] = bits;
+        words[at + SCENE] = bits;
         words[at + ALL] = 0u;
         words[at + LATE] = 0u;
         if (LIT == 1u) {

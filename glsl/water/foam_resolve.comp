@@ -19,6 +19,7 @@ void main() {
         uint front = all - min(words[at + LATE], all);
         uint lit = LIT == 1u ? front - min(words[at + UNLIT], front) : 0u;
         imageStore(thickness, texel, vec4(all, front, lit, 0.0) * frame.foam_back.w);
-        imageStore(depth, texel, vec4(uintBitsToFloat(words[at + FRONT])));
+        bool none = words[at + FRONT] == words[at + SCENE];
+        imageStore(depth, texel, vec4(none ? EMPTY : uintBitsToFloat(words[at + FRONT])));
     }
 }

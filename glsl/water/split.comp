@@ -1,24 +1,29 @@
 #version 460
-// Pass `split`: the tiles with water again, those of one sheet and those that hold a boundary apart,
-// so that `composite` can shade the first with a shader that knows of one sheet alone.
+// Pass `split`: the tiles with water again, apart by whether they hold a boundary and whether they hold foam,
+// so that `composite` can shade each kind with a shader that knows of no more.
 // Not in the source.
-// Reads: tile list and arguments, levels, boundaries. Writes: both lists, their lengths.
+// Reads: tile list and arguments, levels, boundaries, foam depth and thickness. Writes: four lists, their
+// lengths.
 
 #include "frame.glsl"
 #include "level.glsl"
 #include "sheets.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+// 1: there may be foam; else it is not read.
+layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// The second list begins in the middle.
+// One sheet, two, the same with foam: each list has room for all tiles.
 layout(set = 0, binding = 3, std430) writeonly buffer Lists { uint lists[]; };
-layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[2]; };
+layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[4]; };
+layout(set = 0, binding = 5) uniform sampler2D foam_depth;
+layout(set = 0, binding = 6) uniform sampler2D foam_thickness;
 
 layout(push_constant, std430) uniform Push { uint tiles; } push; // at most
 
-shared uint two;
+shared uint kind;
 
 void split(uint tile) {
     ivec2 texel = ivec2(tile % uint(levels.atlas.z), tile / uint(levels.atlas.z)) * 16;
@@ -28,29 +33,37 @@ void split(uint tile) {
         return;
     }
     if (gl_LocalInvocationIndex == 0u) {
-        two = 0u;
+        kind = 0u;
     }
     barrier();
-    // A tile is 16 texels wide; one more to each side, which what is in front may be widened by.
+    // A tile is 16 texels wide; one more to each side, which what is in front may be widened by, and one of the
+    // thickness', which is read between its texels.
     ivec4 rect = levels.level[own].rect;
     float edge = levels.level[own].texel.z;
     vec2 corner = vec2(texel - rect.xy) * edge;
     float scale = 1.0 / frame.thick_extent.z;
-    ivec2 first = max(ivec2(floor((corner - edge) * scale)), ivec2(0));
-    ivec2 last = min(ivec2(floor((corner + 17.0 * edge) * scale)), ivec2(frame.thick_extent.xy) - 1);
-    last = SHEETS == 1u ? first - 1 : last;
-    bool found = false;
+    ivec2 first = max(ivec2(floor((corner - edge) * scale)) - 1, ivec2(0));
+    ivec2 last = min(ivec2(floor((corner + 17.0 * edge) * scale)) + 1, ivec2(frame.thick_extent.xy) - 1);
+    last = SHEETS == 1u && FOAM == 0u ? first - 1 : last;
+    uint found = 0u;
     for (int y = first.y + int(gl_LocalInvocationID.y); y <= last.y; y += 8) {
         for (int x = first.x + int(gl_LocalInvocationID.x); x <= last.x; x += 8) {
-            found = found || boundary_of(ivec2(x, y)) < EMPTY;
+            ivec2 p = ivec2(x, y);
+            if (SHEETS == 2u && boundary_of(p) < EMPTY) {
+                found |= 1u;
+            }
+            // Its depth has the narrower sprites, its thickness may be less than a step.
+            if (FOAM == 1u && (texelFetch(foam_depth, p, 0).x < EMPTY || texelFetch(foam_thickness, p, 0).x > 0.0)) {
+                found |= 2u;
+            }
         }
     }
-    if (found) {
-        two = 1u;
+    if (found > 0u) {
+        atomicOr(kind, found);
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
-        lists[two * push.tiles + atomicAdd(lengths[two], 1u)] = tile;
+        lists[kind * push.tiles + atomicAdd(lengths[kind], 1u)] = tile;
     }
     barrier();
 }

@@ -24,7 +24,7 @@ layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; }
 layout(set = 0, binding = 3) uniform sampler2D scene_depth;
 // The sum's low word and its carries: of all water, then of what is before the frontmost foam if there
 // may be some, then of the front sheet, then of the windows.
-layout(set = 0, binding = 4, std430) buffer Sums { uvec2 sums[]; };
+layout(set = 0, binding = 4, std430) buffer Sums { uint sums[]; };
 // Of each block the farthest boundary.
 layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
@@ -52,12 +52,21 @@ ivec4 span(vec4 sphere, float axis) {
     return pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
 }
 
-void add(uint at, float amount) {
-    uint unit = uint(amount + 0.5);
-    // What the word held and the addend are more than it can hold.
-    if (atomicAdd(sums[at].x, unit) > ~unit) {
-        atomicAdd(sums[at].y, 1u);
-    }
+// Adds to the sum of a texel and to another one, each its low word and, where that overflows, its carries. All in
+// one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not they have
+// something to add.
+void add(uint at, float amount, uint other, float more) {
+    uint word = 2u * at;
+    uint units = uint(amount + 0.5);
+    uint next = 2u * other;
+    uint after = uint(more + 0.5);
+    do {
+        // What the word held and the addend are more than it can hold.
+        bool carries = atomicAdd(sums[word], units) > ~units;
+        word = carries ? word + 1u : next;
+        units = carries ? 1u : after;
+        after = carries ? after : 0u;
+    } while (units > 0u);
 }
 
 void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
@@ -74,25 +83,14 @@ void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
     uint at = uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x);
     uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     if (APART == 0u) {
-        add(at, amount);
         float foam = FOAM == 1u ? foam_at(texel) : EMPTY;
-        if (foam < EMPTY) {
-            float share = share_before(-sphere.z, foam);
-            if (share > 0.0) {
-                add(at + texels, amount * share);
-            }
-        }
+        add(at, amount, at + texels, foam < EMPTY ? amount * share_before(-sphere.z, foam) : 0.0);
         return;
     }
     float boundary = boundaries[at];
     if (boundary < EMPTY) {
         vec3 parts = sheet_shares(-sphere.z, boundary);
-        if (parts.x > 0.0) {
-            add(at + (1u + FOAM) * texels, amount * parts.x);
-        }
-        if (parts.z > 0.0) {
-            add(at + (2u + FOAM) * texels, amount * parts.z);
-        }
+        add(at + (1u + FOAM) * texels, amount * parts.x, at + (2u + FOAM) * texels, amount * parts.z);
     }
 }
 

@@ -15,7 +15,7 @@ mod reduce;
 pub mod settings;
 mod smooth;
 mod smooth_query;
-mod split;
+pub(crate) mod split;
 mod spray;
 mod sprites;
 mod thickness;
@@ -230,7 +230,7 @@ impl Water {
         }
         self.tiles.record(r, level)?;
         self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
-        self.split.record(r, tiles, level, gaps)?;
+        self.split.record(r, tiles, level, gaps, self.foam.as_ref())?;
         if let Some(motion) = &self.motion {
             let depth = &self.depth.image;
             let from = motion::Surfaces {

@@ -1,13 +1,15 @@
-//! Pass `split`: which of the tiles with water hold two sheets.
+//! Pass `split`: which of the tiles with water hold two sheets, and which hold foam.
 //!
-//! Not in the source. Shading two sheets costs twice what shading one does; where both stand in one
-//! shader, a CPU, and in part a GPU, pays for two everywhere.
-//! Reads: the list of `tiles`, boundaries. Writes: two lists, the arguments of `composite`.
+//! Not in the source. Shading two sheets costs twice what shading one does, and foam half as much again;
+//! where all stands in one shader, a CPU, and in part a GPU, pays for it everywhere.
+//! Reads: the list of `tiles`, boundaries, foam depth and thickness. Writes: four lists, the arguments of
+//! `composite`.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
+use super::foam::Foam;
 use super::gaps::{Gaps, sheets_constant};
 use super::level::{Atlas, Level};
 use super::tiles::{ALL_TILES, Tiles};
@@ -20,21 +22,27 @@ use crate::gpu::access::{
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
+use crate::gpu::image::Image;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
+
+/// Kinds of tiles: one sheet or two, without foam or with it.
+pub const KINDS: u32 = 4;
+/// Where in the arguments the dispatches begin, in bytes: after a draw of each kind at either level.
+pub const DISPATCHES: u64 = 2 * 16 * KINDS as u64;
 
 /// The pass.
 pub struct Split {
     split: Pipeline,
     end: Pipeline,
-    /// Tiles of one sheet, then from the middle on those of two.
+    /// Tiles of each kind, one sheet, two, and the same with foam; each list has room for all.
     pub lists: Buffer,
     lengths: Buffer,
-    /// Four draws and four dispatches: one sheet and two at the configured level alone, the same
-    /// elsewhere.
+    /// Draws, then dispatches: of each kind at the configured level alone, then of each elsewhere.
     pub arguments: Buffer,
-    middle: u32,
+    /// Most tiles of a list.
+    pub most: u32,
 }
 
 impl Split {
@@ -45,17 +53,21 @@ impl Split {
             Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly)
         };
         Ok(Self {
-            split: Pipeline::compute(gpu, shader::WATER_SPLIT_COMP, &[sheets_constant(config)])?,
+            split: Pipeline::compute(
+                gpu,
+                shader::WATER_SPLIT_COMP,
+                &[sheets_constant(config), (9, u32::from(config.foam))],
+            )?,
             end: Pipeline::compute(gpu, shader::WATER_SPLIT_END_COMP, &[])?,
             lists: Self::lists(gpu, config)?,
-            lengths: make("water/split/lengths", 8, Usage::TRANSFER_DST)?,
-            arguments: make("water/split/arguments", 8 * 16, Usage::INDIRECT_BUFFER)?,
-            middle: Atlas::new(config).tiles(),
+            lengths: make("water/split/lengths", 4 * u64::from(KINDS), Usage::TRANSFER_DST)?,
+            arguments: make("water/split/arguments", 2 * DISPATCHES, Usage::INDIRECT_BUFFER)?,
+            most: Atlas::new(config).tiles(),
         })
     }
 
     fn lists(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
-        let size = 8 * u64::from(Atlas::new(config).tiles());
+        let size = 4 * u64::from(KINDS) * u64::from(Atlas::new(config).tiles());
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Buffer::new(gpu, "water/split/lists", size, usage, MemoryLocation::GpuOnly)
     }
@@ -67,14 +79,9 @@ impl Split {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let lists = Self::lists(gpu, config)?;
-        self.middle = Atlas::new(config).tiles();
+        self.most = Atlas::new(config).tiles();
         retired.replace(&mut self.lists, lists);
         Ok(())
-    }
-
-    /// Where the list of the tiles with two sheets begins.
-    pub fn middle(&self) -> u32 {
-        self.middle
     }
 
     pub fn record(
@@ -83,10 +90,12 @@ impl Split {
         tiles: &Tiles,
         level: &Level,
         gaps: Option<&Gaps>,
+        foam: Option<&Foam>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"split");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let lengths = self.lengths.handle;
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
         // Fragments too: `composite` binds it in place of boundaries where there are none.
         let readers = COMPUTE_READ.and(VERTEX_READ).and(FRAGMENT_READ);
         gpu.barriers(cmd, &[], &[buffer(lengths, COMPUTE_READ, COPY_WRITE)]);
@@ -112,12 +121,13 @@ impl Split {
                 (3, Resource::buffer(&self.lists)),
                 (4, Resource::buffer(&self.lengths)),
                 (7, level.resource()),
-                // Without it is not read: any buffer will do.
+                // Without it is not read: any buffer will do, and any image.
                 (11, Resource::buffer(gaps.map_or(&tiles.list, |gaps| &gaps.boundaries))),
+                (5, foam.map_or(r.scene_depth, |foam| sampled(foam.depth()))),
+                (6, foam.map_or(r.scene_depth, |foam| sampled(foam.thickness()))),
             ],
         )?;
-        let count = self.middle;
-        self.split.push(gpu, cmd, &count);
+        self.split.push(gpu, cmd, &self.most);
         // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible since
         // `tiles`.
         unsafe { gpu.device.cmd_dispatch_indirect(cmd, tiles.arguments.handle, ALL_TILES) };
