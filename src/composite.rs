@@ -66,10 +66,7 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
-    let beside = [
-        (10, u32::from(config.spray)),
-        (14, u32::from(config.noise.is_some())),
-    ];
+    let beside = [(10, u32::from(config.spray)), (14, u32::from(config.noise.is_some()))];
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();
     for (i, pipeline) in (0..).zip(&mut all) {

@@ -290,29 +290,28 @@ struct Foam {
 // 1 where it is turned away. Not in the source, whose foam is flat. The slope is that of quadratic
 // B-splines through the texels about a place h: differences of neighbours alone change from texel to texel,
 // which stays where it is on the screen while the foam moves.
-// Nothing is looked up where there is no foam.
-float relief(vec2 pixel, float z, float sun, bool foamy) {
+float relief(vec2 pixel, float z, float sun) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
-    ivec2 middle = ivec2(floor(h + 0.5));
-    vec2 f = h - vec2(middle);
-    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    vec2 middle = floor(h + 0.5);
+    vec2 f = h - middle;
     vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
     vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
-    vec2 rise = vec2(0.0);
-    // An end of a loop, not a branch: a CPU runs branches whole.
-    int end = foamy ? 1 : -1;
-    for (int row = -1; row <= end; ++row) {
-        int y = clamp(middle.y + row, 0, last.y);
-        vec3 height;
-        for (int i = 0; i < 3; ++i) {
-            height[i] = texelFetch(foam_thickness, ivec2(clamp(middle.x + i - 1, 0, last.x), y), 0).y;
-        }
-        float d = float(row) - f.y;
-        float out_by = 1.5 - abs(d);
-        float weight = row == 0 ? 0.75 - d * d : 0.5 * out_by * out_by;
-        float slope = row == 0 ? 2.0 * d : float(row) * out_by;
-        rise += vec2(dot(height, slopes) * weight, dot(height, weights) * slope);
-    }
+    vec3 down = vec3(0.5 * (0.5 - f.y) * (0.5 - f.y), 0.75 - f.y * f.y, 0.5 * (0.5 + f.y) * (0.5 + f.y));
+    vec3 falls = vec3(f.y - 0.5, -2.0 * f.y, f.y + 0.5);
+    // The nine about it, of the front layer: four gathers. Those beyond the frame repeat its edge; the image may
+    // be larger.
+    vec2 texel = 1.0 / vec2(textureSize(foam_thickness, 0));
+    vec4 before = textureGather(foam_thickness, middle * texel, 1);
+    vec4 right = textureGather(foam_thickness, (middle + vec2(1.0, 0.0)) * texel, 1);
+    vec4 below = textureGather(foam_thickness, (middle + vec2(0.0, 1.0)) * texel, 1);
+    vec4 after = textureGather(foam_thickness, (middle + 1.0) * texel, 1);
+    bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
+    vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
+    vec3 mid = vec3(before.xy, ends.x ? before.y : right.y);
+    vec3 high = ends.y ? mid : vec3(below.xy, ends.x ? below.y : after.y);
+    vec2 rise = vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
+              + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
+              + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
     vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
     vec3 normal = normalize(vec3(-slope, 1.0));
     float turned = dot(normal, frame.sun_direction.xyz) - frame.sun_direction.z;
@@ -355,7 +354,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
     float sun = SHADOW == 1u ? past_scene(vec3(0.0), pixel) : 1.0;
     sun *= (SHADOW > 1u || CAST == 1u) && t.y > 0.0 ? clamp(t.z / t.y, 0.0, 1.0) : 1.0;
-    foam.color *= under(vec3(sun)) * relief(pixel, foam.depth, sun, foam.kept < 1.0);
+    foam.color *= under(vec3(sun)) * relief(pixel, foam.depth, sun);
     return foam;
 }
 

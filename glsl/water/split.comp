@@ -36,14 +36,14 @@ void split(uint tile) {
         kind = 0u;
     }
     barrier();
-    // A tile is 16 texels wide; one more to each side, which what is in front may be widened by, and one of the
-    // thickness', which is read between its texels.
+    // A tile is 16 texels wide; one more to each side, which what is in front may be widened by. So the texels of the
+    // thickness beside the tile are looked at too, which is read between its texels.
     ivec4 rect = levels.level[own].rect;
     float edge = levels.level[own].texel.z;
     vec2 corner = vec2(texel - rect.xy) * edge;
     float scale = 1.0 / frame.thick_extent.z;
-    ivec2 first = max(ivec2(floor((corner - edge) * scale)) - 1, ivec2(0));
-    ivec2 last = min(ivec2(floor((corner + 17.0 * edge) * scale)) + 1, ivec2(frame.thick_extent.xy) - 1);
+    ivec2 first = max(ivec2(floor((corner - edge) * scale)), ivec2(0));
+    ivec2 last = min(ivec2(floor((corner + 17.0 * edge) * scale)), ivec2(frame.thick_extent.xy) - 1);
     last = SHEETS == 1u && FOAM == 0u ? first - 1 : last;
     uint found = 0u;
     for (int y = first.y + int(gl_LocalInvocationID.y); y <= last.y; y += 8) {

@@ -339,6 +339,58 @@ fn foam_covers_what_is_behind_it() {
     }
 }
 
+/// The last of foam before water: its thickness is wider than its depth, and shows in tiles that hold no more.
+#[test]
+fn the_last_of_foam_shows_in_every_tile() {
+    const TILE: usize = 16;
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let config = Config {
+            composite: Some(shading),
+            output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+            thickness_level: 0,
+            smoothing_level: 0,
+            ..foaming(size)
+        };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut case = Foamy::new(size, Lens::Standard, 0.0);
+        let mut block = scenes::block(3, 0.1, [40, 28, 3], [-2.0, -1.4, 2.0]);
+        block.push([0.0, 0.0, 0.6]);
+        case.shot.positions = scenes::world(&case.shot.camera, &block);
+        case.amounts = vec![[0.0; 2]; block.len()];
+        *case.amounts.last_mut().expect("a particle") = [0.06, 0.0];
+        case.velocities = vec![[0.0; 3]; block.len()];
+        case.ids = None;
+        let look = &mut case.shot.settings.foam;
+        (look.noise, look.veil, look.extinction) = (0.0, 0.0, 1.0e4);
+        let [white, black] = [0.9, 0.0].map(|albedo| {
+            let look = &mut case.shot.settings.foam;
+            (look.back_color, look.front_color) = ([albedo; 3], [albedo; 3]);
+            case.draw(&mut rig)
+        });
+        let found = of(&white);
+        let (width, height) = (size.width as usize, size.height as usize);
+        let in_tile = |x: usize, y: usize| {
+            let around = |c: usize, end: usize| {
+                (c / TILE * TILE).saturating_sub(1)..(c / TILE * TILE + TILE + 1).min(end)
+            };
+            around(y, height)
+                .any(|y| around(x, width).any(|x| found.depth.data[y * width + x] < 1e9))
+        };
+        let mut alone = 0;
+        for (i, [t, _]) in found.thickness.data.iter().enumerate() {
+            // Enough to hide all behind it.
+            if 1.0e4 * t > 10.0 {
+                let apart = white.output.data[i][1] - black.output.data[i][1];
+                assert!(apart > 0.05, "{shading:?}: no foam in pixel {i}: {apart}");
+                alone += usize::from(!in_tile(i % width, i / width));
+            }
+        }
+        assert!(alone > 20, "{alone} pixels in tiles without the foam's depth");
+    }
+}
+
 /// A sprite that is stretched to be seen, away from its disc: the pass reads velocities and ids.
 #[test]
 fn motion_and_ids_show() {

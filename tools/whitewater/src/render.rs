@@ -171,6 +171,9 @@ fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
     }
 }
 
+/// Frames of a sequence that are looked at: as water comes in and comes to rest, few are like the rest.
+const PROBES: usize = 8;
+
 /// A few frames of the whole sequence, from which its look is found: the same however it is cut into jobs.
 struct Probes {
     frames: Vec<Particles>,
@@ -182,7 +185,8 @@ struct Probes {
 
 impl Probes {
     fn read(args: &RenderArgs, all: &[Frame], left: &[Frame]) -> Outcome<Self> {
-        let mut picks = vec![0, all.len() / 2, all.len() - 1];
+        let mut picks: Vec<usize> =
+            (0..PROBES).map(|i| i * (all.len() - 1) / (PROBES - 1)).collect();
         picks.dedup();
         let mut frames = Vec::new();
         let mut first_failure = None;
@@ -192,7 +196,7 @@ impl Probes {
                 Err(failure) => _ = first_failure.get_or_insert(failure),
             }
         }
-        // All three are bad: whichever can be read, or the reason why none can.
+        // All of them are bad: whichever can be read, or the reason why none can.
         if frames.is_empty() {
             let readable = left.iter().find_map(|frame| read(args, frame).ok());
             match (readable, first_failure) {
