@@ -351,6 +351,7 @@ fn the_last_of_foam_shows_in_every_tile() {
             output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
             thickness_level: 0,
             smoothing_level: 0,
+            coarsening: 0,
             ..foaming(size)
         };
         let mut rig = Rig::lit(&gpu, &config, 1);
