@@ -76,15 +76,14 @@ impl Tool {
         Ok(folder)
     }
 
-    /// A frame of a scene's sequence, with the foam that the frames before have left. `more` are further
-    /// arguments.
+    /// A frame of a scene by itself: what is fast enough is foam, without what frames before have left. `more`
+    /// are further arguments.
     pub fn frame(&self, scene: &str, frame: u32, more: &str) -> Outcome<Frame> {
         let folder = self.scene(scene)?;
-        let (exr, png) = (self.temporary("frame_%d.exr"), self.temporary("frame_%d.png"));
+        let (exr, png) = (self.temporary("frame.exr"), self.temporary("frame.png"));
         let mut arguments = vec![
             "render".to_owned(),
-            sequence(&folder, scene),
-            format!("--frames={frame}"),
+            folder.join(format!("{scene}_{frame:04}.bgeo")).display().to_string(),
             format!("--scene={}", folder.join("scene.json").display()),
             format!("--size={}x{}", SIZE.0, SIZE.1),
             format!("--sun={SUN}"),
@@ -97,7 +96,6 @@ impl Tool {
         }
         arguments.extend(more.split_whitespace().map(str::to_owned));
         self.run(&arguments)?;
-        let [exr, png] = ["exr", "png"].map(|e| self.temporary(&format!("frame_{frame}.{e}")));
         let layers = picture::read(&exr).map_err(|error| error.to_string())?;
         let picture = image::open(&png).map_err(|error| error.to_string())?.into_rgb8();
         Ok(Frame { layers, picture })
