@@ -146,7 +146,8 @@ pub struct DrawArgs {
     /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
-    /// What of the water foams: auto (the fastest twentieth of it, where there are velocities), none,
+    /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
+    /// most, where there are velocities), none,
     /// or the Weber number from which on it does. In a sequence with ids foam comes and goes in time;
     /// frames before those that are drawn are read for it
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = foaming)]

@@ -59,7 +59,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     };
     camera.check([0], args.draw.size)?;
     let count = particles.positions.len();
-    let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &settings);
+    let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
     let look =

@@ -11,12 +11,15 @@ use crate::args::Foaming;
 
 /// Share of the water that does not foam.
 const CALM: f64 = 0.95;
+/// Most of a frame's water that foams or has not yet stopped to: what is foam all over shows no water.
+const MOST: f64 = 0.3;
 
-/// The settings for frames of a sequence, where they have velocities. A threshold does not transfer
-/// from one simulation to another: where none is given it is taken from the frames.
+/// The settings for frames of a sequence and their seconds, where they have velocities. A threshold does not
+/// transfer from one simulation to another: where none is given it is taken from the frames.
 pub fn settings(
     wanted: Foaming,
     frames: &[Particles],
+    seconds: &[f32],
     settings: &Settings,
 ) -> Option<FoamSettings> {
     let foam = FoamSettings::reduced(settings.water.spacing, 1.0);
@@ -27,24 +30,55 @@ pub fn settings(
         Foaming::From(threshold) => moving.next().map(|_| threshold)?,
         Foaming::Auto => {
             let spray = settings.spray.densities[0] * settings.water.rest_density;
-            let mut numbers: Vec<f32> =
-                moving.flat_map(|frame| numbers(frame, &foam, spray)).collect();
-            numbers.sort_unstable_by(f32::total_cmp);
-            *numbers.get((numbers.len() as f64 * CALM) as usize)?
+            let all = moving.flat_map(|frame| numbers(frame, &foam, spray)).map(|(_, n)| n);
+            let calm = quantile(all.collect(), CALM)?;
+            calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0))
         }
     };
     // Water at rest does not foam.
     (threshold > 0.0).then_some(FoamSettings { threshold, ..foam })
 }
 
-/// Weber numbers of the particles that are no spray.
-fn numbers(frame: &Particles, foam: &FoamSettings, spray: f32) -> Vec<f32> {
+/// The number that a share of them is below.
+fn quantile(mut numbers: Vec<f32>, share: f64) -> Option<f32> {
+    let at = (numbers.len() as f64 * share) as usize;
+    (at < numbers.len()).then(|| *numbers.select_nth_unstable_by(at, f32::total_cmp).1)
+}
+
+/// The number that no more than [`MOST`] of any frame's particles have passed within the lifetime of foam, as far
+/// as the frames say; none without ids.
+fn of_lifetimes(
+    frames: &[Particles],
+    seconds: &[f32],
+    foam: &FoamSettings,
+    spray: f32,
+) -> Option<f32> {
+    let each: Vec<HashMap<u32, f32>> = frames
+        .iter()
+        .map(|frame| {
+            let id = |(i, number): (usize, f32)| Some((*frame.ids.as_ref()?.get(i)?, number));
+            numbers(frame, foam, spray).into_iter().filter_map(id).collect()
+        })
+        .collect();
+    let lasts = |now: usize, then: usize| seconds[now] - seconds[then] < foam.foam_lifetime;
+    let of_frame = |now: usize| {
+        let most = |(id, number): (&u32, &f32)| {
+            let before = (0..now).filter(|&then| lasts(now, then));
+            before.filter_map(|then| each[then].get(id).copied()).fold(*number, f32::max)
+        };
+        quantile(each[now].iter().map(most).collect(), 1.0 - MOST)
+    };
+    (0..frames.len().min(seconds.len())).filter_map(of_frame).reduce(f32::max)
+}
+
+/// Weber numbers of the particles that are no spray, and which those are.
+fn numbers(frame: &Particles, foam: &FoamSettings, spray: f32) -> Vec<(usize, f32)> {
     let density = |i: usize| frame.densities.as_ref().map_or(foam.rest_density, |d| d[i]);
     let velocities = frame.velocities.iter().flatten().enumerate();
     velocities
         .filter(|(i, _)| density(*i) >= spray)
-        .map(|(i, v)| foam.scale * density(i) * v.iter().map(|c| c * c).sum::<f32>())
-        .filter(|number| number.is_finite())
+        .map(|(i, v)| (i, foam.scale * density(i) * v.iter().map(|c| c * c).sum::<f32>()))
+        .filter(|(_, number)| number.is_finite())
         .collect()
 }
 
@@ -106,7 +140,9 @@ mod tests {
     fn the_fastest_twentieth_foams() {
         let mut frame = csv();
         let look = Settings::default();
-        let of = |wanted, frame: &Particles| settings(wanted, std::slice::from_ref(frame), &look);
+        let of = |wanted, frame: &Particles| {
+            settings(wanted, std::slice::from_ref(frame), &[0.0], &look)
+        };
         let found = of(Foaming::Auto, &frame).unwrap();
         let number = |speed: f32| found.scale * 1000.0 * speed * speed;
         assert!((found.threshold / number(95.0) - 1.0).abs() < 1.0e-5, "{found:?}");
@@ -120,5 +156,29 @@ mod tests {
         assert!(of(Foaming::Auto, &frame).is_none(), "water at rest");
         frame.velocities = None;
         assert!(of(Foaming::Auto, &frame).is_none() && of(Foaming::From(7.0), &frame).is_none());
+    }
+
+    /// Other four of a hundred are fast in each of ten frames: less than a twentieth. All that were within a
+    /// lifetime are more than three tenths.
+    #[test]
+    fn no_more_than_three_tenths_foam_at_a_time() {
+        let mut frames: Vec<Particles> = (0..10)
+            .map(|frame| {
+                let speed = |i: usize| if i / 4 == frame { 9.0 } else { 0.01 * i as f32 };
+                let mut particles = csv();
+                particles.velocities = Some((0..100).map(|i| [speed(i), 0.0, 0.0]).collect());
+                particles.ids = Some((0..100).collect());
+                particles
+            })
+            .collect();
+        let of = |frames: &[Particles], apart: f32| {
+            let seconds: Vec<f32> = (0..10_u8).map(|i| apart * f32::from(i)).collect();
+            let found = settings(Foaming::Auto, frames, &seconds, &Settings::default()).unwrap();
+            (found.threshold / (found.scale * 1000.0)).sqrt()
+        };
+        assert!((of(&frames, 0.1) - 9.0).abs() < 1.0e-3, "{}", of(&frames, 0.1));
+        assert!(of(&frames, 0.2) < 1.0, "five frames to a lifetime: two tenths");
+        frames.iter_mut().for_each(|frame| frame.ids = None);
+        assert!(of(&frames, 0.1) < 1.0, "nobody knows who they are");
     }
 }

@@ -172,11 +172,12 @@ fn report(total: usize, failed: Vec<(u64, Failure)>) -> Outcome<()> {
 }
 
 /// Frames of a sequence that are looked at: as water comes in and comes to rest, few are like the rest.
-const PROBES: usize = 8;
+const PROBES: usize = 16;
 
 /// A few frames of the whole sequence, from which its look is found: the same however it is cut into jobs.
 struct Probes {
     frames: Vec<Particles>,
+    numbers: Vec<u64>,
     /// Frames a second by two that follow each other.
     fps: Option<f32>,
     /// The number of the first of the sequence.
@@ -188,11 +189,14 @@ impl Probes {
         let mut picks: Vec<usize> =
             (0..PROBES).map(|i| i * (all.len() - 1) / (PROBES - 1)).collect();
         picks.dedup();
-        let mut frames = Vec::new();
+        let (mut frames, mut numbers) = (Vec::new(), Vec::new());
         let mut first_failure = None;
         for pick in picks {
             match read(args, &all[pick]) {
-                Ok(particles) => frames.push(particles),
+                Ok(particles) => {
+                    frames.push(particles);
+                    numbers.push(all[pick].number);
+                }
                 Err(failure) => _ = first_failure.get_or_insert(failure),
             }
         }
@@ -200,7 +204,10 @@ impl Probes {
         if frames.is_empty() {
             let readable = left.iter().find_map(|frame| read(args, frame).ok());
             match (readable, first_failure) {
-                (Some(particles), _) => frames.push(particles),
+                (Some(particles), _) => {
+                    frames.push(particles);
+                    numbers.push(0);
+                }
                 (None, Some(failure)) => return Err(failure),
                 (None, None) => {}
             }
@@ -215,7 +222,7 @@ impl Probes {
             _ => None,
         };
         let first = all.first().map_or(0, |f| f.number);
-        Ok(Self { frames, fps, first })
+        Ok(Self { frames, numbers, fps, first })
     }
 
     fn spacing(&self) -> Option<f32> {
@@ -340,7 +347,9 @@ fn look(
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
         frame.densities = session::guessed_densities(&args.draw, frame, &settings.water);
     }
-    let foam = foam::settings(args.draw.foam, &probes.frames, &settings);
+    let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
+    let seconds: Vec<f32> = probes.numbers.iter().map(|n| *n as f32 / fps).collect();
+    let foam = foam::settings(args.draw.foam, &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {
         progress.say(&format!(
             "foam from Weber number {} on (--foam sets it; none)",
@@ -350,16 +359,12 @@ fn look(
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
     let remembers = sequence.is && foam.is_some() && probes.frames.iter().any(moving);
     let vectors = sequence.is && sequence.motion;
-    let fps = (remembers || vectors).then(|| match (args.fps, probes.fps) {
-        (Some(fps), _) => fps,
-        (None, Some(fps)) => {
-            progress.say(&format!("{} frames a second (found; --fps sets it)", round(fps)));
-            fps
+    let fps = (remembers || vectors).then(|| {
+        if args.fps.is_none() {
+            let found = if probes.fps.is_some() { "found; " } else { "" };
+            progress.say(&format!("{} frames a second ({found}--fps sets it)", round(fps)));
         }
-        (None, None) => {
-            progress.say(&format!("{DEFAULT_FPS} frames a second (--fps sets it)"));
-            DEFAULT_FPS
-        }
+        fps
     });
     let region = bounds.region();
     let shadows = file.shadows().map_err(Failure::input)?;
