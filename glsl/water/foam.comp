@@ -23,8 +23,8 @@ layout(set = 0, binding = 1, std430) readonly buffer Sprites { FoamSprite sprite
 layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 5, std430) buffer Words { uint words[]; };
 
-// Texels of a box that an invocation does by itself.
-const int SMALL = 1024;
+// Texels of a box that an invocation does by itself: all of some classes, none of the others.
+const int SMALL = 1023;
 
 // Classes of sprites by their texels, two to each power of two.
 const uint CLASSES = 24u;

@@ -171,6 +171,27 @@ fn foam_is_the_twins() {
     }
 }
 
+/// Sprites of all sizes in a group of the compute path, about those that it draws together: none is left out.
+#[test]
+fn near_sprites_of_all_sizes_are_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config { thickness_level: 0, ..foaming(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = Foamy::new(size, Lens::Standard, 0.0);
+    // One after the other a little smaller, and anywhere between the texels.
+    let eye: Vec<_> = (0..512)
+        .map(|i| (0.3 + 0.005 * i as f32, 0.0031 * (i % 7) as f32, 0.0037 * (i % 5) as f32))
+        .map(|(z, x, y)| [z * x, z * y, z])
+        .collect();
+    case.shot.positions = scenes::world(&case.shot.camera, &eye);
+    case.amounts = vec![[1.0, 0.5]; eye.len()];
+    case.velocities = vec![[0.0; 3]; eye.len()];
+    case.ids = None;
+    let drawn = case.draw(&mut rig);
+    check("near sprites", &case, &drawn, 0);
+}
+
 /// A quarter that is foam: three quarters of the water, in spheres of three quarters of the radius.
 #[test]
 fn what_is_foam_is_no_water() {

@@ -348,7 +348,8 @@ fn look(
         frame.densities = session::guessed_densities(&args.draw, frame, &settings.water);
     }
     let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
-    let seconds: Vec<f32> = probes.numbers.iter().map(|n| *n as f32 / fps).collect();
+    let seconds: Vec<f32> =
+        probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
     let foam = foam::settings(args.draw.foam, &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {
         progress.say(&format!(
