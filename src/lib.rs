@@ -97,8 +97,8 @@
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
-//! | foam: depth, thickness and its sums, what water is before it (`foam`) | 2½ w h | 2.2 MiB | 4.9 MiB |
-//! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¾ w h | 0.7 MiB | 1.5 MiB |
+//! | foam: depth, thickness and its sums, what water is before it (`foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
+//! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
@@ -134,7 +134,9 @@
 //!   its depth is as wide as its thickness, which ends softly, before the scene too, and of its
 //!   resolution; what is foam of a
 //!   particle is no water of it, in metres. Water before the frontmost foam is told once a fragment, not
-//!   once a particle.
+//!   once a particle. All of a pixel's foam is where its middle is, under the water before that; to the
+//!   thesis it is at the frontmost's depth, and a thin veil brings up what lies deep, with its own outline
+//!   (so it stays with [`water::Medium::Source`]).
 //!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
 //!   looks nine times a pixel, at depths that jump from sprite to sprite.
@@ -148,7 +150,10 @@
 //!   keep the light's height ([`Shadows::Convolution`](water::Shadows)). Water and foam cast coloured
 //!   shadows and caustics, which the thesis leaves to the future. What share of the scene's light is the
 //!   sun's is taken from level ground.
-//! - At borders the derivatives of texels on the same surface are blended, and shaded once.
+//! - At borders the derivatives of texels on the same surface are blended, and shaded once. Water seen along its
+//!   surface has steps of more than the border's threshold from texel to texel: what goes straight on is no
+//!   border, and a pixel that finds none of the four texels about it looks at those next to them. Else there are
+//!   dark dashes.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

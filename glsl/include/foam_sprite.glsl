@@ -39,10 +39,10 @@ vec4 foam_look(FoamSprite sprite, FoamPlane plane) {
                 phase + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y));
 }
 
-// What it adds where a ray meets it, to all foam, to the layer right behind the frontmost and to what of
-// that the sun lights: whole steps, their sums are exact, in any order. torn: strength of the noise, share
-// of the sun's light. before: metres to the scene.
-vec3 foam_steps(vec4 look, vec2 torn, vec2 place, float depth, float front, float before) {
+// What it adds where a ray meets it: to all foam, to the layer right behind the frontmost, to what of that the
+// sun lights, and by how far behind the frontmost it lies. Whole steps, their sums are exact, in any order.
+// torn: strength of the noise, share of the sun's light. before: metres to the scene.
+vec4 foam_steps(vec4 look, vec2 torn, vec2 place, float depth, float front, float before) {
     float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
     float amount = look.x * thickness_kernel(dot(place, place));
     amount *= max(1.0 + torn.x * noise, 0.0);
@@ -51,6 +51,8 @@ vec3 foam_steps(vec4 look, vec2 torn, vec2 place, float depth, float front, floa
     // The layer ends softly, within a spacing: what passes its end would pop.
     float past = clamp((depth - front - frame.foam.w) / frame.particle.y, 0.0, 1.0);
     float first = front < EMPTY ? 1.0 - past * past * (3.0 - 2.0 * past) : 0.0;
-    vec3 three = amount * vec3(1.0, first, first * torn.y);
-    return floor(three / frame.foam_back.w + 0.5);
+    // Bounded, so that steps can hold its sum, and led by what is near, which hides the rest.
+    float behind = max(depth - front - frame.particle.y, 0.0);
+    float far = behind / (behind + frame.particle.y);
+    return floor(amount * vec4(1.0, first, first * torn.y, far) / frame.foam_back.w + 0.5);
 }

@@ -1,6 +1,6 @@
 // What the compute path of foam has of each texel, next to each other: sums in whole steps of all foam, of what
-// is behind the front layer, and of what in that layer the sun does not light. The others are mostly none, and
-// added seldom.
+// in the front layer the sun does not light, of all by how far behind the frontmost it lies, and of what is behind
+// the front layer. All but the first are mostly none, and added seldom.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;
@@ -10,9 +10,10 @@ layout(constant_id = 1) const uint LIT = 0;
 const uint FRONT = 0u;
 const uint SCENE = 1u;
 const uint ALL = 2u;
-const uint LATE = 3u;
-const uint UNLIT = 4u;
-const uint WORDS = 4u + LIT;
+const uint UNLIT = 3u;
+const uint FAR = 3u + LIT;
+const uint LATE = 4u + LIT;
+const uint WORDS = 5u + LIT;
 
 // No sum is more: single precision holds all whole numbers up to it. It is 4096 spacings of foam or more.
 const uint FULL = 16777216u;

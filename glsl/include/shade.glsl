@@ -281,6 +281,7 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
 struct Foam {
     float depth; // of the frontmost, EMPTY where only thickness is left
     float kept;  // share of the light from behind that comes through
+    float behind; // metres from the frontmost to the middle of what is seen
     vec3 color;
     float t;     // metres of it
     vec2 water;  // where no sphere shows any, metres of water, all and before the frontmost
@@ -333,9 +334,9 @@ bool beside(vec2 pixel) {
 // the mean of nine depths): a sprite by itself is no surface, its outline would be a shadow's.
 Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     Foam foam;
-    vec3 t = vec3(0.0);
+    vec4 t = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
-        t += texels.weights[i] * texelFetch(foam_thickness, foam_texel(texels, i), 0).xyz;
+        t += texels.weights[i] * texelFetch(foam_thickness, foam_texel(texels, i), 0);
     }
     // An end of a loop, not a branch: a CPU runs branches whole.
     int shown = dry ? 4 : 0;
@@ -347,6 +348,10 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     foam.depth = texels.depth;
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
+    // A spacing more for what is far: where that becomes the frontmost nothing changes. To the source all is at
+    // the frontmost.
+    float far = frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
+    foam.behind = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
     // Or the source's other rule.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
@@ -358,9 +363,14 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     return foam;
 }
 
-// Light through a sheet with foam in it and off it: `before` of its t metres along z are before the foam.
-// What mirrors is the water before the foam, where there is any.
-vec3 over_with(Sheet sheet, float before, float t, Foam foam, vec3 background) {
+// Light through a sheet with foam in it and off it, whose surface lies at a depth: `before` of its t metres
+// along z are before the frontmost foam. What mirrors is the water before the foam, where there is any. Foam lies
+// where its middle is, under the water, and that in its share of both, that is there: else a thin veil would bring
+// up to it what is deep below, with its own outline. Not in the source, to which all is at the frontmost.
+vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
+    float after = max(t - before, 0.0);
+    float between = max(foam.behind - max(z - foam.depth, 0.0), 0.0) * after / max(after + foam.t, 1.0e-9);
+    before = min(before + between, t);
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
     float first = before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0));
@@ -444,12 +454,14 @@ vec3 layers_at(vec2 pixel, float front) {
     Sheet sheet = sheet_of(surface, pixel, t, ripple);
     Foam foam;
     bool past = false;
+    bool behind_boundary = false;
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
+        behind_boundary = foam.depth + foam.behind >= boundary;
         // One looks between the spheres of the front sheet, if only its foam is there.
-        past = foam.depth < boundary && front >= boundary && front < EMPTY;
+        past = !behind_boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets is among the other.
-        if (covers && foam.depth >= boundary) {
+        if (covers && behind_boundary) {
             back = among(foam, share.y, back);
         } else if (!past) {
             sheet = among(foam, t, sheet);
@@ -476,23 +488,25 @@ vec3 layers_at(vec2 pixel, float front) {
         all = foam.water;
         t = all.x;
         sheet = between(foam, pixel, t);
+        surface.z = foam.depth;
     }
     // Behind as much air as there is: where there is none both sheets are one.
-    float behind_air = covers && foam.depth >= boundary ? share.x : 0.0;
+    float behind_air = covers && behind_boundary ? share.x : 0.0;
     vec3 apart = c;
     if (past && share.y > 0.0) {
         behind_air = share.x;
         Sheet behind = sheet;
         behind.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
-        apart = over_with(between(foam, pixel, share.y), min(all.y, share.y), share.y, foam, over(behind, c));
+        Sheet first = between(foam, pixel, share.y);
+        apart = over_with(first, foam.depth, min(all.y, share.y), share.y, foam, over(behind, c));
     } else if (behind_air > 0.0) {
         Sheet whole = sheet;
         whole.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
-        apart = over(whole, over_with(back, max(all.y - t, 0.0), share.y, foam, c));
+        apart = over(whole, over_with(back, beyond, max(all.y - t, 0.0), share.y, foam, c));
     }
     back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
     c = back.path > 0.0 ? over(back, c) : c;
-    vec3 seen = mix(over_with(sheet, min(all.y, t), t, foam, c), apart, behind_air);
+    vec3 seen = mix(over_with(sheet, surface.z, min(all.y, t), t, foam, c), apart, behind_air);
     return dry && foam.depth >= EMPTY ? c : seen;
 }
 

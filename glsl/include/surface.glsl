@@ -1,14 +1,18 @@
 // The smoothed water surface at a full-resolution pixel, from its reduced image (thesis Sec. 4.9.3,
 // Listings A.17, A.18, A.21 and A.23-A.25). Two depths lie on one surface if they differ by the falloff at
-// most.
+// most; the neighbours of a texel also if one does and the other goes on from it, by a rise that differs from
+// its by the falloff at most (the source's border is by the second difference as well): water seen along its
+// surface is no border.
 // - A texel's slope along an axis is the mean of its rises to those of its two neighbours that are
 //   on its surface. One that lacks any of the four is on the rim.
 // - A pixel sees those of the four texels around it that lie on the surface of its own depth, with
 //   bilinear weights; beyond the image's edge its texels are repeated.
 // - Its depth and slope are their means; in the slope, texels on the rim count for RIM. Where whole
 //   ones are 1/63 of the weight at most, the slope is no steeper than RIM_SLOPE.
-// - Where it sees none it faces the eye at its own depth, with the thickness of the one nearest in
-//   depth.
+// - Where it sees none it has the slope and the thickness of the texel next to the four, within one and a
+//   half of the pixel, that is nearest to it in depth, at its own depth. If none of those is on its surface
+//   either (nor asked for, at full resolution) it faces the eye, with the thickness of the nearest in depth
+//   of the four.
 // Where the source shades four neighbours at a border and blends their colours, we blend the
 // derivatives of those on the same surface and shade once: the colour of another surface never
 // bleeds in, which shows as dark seams.
@@ -31,12 +35,18 @@ layout(set = 0, binding = 1) uniform sampler2D smoothed;
 vec4 differences(vec4 before, vec4 z, vec4 after, float threshold, inout bvec4 whole) {
     vec4 a = z - before;
     vec4 b = after - z;
-    bvec4 has_a = lessThanEqual(abs(a), vec4(threshold));
-    bvec4 has_b = lessThanEqual(abs(b), vec4(threshold));
+    vec4 turn = abs(b - a);
+    bvec4 has_a = lessThanEqual(min(abs(a), max(abs(b), turn)), vec4(threshold));
+    bvec4 has_b = lessThanEqual(min(abs(b), max(abs(a), turn)), vec4(threshold));
     bvec4 both = bvec4(has_a.x && has_b.x, has_a.y && has_b.y, has_a.z && has_b.z, has_a.w && has_b.w);
     whole = bvec4(whole.x && both.x, whole.y && both.y, whole.z && both.z, whole.w && both.w);
     vec4 either = mix(mix(vec4(0.0), b, has_b), a, has_a);
     return mix(either, 0.5 * (a + b), both);
+}
+
+float smoothed_at(Level level, ivec2 texel) {
+    bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, level.rect.zw));
+    return inside ? texelFetch(smoothed, level.rect.xy + texel, 0).x : EMPTY;
 }
 
 // Share of a texel on the rim in the slope, where there are others. The last particle of a body
@@ -118,6 +128,28 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     vec2 steepest = frame.texel.xy * s.z * RIM_SLOPE;
     // That is, whole texels weigh more than 1/63.
     s.dz = trusted > 2.0 * RIM ? s.dz : clamp(s.dz, -steepest, steepest);
+
+    // The two above or below the four and the two on a side, whichever the pixel is nearer to.
+    bvec2 after = greaterThan(f, vec2(0.5));
+    vec4 beside = vec4(after.y ? row3 : row0, after.x ? vec2(row1.w, row2.w) : vec2(row1.x, row2.x));
+    bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
+    vec4 miss = mix(abs(beside - front), vec4(2.0 * EMPTY), outside);
+    float least = min(min(miss.x, miss.y), min(miss.z, miss.w));
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    bool found = lost && least <= threshold && level.texel.z > 1.0;
+    while (found) {
+        ivec2 next = mix(ivec2(-1), ivec2(2), after);
+        s.base = base + (miss.x == least ? ivec2(0, next.y) : miss.y == least ? ivec2(1, next.y)
+                       : miss.z == least ? ivec2(next.x, 0) : ivec2(next.x, 1));
+        s.weights = vec4(1, 0, 0, 0);
+        vec2 low = vec2(smoothed_at(level, s.base - ivec2(1, 0)), smoothed_at(level, s.base - ivec2(0, 1)));
+        vec2 high = vec2(smoothed_at(level, s.base + ivec2(1, 0)), smoothed_at(level, s.base + ivec2(0, 1)));
+        bvec4 sides = bvec4(true);
+        vec4 middle = vec4(smoothed_at(level, s.base));
+        vec2 dz = differences(low.xyxy, middle, high.xyxy, threshold, sides).xy / level.texel.z;
+        s.dz = sides.x && sides.y ? dz : clamp(dz, -steepest, steepest);
+        found = false;
+    }
     return s;
 }
 

@@ -76,18 +76,18 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Adds to the sum of all foam, and to the two after it what they get, mostly nothing. No number of sprites on one
+// Adds to the sum of all foam, and to those after it what they get, mostly nothing. No number of sprites on one
 // spot is too many: what comes to a word that is half full is taken out again. All in one loop: at each atomic
 // that it finds a CPU goes through the invocations one by one, whether or not they have something to add.
-void add(uint word, uvec3 steps) {
+void add(uint word, uvec4 steps) {
     do {
         bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x < HALF_FULL;
-        steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
+        steps = over ? uvec4(0u - steps.x, steps.yzw) : uvec4(steps.yzw, 0u);
         word += over ? 0u : 1u;
         bool next = !over && steps.x == 0u;
-        steps = next ? uvec3(steps.yz, 0u) : steps;
+        steps = next ? uvec4(steps.yzw, 0u) : steps;
         word += next ? 1u : 0u;
-    } while (steps.x > 0u);
+    } while (any(notEqual(steps, uvec4(0u))));
 }
 
 void splat(ivec2 texel, Splat s) {
@@ -113,10 +113,11 @@ void splat(ivec2 texel, Splat s) {
         return;
     }
     float frontmost = front < scene ? uintBitsToFloat(front) : EMPTY;
-    uvec3 steps = uvec3(foam_steps(s.look, s.torn, place, depth, frontmost, before));
+    uvec4 steps = uvec4(foam_steps(s.look, s.torn, place, depth, frontmost, before));
     if (steps.x > 0u) {
-        uint lit = LIT == 1u ? min(steps.z, steps.y) : steps.y;
-        add(at + ALL, uvec3(steps.x, steps.x - min(steps.x, steps.y), steps.y - lit));
+        uvec2 behind = uvec2(min(steps.w, steps.x), steps.x - min(steps.x, steps.y));
+        uint unlit = steps.y - min(steps.z, steps.y);
+        add(at + ALL, LIT == 1u ? uvec4(steps.x, unlit, behind) : uvec4(steps.x, behind, 0u));
     }
 }
 

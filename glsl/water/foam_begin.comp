@@ -20,10 +20,8 @@ void main() {
         uint bits = floatBitsToUint(scene > 0.0 ? min(scene, EMPTY) : EMPTY);
         words[at + FRONT] = bits;
         words[at + SCENE] = bits;
-        words[at + ALL] = 0u;
-        words[at + LATE] = 0u;
-        if (LIT == 1u) {
-            words[at + UNLIT] = 0u;
+        for (uint word = ALL; word < WORDS; ++word) {
+            words[at + word] = 0u;
         }
     }
 }

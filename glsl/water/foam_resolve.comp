@@ -1,6 +1,6 @@
 #version 460
 // Pass `foam`, compute path, last part: whole steps to metres.
-// Reads: words. Writes: foam depth, foam thickness (RG32F, or RGBA32F: what of the front layer the sun lights).
+// Reads: words. Writes: foam depth, foam thickness.
 
 #include "frame.glsl"
 #include "foam_sums.glsl"
@@ -17,8 +17,9 @@ void main() {
         uint at = words_of(texel);
         uint all = min(words[at + ALL], FULL);
         uint front = all - min(words[at + LATE], all);
-        uint lit = LIT == 1u ? front - min(words[at + UNLIT], front) : 0u;
-        imageStore(thickness, texel, vec4(all, front, lit, 0.0) * frame.foam_back.w);
+        uint far = min(words[at + FAR], all);
+        uint lit = LIT == 1u ? front - min(words[at + UNLIT], front) : front;
+        imageStore(thickness, texel, vec4(all, front, lit, far) * frame.foam_back.w);
         bool none = words[at + FRONT] == words[at + SCENE];
         imageStore(depth, texel, vec4(none ? EMPTY : uintBitsToFloat(words[at + FRONT])));
     }

@@ -1,8 +1,8 @@
 #version 460
-// Pass `foam`, raster path: metres of foam, of all and of the layer right behind the frontmost (thesis
-// Sec. 4.8.2, Listing A.16). A noise of its own in each sprite, that changes as it ages, breaks up the discs.
-// Reads: scene depth, foam depth. Writes: foam thickness (RG32F, or RGBA32F: what of that layer the sun
-// lights).
+// Pass `foam`, raster path: metres of foam, of all, of the layer right behind the frontmost (thesis
+// Sec. 4.8.2, Listing A.16), of what of that layer the sun lights, and of all by how far behind the frontmost it
+// lies. A noise of its own in each sprite, that changes as it ages, breaks up the discs.
+// Reads: scene depth, foam depth. Writes: foam thickness (RGBA32F).
 
 #include "frame.glsl"
 #include "random.glsl"
@@ -33,6 +33,5 @@ void main() {
     }
     float front = texelFetch(foam_depth, ivec2(gl_FragCoord.xy), 0).x;
     float before = scene > 0.0 ? scene - depth : EMPTY;
-    vec3 steps = foam_steps(look, torn, place, depth, front, before);
-    thickness = vec4(steps * frame.foam_back.w, 0.0);
+    thickness = foam_steps(look, torn, place, depth, front, before) * frame.foam_back.w;
 }

@@ -67,12 +67,9 @@ pub struct Offer {
     pub synchronization2: bool,
     /// R32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments: the raster splats.
     pub blend_floats: bool,
-    /// R32_SFLOAT and R32G32_SFLOAT can be blended colour attachments, and the latter a storage image,
-    /// written without its format being known: foam.
+    /// R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT can be blended colour attachments, and the latter two
+    /// storage images, written without their format being known: foam.
     pub foam_floats: bool,
-    /// R32G32B32A32_SFLOAT can be a blended colour attachment and a storage image, written without its format
-    /// being known: shadows on foam.
-    pub lit_floats: bool,
     /// R8G8B8A8_SNORM and R16G16B16A16_SFLOAT can be storage images, written without their format being
     /// known, and are sampled linearly: filtered shadow maps of 8 and of 16 bits.
     pub basis: [bool; 2],
@@ -136,8 +133,8 @@ impl Offer {
             blend_floats: offers(vk::Format::R32_SFLOAT, blended)
                 && offers(vk::Format::R32G32B32A32_SFLOAT, blended),
             foam_floats: offers(vk::Format::R32_SFLOAT, blended)
-                && offers(vk::Format::R32G32_SFLOAT, blended | stored),
-            lit_floats: offers(vk::Format::R32G32B32A32_SFLOAT, blended | stored),
+                && offers(vk::Format::R32G32_SFLOAT, blended | stored)
+                && offers(vk::Format::R32G32B32A32_SFLOAT, blended | stored),
             basis: [vk::Format::R8G8B8A8_SNORM, vk::Format::R16G16B16A16_SFLOAT].map(|format| {
                 offers(format, stored | vk::FormatFeatureFlags2::SAMPLED_IMAGE_FILTER_LINEAR)
             }),
@@ -202,15 +199,10 @@ impl Offer {
         }
         if !self.foam_floats && config.foam {
             return missing(
-                "blending of R32_SFLOAT and R32G32_SFLOAT, and storage use of the latter".into(),
+                "blending of R32_SFLOAT, R32G32_SFLOAT and R32G32B32A32_SFLOAT, and storage use of the \
+                 latter two"
+                    .into(),
                 "Config.foam needs it; leave it off",
-            );
-        }
-        let lit = crate::water::foam_format(config) == vk::Format::R32G32B32A32_SFLOAT;
-        if !self.lit_floats && config.foam && lit {
-            return missing(
-                "blending and storage use of R32G32B32A32_SFLOAT".into(),
-                "Config.foam with Config.shadow or Config.cast needs it; leave one off",
             );
         }
         if let Some(convolution) = crate::light::convolution(config) {

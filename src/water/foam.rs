@@ -15,8 +15,9 @@
 //! steps, in any order.
 //! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
-//! where there is none; foam thickness, RG32F (all, and within a depth behind the frontmost),
-//! RGBA32F where there are shadows (the third: what of that layer the sun lights; a mask apart).
+//! where there is none; foam thickness, RGBA32F: metres of all, of the layer right behind the frontmost, of
+//! what of that layer the sun lights (of sprites: a mask is the pixels'), and of all times `d / (d + s)`, d from
+//! a spacing s behind the frontmost on.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -94,7 +95,7 @@ enum Kind {
 fn desc(config: &Config, kind: Kind) -> ImageDesc<'static> {
     let (name, format) = match kind {
         Kind::Depth => ("water/foam/depth", vk::Format::R32_SFLOAT),
-        Kind::Thickness => ("water/foam/thickness", thickness_format(config)),
+        Kind::Thickness => ("water/foam/thickness", vk::Format::R32G32B32A32_SFLOAT),
     };
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::STORAGE
@@ -158,11 +159,6 @@ impl Blended {
     }
 }
 
-/// With room for what the sun lights, where something casts shadows on foam.
-pub fn thickness_format(config: &Config) -> vk::Format {
-    if lit(config) { vk::Format::R32G32B32A32_SFLOAT } else { vk::Format::R32G32_SFLOAT }
-}
-
 /// Whether there are shadows of the sprites: a mask's are the pixels'.
 fn lit(config: &Config) -> bool {
     config.cast.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
@@ -198,7 +194,7 @@ impl Splats {
     fn sized(gpu: &Gpu, config: &Config) -> Result<(Image, Image, Buffer), Error> {
         let image = |kind| Image::new(gpu, &desc(config, kind));
         let (depth, thickness) = (image(Kind::Depth)?, image(Kind::Thickness)?);
-        let bytes = if lit(config) { 20 } else { 16 };
+        let bytes = if lit(config) { 24 } else { 20 };
         let bytes = bytes * u64::from(depth.extent.width) * u64::from(depth.extent.height);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let words = Buffer::new(gpu, "water/foam/words", bytes, usage, MemoryLocation::GpuOnly)?;

@@ -37,7 +37,6 @@ use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
-pub(crate) use foam::thickness_format as foam_format;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule,

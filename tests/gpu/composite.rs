@@ -131,6 +131,7 @@ pub struct Cases {
     part_rim: usize,
     rim: usize,
     steep_rim: usize,
+    beside: usize,
     alone: usize,
     drop: usize,
     part_drop: usize,
@@ -146,6 +147,7 @@ impl Cases {
             Case::PartRim => &mut self.part_rim,
             Case::Rim => &mut self.rim,
             Case::SteepRim => &mut self.steep_rim,
+            Case::Beside => &mut self.beside,
             Case::Alone => &mut self.alone,
         } += 1;
         self.drop += usize::from(parts.drop == 1.0);
@@ -161,6 +163,7 @@ impl std::ops::AddAssign for Cases {
         self.part_rim += other.part_rim;
         self.rim += other.rim;
         self.steep_rim += other.steep_rim;
+        self.beside += other.beside;
         self.alone += other.alone;
         self.drop += other.drop;
         self.part_drop += other.part_drop;
@@ -336,8 +339,9 @@ fn every_rule_of_the_surface() {
             all += check(&name, &mut rig, &shot, Sky::Even);
         }
     }
-    let Cases { whole, part_rim, rim, steep_rim, alone, drop, part_drop, borrowed, .. } = all;
-    let least = [whole, part_rim, rim, steep_rim, alone, drop, part_drop, borrowed];
+    let Cases { whole, part_rim, rim, steep_rim, beside, alone, drop, part_drop, borrowed, .. } =
+        all;
+    let least = [whole, part_rim, rim, steep_rim, beside, alone, drop, part_drop, borrowed];
     assert!(least.iter().all(|pixels| *pixels >= 20), "{all:?}");
 }
 

@@ -1,7 +1,7 @@
 //! Pass `foam`: sprites against the twin, what is foam is no water, and the picture with foam.
 
 use glam::{DVec2, DVec3};
-use whitewater::water::{Ladder, Shading, Splat};
+use whitewater::water::{Fresnel, Ladder, Medium, Shading, Splat};
 use whitewater::{Config, Particles};
 
 use crate::depth::spheres;
@@ -121,12 +121,12 @@ fn wide(image: &Image<f32>) -> Image<f64> {
     image.map(|d| if *d < 1e9 { f64::from(*d) } else { EMPTY })
 }
 
-/// Depth and both thicknesses of a frame are the twin's.
+/// Depth and thicknesses of a frame are the twin's.
 fn check(name: &str, case: &Foamy, drawn: &Drawn, level: u32) {
     check_sprites(name, case, &case.sprites(), drawn, level);
 }
 
-/// And what of the second the sun lights, if the frame has it.
+/// Of sprites in the light that they say.
 pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn, level: u32) {
     let (shot, found) = (&case.shot, of(drawn));
     let (view, settings) = (shot.view(shot.size), case.settings());
@@ -134,15 +134,14 @@ pub fn check_sprites(name: &str, case: &Foamy, sprites: &[Sprite], drawn: &Drawn
     let bounds = foam::depth_bounds(sprites, &view, level, &settings, &scene);
     compare::between(&format!("{name}-depth"), &found.depth, &bounds);
     let depth = Between { low: wide(&found.depth), high: wide(&found.depth) };
-    let [all, front, lit] =
+    let [all, front, lit, far] =
         foam::thickness_bounds(sprites, &view, level, &settings, &scene, &depth);
     for (i, bounds) in [all, front].iter().enumerate() {
         let found = found.thickness.map(|t| t[i]);
         compare::between(&format!("{name}-thickness-{i}"), &found, bounds);
     }
-    if let Some(found) = &found.lit {
-        compare::between(&format!("{name}-lit"), found, &lit);
-    }
+    compare::between(&format!("{name}-lit"), &found.lit, &lit);
+    compare::between(&format!("{name}-far"), &found.far, &far);
 }
 
 #[test]
@@ -357,6 +356,108 @@ fn foam_covers_what_is_behind_it() {
             / std::f64::consts::PI;
         let found = f64::from(over.output.data[centre][0]);
         assert!((found - white).abs() < 1e-4, "{found} is not the front colour, {white}");
+    }
+}
+
+/// Metres of the water behind the frontmost foam that lie before the middle of all, by the layers of a frame at full
+/// resolution; `after`: all of it.
+fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f64 {
+    let found = of(drawn);
+    let [all, _] = found.thickness.at(x, y).map(f64::from);
+    let [far, frontmost, surface] =
+        [&found.far, &found.depth, &drawn.surface].map(|image| f64::from(image.at(x, y)));
+    if all == 0.0 || after <= 0.0 {
+        return 0.0;
+    }
+    let far = far / all;
+    let behind = spacing * far * (1.0 + 1.0 / (1.0 - far));
+    let wet = (behind - (surface - frontmost).max(0.0)).max(0.0);
+    (wet * after / (after + all)).min(after)
+}
+
+/// A pool that faces the eye, foam deep in it, and a veil of another foam that floats before a part of it.
+fn veiled(size: ash::vk::Extent2D) -> Foamy {
+    let mut case = Foamy::new(size, Lens::Standard, 0.0);
+    let mut points = scenes::block(3, 0.2, [22, 16, 14], [-2.1, -1.5, 2.6]);
+    let pool = points.len();
+    let deep = scenes::block(3, 0.25, [10, 6, 1], [-1.2, -0.6, 4.6]);
+    points.extend(&deep);
+    points.extend((0..12).map(|i| [-0.5 + 0.11 * i as f32, -0.1, 2.45]));
+    case.shot.positions = scenes::world(&case.shot.camera, &points);
+    case.amounts = vec![[0.0; 2]; pool];
+    case.amounts.extend(vec![[1.0, 0.0]; deep.len()]);
+    case.amounts.extend([[0.13, 0.0]; 12]);
+    case.velocities = vec![[0.0; 3]; points.len()];
+    case.ids = None;
+    let water = &mut case.shot.settings.water;
+    (water.refraction, water.specular) = (0.0, 0.0);
+    water.fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };
+    water.medium = Medium::Physical { absorption: [0.9, 0.4, 0.2], scattering: [0.1, 0.2, 0.3] };
+    let look = &mut case.shot.settings.foam;
+    (look.noise, look.relief, look.veil) = (0.0, 0.0, 0.0);
+    (look.extinction, look.front_extinction, look.front_depth) = (2.0, 5.0, 1.0);
+    (look.back_color, look.front_color) = ([0.7, 0.6, 0.5], [0.9, 0.8, 0.7]);
+    case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+    case
+}
+
+/// Foam under a veil has the water before it that is there: by hand, from the layers.
+#[test]
+fn foam_under_a_veil_lies_under_water() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let config = Config {
+            composite: Some(shading),
+            output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+            thickness_level: 0,
+            smoothing_level: 0,
+            coarsening: 0,
+            sheets: 1,
+            max_particles: 6000,
+            ..foaming(size)
+        };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let case = veiled(size);
+        let drawn = case.draw(&mut rig);
+        let (found, water) = (of(&drawn), &case.shot.settings.water);
+        let view = case.shot.view(size);
+        let Medium::Physical { absorption, scattering } = water.medium else { unreachable!() };
+        let ambient = case.shot.settings.light.ambient.map(f64::from);
+        let mut deep = 0;
+        for (i, color) in drawn.output.data.iter().enumerate() {
+            let (x, y) = (i % 97, i / 97);
+            if drawn.depth.data[i] >= 1e9 || found.depth.data[i] >= 1e9 {
+                continue;
+            }
+            let [all, layer] = found.thickness.data[i].map(f64::from);
+            let t = f64::from(drawn.thickness.data[i]);
+            let before = f64::from(found.before.data[i]).min(t);
+            let between = between(&drawn, (x, y), case.settings().spacing, t - before);
+            deep += usize::from(all > 0.01 && between > 0.5 && before < 0.1);
+            let long = view.ray(x, y).length();
+            let back = (-5.0 * layer).exp();
+            for c in 0..3 {
+                let extinction = f64::from(absorption[c]) + f64::from(scattering[c]);
+                let through = |color: f64, metres: f64| {
+                    let kept = (-extinction * metres * long).exp();
+                    let albedo = f64::from(scattering[c]) / extinction;
+                    color * kept + ambient[c] * albedo * (1.0 - kept)
+                };
+                let over = |color: f64, metres: f64| {
+                    let foam = [0.9, 0.8, 0.7][c] + [-0.2, -0.2, -0.2][c] * back;
+                    foam + (color - foam) * (-2.0 * metres).exp()
+                };
+                let scene = f64::from(case.shot.color[i][c]);
+                let behind = through(scene, t - before - between);
+                let expected = through(over(behind, all), before + between);
+                // Metres in exponents of a few; of a mean of distances, which is a quotient of a difference.
+                let bound = 400.0 * U * (1.0 + expected);
+                let found = f64::from(color[c]);
+                assert!((found - expected).abs() <= bound, "({x}, {y}) {c}: {found}, {expected}");
+            }
+        }
+        assert!(deep > 100, "{deep} pixels with foam under a veil");
     }
 }
 
@@ -666,20 +767,23 @@ fn the_ladder_adds_a_layer_a_rung() {
             case.draw(&mut rig)
         });
         let found = of(&whole);
-        let (mut parted, mut shone) = (0, 0);
+        let (mut parted, mut shone, mut deep) = (0, 0, 0);
         for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
             if whole.depth.at(x, y) >= 1e9 {
                 continue;
             }
             let [all, before] = [&whole.thickness, &found.before].map(|t| f64::from(t.at(x, y)));
             let before = before.min(all);
-            let [t, near] = found.thickness.at(x, y).map(f64::from);
+            let [t, layer] = found.thickness.at(x, y).map(f64::from);
             let long = view.ray(x, y).length();
             let kept = (-2.0 * t).exp();
             let much = match power {
-                0.0 => 1.0 - (-3.0 * near).exp(),
-                p => (near / 1.5).clamp(1e-6, 1.0).powf(f64::from(p)),
+                0.0 => 1.0 - (-3.0 * layer).exp(),
+                p => (layer / 1.5).clamp(1e-6, 1.0).powf(f64::from(p)),
             };
+            let between = between(&whole, (x, y), case.settings().spacing, all - before);
+            deep += usize::from(t > 0.01 && between > 0.02);
+            let before = before + between;
             parted += usize::from(before > 0.02 && all - before > 0.02 && kept < 0.9);
             for i in 0..3 {
                 let thin = f64::from([0.2_f32, 0.3, 0.4][i]);
@@ -705,6 +809,9 @@ fn the_ladder_adds_a_layer_a_rung() {
                 shone += usize::from(of(&whole) > of(&front) + 1e-3);
             }
         }
-        assert!(parted > 100 && shone > 100, "{power}: {parted} parted, {shone} lit");
+        assert!(
+            parted > 100 && shone > 100 && deep > 20,
+            "{power}: {parted} parted, {shone} lit, {deep} deep"
+        );
     }
 }

@@ -67,7 +67,9 @@ pub enum Case {
     /// Hardly any that is not, and the slope is kept or cut.
     Rim,
     SteepRim,
-    /// None on its surface.
+    /// None on its surface but the next to them.
+    Beside,
+    /// Nor that.
     Alone,
 }
 
@@ -98,10 +100,22 @@ fn texels(z: &Image<f64>, threshold: f64) -> Image<Texel> {
     Image::from_fn(z.width, z.height, |x, y| {
         let all =
             |dx: isize, dy: isize| Some(z.checked(x as isize + dx, y as isize + dy)? - z.at(x, y));
-        let rise = |dx, dy| all(dx, dy).filter(|rise| rise.abs() <= threshold);
-        let round = [all(-1, 0), all(1, 0), all(0, -1), all(0, 1)];
-        let margins = round.iter().flatten().map(|rise| (rise.abs() - threshold).abs());
-        let axes = [[rise(-1, 0).map(|r| -r), rise(1, 0)], [rise(0, -1).map(|r| -r), rise(0, 1)]];
+        let near = |by: f64| by.abs() <= threshold;
+        // Towards both sides of an axis: near, or straight on from the other side, which is.
+        let both = |dx: isize, dy: isize| {
+            let sides = [all(-dx, -dy).map(|r| -r), all(dx, dy)];
+            let straight = sides[0].zip(sides[1]).is_some_and(|(a, b)| near(b - a));
+            let on = |own: usize| {
+                let other = sides[1 - own].is_some_and(near);
+                sides[own].filter(|rise| near(*rise) || straight && other)
+            };
+            ([on(0), on(1)], sides)
+        };
+        let ((x_axis, x_sides), (y_axis, y_sides)) = (both(1, 0), both(0, 1));
+        let turns = [x_sides, y_sides].map(|s| s[0].zip(s[1]).map(|(a, b)| b - a));
+        let rises = x_sides.into_iter().chain(y_sides).chain(turns).flatten();
+        let margins = rises.map(|rise| (rise.abs() - threshold).abs());
+        let axes = [x_axis, y_axis];
         let mean = |sides: [Option<f64>; 2], of: fn(f64) -> f64| {
             let there: Vec<f64> = sides.into_iter().flatten().map(of).collect();
             there.iter().sum::<f64>() / there.len().max(1) as f64
@@ -159,7 +173,8 @@ impl<'a> Surfaces<'a> {
     }
 
     /// The texels of the smoothed image that a pixel of a depth sees, their weights of sum 1, and how
-    /// many they are on its surface; where none is, the nearest in depth. And what they weighed.
+    /// many they are on its surface; where none is, the one beside them that is, or the nearest in
+    /// depth. And what they weighed.
     fn seen(
         &self,
         x: usize,
@@ -178,9 +193,41 @@ impl<'a> Surfaces<'a> {
             return (own, case, sum);
         }
         let away = |t: &&(usize, usize, f64)| (z.at(t.0, t.1) - depth).abs();
+        if let Some((i, j)) = self.beside(x, y, depth, margin) {
+            return (vec![(i, j, 1.0)], Case::Beside, 0.0);
+        }
         let nearest = all.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let (i, j, _) = *nearest.expect("a tent touches a texel");
         (vec![(i, j, 1.0)], Case::Alone, 0.0)
+    }
+
+    /// Of the texels on a pixel's surface that lie up to half a texel outside the tent about it along
+    /// one axis, and inside it along the other, the nearest in depth. Not at full resolution.
+    fn beside(&self, x: usize, y: usize, depth: f64, margin: &mut f64) -> Option<(usize, usize)> {
+        let (z, level) = (self.inputs.smoothed, self.inputs.level);
+        let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / f64::from(1 << level);
+        let mut best: Option<(f64, (usize, usize))> = None;
+        let about = |at: f64, n: usize| (at as usize).saturating_sub(2)..n.min(at as usize + 3);
+        for j in about(at.y, z.height).filter(|_| level > 0) {
+            for i in about(at.x, z.width) {
+                let off = (DVec2::new(i as f64 + 0.5, j as f64 + 0.5) - at).abs();
+                let next = |a: f64, b: f64| a < 1.0 && b > 1.0 && b < 1.5;
+                if !(next(off.x, off.y) || next(off.y, off.x)) {
+                    continue;
+                }
+                let away = (z.at(i, j) - depth).abs();
+                if !self.near(z.at(i, j), depth, margin) {
+                    continue;
+                }
+                if let Some((least, _)) = best {
+                    *margin = margin.min((away - least).abs());
+                }
+                if best.is_none_or(|(least, _)| away < least) {
+                    best = Some((away, (i, j)));
+                }
+            }
+        }
+        best.map(|(_, texel)| texel)
     }
 
     /// The smoothed surface in a pixel of a depth.
@@ -188,6 +235,15 @@ impl<'a> Surfaces<'a> {
         let (seen, mut case, covered) = self.seen(x, y, depth, margin);
         if case == Case::Alone {
             let slope = [DVec2::ZERO; 2];
+            return Smooth { z: depth, slope, case, found: 0.0 };
+        }
+        if case == Case::Beside {
+            let texel = self.smoothed.at(seen[0].0, seen[0].1);
+            *margin = margin.min(texel.margin);
+            let mut slope = texel.slope;
+            if !texel.whole {
+                slope[0] = self.not_steep(slope[0], depth, self.inputs.level);
+            }
             return Smooth { z: depth, slope, case, found: 0.0 };
         }
         let z: f64 = seen.iter().map(|t| t.2 * self.inputs.smoothed.at(t.0, t.1)).sum();

@@ -1,7 +1,7 @@
 //! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
 
 use ash::vk;
-use whitewater::water::{Gate, Shading, Shadows, Smoothing};
+use whitewater::water::{Gate, Shading, Smoothing};
 use whitewater::{Config, Enabled, Error, Renderer, Slot};
 
 use crate::support::device::Gpu;
@@ -37,7 +37,6 @@ fn what_a_device_lacks_is_named() {
     let raster = Config { depth_splat: Some(whitewater::water::Splat::Raster), ..config };
     let foam = Config { foam: true, ..config };
     let convolving = |bits| Config { shadow: convolved(8, bits), ..config };
-    let lit_foam = Config { shadow: Some(Shadows::Map), ..foam };
     let motion = Config { motion: true, ..config };
     let noise = Config { noise: Some(1), ..config };
     let unsummed = whitewater::Offer { blend_floats: false, foam_floats: false, ..offer };
@@ -56,7 +55,6 @@ fn what_a_device_lacks_is_named() {
         (whitewater::Offer { output_storage: false, ..offer }, stored, "storage use of the output"),
         (whitewater::Offer { blend_floats: false, ..offer }, raster, "R32_SFLOAT"),
         (whitewater::Offer { foam_floats: false, ..offer }, foam, "R32G32_SFLOAT"),
-        (whitewater::Offer { lit_floats: false, ..offer }, lit_foam, "R32G32B32A32_SFLOAT"),
         (whitewater::Offer { basis: [false, true], ..offer }, convolving(8), "R8G8B8A8_SNORM"),
         (
             whitewater::Offer { basis: [true, false], ..offer },
@@ -78,9 +76,6 @@ fn what_a_device_lacks_is_named() {
     }
     let unblended = whitewater::Offer { blend_floats: false, ..offer };
     unblended.check(&config).expect("the compute paths need no blending");
-    let masked = Config { shadow: Some(Shadows::Mask), ..foam };
-    let unlit = whitewater::Offer { lit_floats: false, ..offer };
-    unlit.check(&masked).expect("a mask is the pixels', not the sprites'");
     let unfoamed = whitewater::Offer { foam_floats: false, ..offer };
     unfoamed.check(&raster).expect("water needs nothing of foam's");
     let other = whitewater::Offer { basis: [true, false], ..offer };
@@ -139,7 +134,7 @@ fn memory_is_as_documented() {
         let (pixels, n) = (f64::from(width * height), f64::from(count));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
         // The light's maps, and a lit scene in place of the copied one, which is of half precision
-        // too; in a texel of foam 8 bytes more, and a sum.
+        // too; in a texel of foam a sum more.
         let ways = [(None, false), (Some(256), false), (Some(256), true), (Some(1024), false)];
         for (cast, foam) in ways.into_iter().filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
@@ -151,7 +146,7 @@ fn memory_is_as_documented() {
             unsafe { renderer.destroy() };
             let maps = cast.map_or(0.0, |n| 36.0 * f64::from(n * n));
             let found = (memory.images + memory.buffers) as f64;
-            let lit = if cast.is_some() && foam { 0.75 * pixels } else { 0.0 };
+            let lit = if cast.is_some() && foam { 0.25 * pixels } else { 0.0 };
             let said = needed(width, height, count, (2, 3, foam, false)) + maps + lit;
             let off = (found - said).abs();
             assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}, {foam}: {found}, said {said}");
@@ -196,17 +191,17 @@ fn memory_is_as_documented() {
         }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
         // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
-        // Foam: of a texel 4 bytes of depth, 8 of thickness, 4 of water before it, sums of 8 each and two
-        // depths beside its own.
+        // Foam: of a texel 4 bytes of depth, 16 of thickness, 4 of water before it and its sum of 8, and three
+        // sums and two depths beside each other.
         for (sheets, coarsening, foam, spray, smoothing, more) in [
             (1, 3, false, false, 4.5, 0.0),
             (1, 0, false, false, 3.0, 0.0),
             (2, 3, false, false, 4.5, 2.5),
             (2, 0, false, false, 4.5, 2.5),
-            (1, 3, true, false, 4.5, 2.5),
-            (2, 3, true, false, 4.5, 5.0),
+            (1, 3, true, false, 4.5, 3.25),
+            (2, 3, true, false, 4.5, 5.75),
             (1, 3, false, true, 4.5, 4.0),
-            (2, 3, true, true, 4.5, 9.0),
+            (2, 3, true, true, 4.5, 9.75),
         ]
         .into_iter()
         .step_by(if whole { 1 } else { 7 })

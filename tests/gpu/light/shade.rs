@@ -76,7 +76,6 @@ pub fn check_foam(
     mask: impl Fn((usize, usize)) -> f64,
 ) {
     let (settings, foam) = (&case.shot.settings, drawn.foam.as_ref().expect("foam"));
-    assert_eq!(foam.lit.is_some(), sun.is_some(), "{name}");
     let mut sprites = case.sprites();
     let mut sharp = 0;
     for (sprite, position) in sprites.iter_mut().zip(&case.shot.positions) {
@@ -101,7 +100,7 @@ pub fn check_foam(
             continue;
         }
         seen_foam += 1;
-        let lit = foam.lit.as_ref().map_or(front, |lit| lit.data[i]);
+        let lit = foam.lit.data[i];
         let sun = exact(mask((x, y))) * off(f64::from(lit) / f64::from(front), 4.0);
         let sun = sun.clamp(0.0, 1.0);
         kinds[((3.0 * sun.v) as usize).min(2)] += 1;

@@ -77,8 +77,8 @@ pub fn depth_bounds(
     Between { low, high }
 }
 
-/// Bounds of both channels of [`thickness`], and of what of the second the sun lights, for single
-/// precision, of sums in any order. What may or
+/// Bounds of all foam in [`thickness`], of the front layer, of what of that the sun lights, and of all by
+/// how far behind the nearest it lies, for single precision, of sums in any order. What may or
 /// may not be there, by the ellipse's rim, the scene or the depth of the foam, is left out of `low`
 /// and in `high`. `foam_depth`: that of [`depth_bounds`], or twice the image itself if it is known.
 pub fn thickness_bounds(
@@ -88,9 +88,9 @@ pub fn thickness_bounds(
     settings: &Settings,
     scene: &Image<f64>,
     foam_depth: &Between,
-) -> [Between; 3] {
+) -> [Between; 4] {
     let (full, view, near) = (view, &view.reduced(level), view.near());
-    let mut low = Image::new(view.width, view.height, [0.0; 3]);
+    let mut low = Image::new(view.width, view.height, [0.0; 4]);
     let mut high = low.clone();
     let mut count = Image::new(view.width, view.height, 0.0);
     for (sprite, foam, drawn) in maybe_drawn(sprites, full) {
@@ -136,10 +136,20 @@ pub fn thickness_bounds(
                 };
                 let front = [surely * least, maybe * most];
                 let lit = [front[0] * darkest, front[1] * brightest];
-                Some(([least, front[0], lit[0]], [most, front[1], lit[1]], hit.sure))
+                // The differences are rounded by 4u of what they are of, the sum, the quotient and the
+                // product by 5u.
+                let far = |sign: f64, there: f64| {
+                    let off = hit.k.e + 4.0 * U * (hit.k.v.abs() + there + settings.spacing);
+                    let behind = if is_surface(there) { hit.k.v - there + sign * off } else { 0.0 };
+                    settings.far(behind) * (1.0 + sign * 5.0 * U)
+                };
+                let far = [far(-1.0, farthest) * least, far(1.0, nearest) * most];
+                let least = [least, front[0], lit[0], far[0]];
+                let most = [most, front[1], lit[1], far[1]];
+                Some((least, most, hit.sure))
             });
             let Some((least, most, sure)) = found else { continue };
-            for i in 0..3 {
+            for i in 0..4 {
                 let least = if sure && drawn { least[i] } else { 0.0 };
                 low.at_mut(x, y)[i] += settings.in_steps(least, -1.0);
                 high.at_mut(x, y)[i] += settings.in_steps(most[i], 1.0);
@@ -147,8 +157,8 @@ pub fn thickness_bounds(
             *count.at_mut(x, y) += 1.0;
         }
     }
-    [0, 1, 2].map(|i| {
-        let sum = |sums: &Image<[f64; 3]>, sign: f64| Image {
+    [0, 1, 2, 3].map(|i| {
+        let sum = |sums: &Image<[f64; 4]>, sign: f64| Image {
             width: sums.width,
             height: sums.height,
             data: (sums.data.iter().zip(&count.data))

@@ -35,8 +35,9 @@ pub fn depth(
     depth
 }
 
-/// The thickness of foam along z in each texel, world units: of all, and of what lies no further
-/// than [`Settings::front_depth`] behind `foam_depth`, which is that of [`depth`].
+/// The thickness of foam along z in each texel, world units: of all, of what lies no further
+/// than [`Settings::front_depth`] behind `foam_depth`, which is that of [`depth`], and of all times how far
+/// behind that it lies. Where there is no depth all lies further than the former, and is not far.
 pub fn thickness(
     sprites: &[Sprite],
     view: &View,
@@ -44,9 +45,9 @@ pub fn thickness(
     settings: &Settings,
     scene: &Image<f64>,
     foam_depth: &Image<f64>,
-) -> Image<[f64; 2]> {
+) -> Image<[f64; 3]> {
     let (view, near) = (&view.reduced(level), view.near());
-    let mut thickness = Image::new(view.width, view.height, [0.0; 2]);
+    let mut thickness = Image::new(view.width, view.height, [0.0; 3]);
     for sprite in sprites {
         let Some(foam) = sprite.part_beyond(near) else { continue };
         let (ellipse, torn) = Ellipse::thick(sprite, view, settings);
@@ -63,6 +64,7 @@ pub fn thickness(
             let texel = thickness.at_mut(x, y);
             texel[0] += value;
             texel[1] += value * front;
+            texel[2] += value * settings.far(hit.k - nearest);
         }
     }
     thickness

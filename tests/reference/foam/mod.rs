@@ -117,6 +117,12 @@ impl Settings {
         1.0 - smoothstep(self.front_depth, self.front_depth + self.spacing, behind)
     }
 
+    /// How far what lies so far behind the nearest foam is, 0 to 1: `d / (d + s)`, d less a spacing s.
+    fn far(&self, behind: f64) -> f64 {
+        let past = (behind - self.spacing).max(0.0);
+        past / (past + self.spacing)
+    }
+
     /// How much of a sprite there still is so far before the scene: it sinks into it within half a
     /// spacing.
     fn sunk(&self, before: f64) -> f64 {

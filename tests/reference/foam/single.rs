@@ -98,14 +98,14 @@ impl Single {
         self.amplitude * kernel * torn.max(0.0)
     }
 
-    /// The depth and both channels of the thickness.
+    /// The depth and the channels of the thickness.
     fn draw(
         world: &[Sprite],
         view: &View,
         level: u32,
         settings: &Settings,
         scene: &Image<f64>,
-    ) -> [Image<f32>; 3] {
+    ) -> [Image<f32>; 4] {
         let reduced = view.reduced(level);
         let all = |thickness: bool| -> Vec<Self> {
             world.iter().map(|s| Self::new(s, view, settings, &reduced, thickness)).collect()
@@ -116,7 +116,7 @@ impl Single {
             let hits = flat.iter().filter_map(|s| s.meet(&reduced, x, y, scene));
             hits.map(|hit| hit.0).fold(1e10, f32::min)
         });
-        let mut sums = [0, 1].map(|_| Image::new(reduced.width, reduced.height, 0.0_f32));
+        let mut sums = [0, 1, 2].map(|_| Image::new(reduced.width, reduced.height, 0.0_f32));
         for (x, y) in (0..reduced.height).flat_map(|y| (0..reduced.width).map(move |x| (x, y))) {
             let nearest = depth.at(x, y);
             for (single, sprite) in thick.iter().zip(world) {
@@ -125,23 +125,24 @@ impl Single {
                 let before = (scene_depth(scene) as f32 - k) / (0.5 * settings.spacing as f32);
                 let value = single.value(sprite, at, settings) * before.min(1.0);
                 *sums[0].at_mut(x, y) += value;
-                if nearest < 1e9 {
-                    let end = settings.front_depth as f32;
-                    let t = ((k - nearest - end) / settings.spacing as f32).clamp(0.0, 1.0);
-                    *sums[1].at_mut(x, y) += value * (1.0 - t * t * (3.0 - 2.0 * t));
-                }
+                let (end, spacing) = (settings.front_depth as f32, settings.spacing as f32);
+                let t = ((k - nearest - end) / spacing).clamp(0.0, 1.0);
+                let front = if nearest < 1e9 { 1.0 - t * t * (3.0 - 2.0 * t) } else { 0.0 };
+                *sums[1].at_mut(x, y) += value * front;
+                let past = (k - nearest - spacing).max(0.0);
+                *sums[2].at_mut(x, y) += value * (past / (past + spacing));
             }
         }
-        let [all, front] = sums;
-        [depth, all, front]
+        let [all, front, far] = sums;
+        [depth, all, front, far]
     }
 }
 
 /// How much of their bounds single precision makes use of, and how wide they are.
 #[derive(Default)]
 pub(super) struct Use {
-    pub(super) worst: [f64; 3],
-    pub(super) widths: [Vec<f64>; 3],
+    pub(super) worst: [f64; 4],
+    pub(super) widths: [Vec<f64>; 4],
     pub(super) open: [usize; 2],
 }
 
@@ -164,11 +165,11 @@ impl Use {
         let sprites: Vec<Sprite> = world.iter().map(to_eye).collect();
         let twin = depth(&sprites, view, level, settings, scene);
         let sums = thickness(&sprites, view, level, settings, scene, &twin);
-        let [all, front] = [0, 1].map(|i| sums.map(|t| t[i]));
+        let [all, front, far] = [0, 1, 2].map(|i| sums.map(|t| t[i]));
         let bounds = depth_bounds(&sprites, view, level, settings, scene);
-        let [a, b, _] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
+        let [a, b, _, c] = thickness_bounds(&sprites, view, level, settings, scene, &bounds);
         let single = Single::draw(world, view, level, settings, scene);
-        let images = [twin, all, front].into_iter().zip(single).zip([bounds, a, b]);
+        let images = [twin, all, front, far].into_iter().zip(single).zip([bounds, a, b, c]);
         for (i, ((twin, single), bounds)) in images.enumerate() {
             for (at, (low, high)) in bounds.low.data.iter().zip(&bounds.high.data).enumerate() {
                 let found = f64::from(single.data[at]);

@@ -93,8 +93,10 @@ pub struct Foaming {
     pub depth: Image<f32>,
     /// Of all foam, and of what lies right behind the frontmost.
     pub thickness: Image<[f32; 2]>,
-    /// What of the second the sun lights, where something casts shadows.
-    pub lit: Option<Image<f32>>,
+    /// What of the second the sun lights.
+    pub lit: Image<f32>,
+    /// The first, times how far behind the frontmost it lies.
+    pub far: Image<f32>,
     /// Of the water before the frontmost.
     pub before: Image<f32>,
     /// Times that all are halved.
@@ -175,7 +177,8 @@ impl Rig<'_> {
         let mut foam = Foaming {
             depth: empty(),
             thickness: Image::new(0, 0, [0.0; 2]),
-            lit: None,
+            lit: empty(),
+            far: empty(),
             before: empty(),
             level: self.config.thickness_level,
         };
@@ -208,12 +211,13 @@ impl Rig<'_> {
                     drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
                 }
                 "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
-                "foam.thickness" if layer.format == vk::Format::R32G32B32A32_SFLOAT => {
-                    let three = self.threes(layer, whole);
-                    foam.thickness = three.map(|t| [t[0], t[1]]);
-                    foam.lit = Some(three.map(|t| t[2]));
+                "foam.thickness" => {
+                    let four: Image<[f32; 4]> =
+                        picture(layer.format, layer.extent, &self.bytes(layer, whole));
+                    foam.thickness = four.map(|t| [t[0], t[1]]);
+                    foam.lit = four.map(|t| t[2]);
+                    foam.far = four.map(|t| t[3]);
                 }
-                "foam.thickness" => foam.thickness = self.pairs(layer, whole),
                 "water.thickness.sheets" => {
                     let sheets = sheets.as_mut().expect("boundaries of two sheets");
                     sheets.thickness = self.threes(layer, whole);
