@@ -346,12 +346,14 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     }
     foam.t = t.x;
     foam.depth = texels.depth;
+    // To the source all is at the frontmost.
+    float far = frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
-    // A spacing more for what is far: where that becomes the frontmost nothing changes. To the source all is at
-    // the frontmost.
-    float far = frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
-    foam.behind = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
+    // A spacing more for what is far: where that becomes the frontmost nothing changes. What hides what is behind
+    // it is seen from its front, before its middle by the room that so much foam takes among as much water.
+    float middle = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
+    foam.behind = max(middle - t.x * (1.0 - foam.kept), 0.0);
     // Or the source's other rule.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
@@ -364,15 +366,15 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
 }
 
 // Light through a sheet with foam in it and off it, whose surface lies at a depth: `before` of its t metres
-// along z are before the frontmost foam. What mirrors is the water before the foam, where there is any. Foam lies
-// where its middle is, under the water, and that in its share of both, that is there: else a thin veil would bring
-// up to it what is deep below, with its own outline. Not in the source, to which all is at the frontmost.
+// along z are before the frontmost foam. What mirrors is the water before that, where there is any. Foam lies
+// where its middle is, under the water before that: else a thin veil would bring up to it what is deep below, with
+// its own outline. Not in the source, to which all is at the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
-    float after = max(t - before, 0.0);
-    float between = max(foam.behind - max(z - foam.depth, 0.0), 0.0) * after / max(after + foam.t, 1.0e-9);
-    before = min(before + between, t);
-    float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
     float first = before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
+    // No water before its surface; but that a pixel shows no sphere of a drop says nothing of less than its width.
+    float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
+    before += max(foam.behind - apart, 0.0);
+    float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
     vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0));
     c = mix(c, sheet.mirrored, sheet.mirror * (1.0 - first)) + sheet.shine * (1.0 - first);
     c = mix(foam.color, c, foam.kept);
@@ -457,7 +459,7 @@ vec3 layers_at(vec2 pixel, float front) {
     bool behind_boundary = false;
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
-        behind_boundary = foam.depth + foam.behind >= boundary;
+        behind_boundary = foam.depth >= boundary;
         // One looks between the spheres of the front sheet, if only its foam is there.
         past = !behind_boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets is among the other.

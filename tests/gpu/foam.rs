@@ -359,8 +359,8 @@ fn foam_covers_what_is_behind_it() {
     }
 }
 
-/// Metres of the water behind the frontmost foam that lie before the middle of all, by the layers of a frame at full
-/// resolution; `after`: all of it.
+/// Metres of the water behind the frontmost foam that lie before the middle of what is seen of all, by the layers of
+/// a frame at full resolution; `after`: all of it. Of foam without a veil, of an extinction of 2.
 fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f64 {
     let found = of(drawn);
     let [all, _] = found.thickness.at(x, y).map(f64::from);
@@ -370,9 +370,10 @@ fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f
         return 0.0;
     }
     let far = far / all;
-    let behind = spacing * far * (1.0 + 1.0 / (1.0 - far));
-    let wet = (behind - (surface - frontmost).max(0.0)).max(0.0);
-    (wet * after / (after + all)).min(after)
+    let middle = spacing * far * (1.0 + 1.0 / (1.0 - far));
+    let behind = (middle - all * (1.0 - (-2.0 * all).exp())).max(0.0);
+    let wet = (behind - (surface - frontmost - 4.0 * spacing).max(0.0)).max(0.0);
+    wet.min(after)
 }
 
 /// A pool that faces the eye, foam deep in it, and a veil of another foam that floats before a part of it.

@@ -76,19 +76,20 @@ impl Tool {
         Ok(folder)
     }
 
-    /// A frame of a scene by itself: what is fast enough is foam, without what frames before have left. `more`
-    /// are further arguments.
+    /// A frame of a scene's sequence, with the foam that frames before have left. `more` are further arguments.
     pub fn frame(&self, scene: &str, frame: u32, more: &str) -> Outcome<Frame> {
         let folder = self.scene(scene)?;
-        let (exr, png) = (self.temporary("frame.exr"), self.temporary("frame.png"));
+        let [exr, png] =
+            ["exr", "png"].map(|kind| self.temporary(&format!("frame_{frame:04}.{kind}")));
         let mut arguments = vec![
             "render".to_owned(),
-            folder.join(format!("{scene}_{frame:04}.bgeo")).display().to_string(),
+            sequence(&folder, scene),
+            format!("--frames={frame}"),
             format!("--scene={}", folder.join("scene.json").display()),
             format!("--size={}x{}", SIZE.0, SIZE.1),
             format!("--sun={SUN}"),
-            format!("--output={}", exr.display()),
-            format!("--output={}", png.display()),
+            format!("--output={}", self.temporary("frame_%04d.exr").display()),
+            format!("--output={}", self.temporary("frame_%04d.png").display()),
             "--overwrite".to_owned(),
         ];
         if !more.contains("--eye") {
