@@ -49,8 +49,21 @@ pub fn clean_up_on_interrupt() {
         }
         out::note(format_args!("interrupted; finished files are kept"));
         // The lock is still held: no other thread renames or makes a file now.
-        std::process::exit(130);
+        let _ = io::stdout().flush();
+        end(130);
     });
+}
+
+/// Ends at once. The driver's threads may be at work: what it and the layers tear down at an ordinary exit would be
+/// gone under them.
+fn end(code: i32) -> ! {
+    #[cfg(unix)]
+    // SAFETY: of this process, which needs nothing after it.
+    unsafe {
+        libc::_exit(code)
+    }
+    #[cfg(not(unix))]
+    std::process::exit(code)
 }
 
 /// Takes a temporary file away where writing failed; after the renaming there is none.
