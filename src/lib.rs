@@ -132,12 +132,12 @@
 //!   limitation, Fig. 5.13).
 //! - A foam sprite turns from an ellipse along its motion into a disc smoothly, by speed and by angle;
 //!   its depth is as wide as its thickness, which ends softly, before the scene too, and of its
-//!   resolution; what is foam of a
-//!   particle is no water of it, in metres. Water before the frontmost foam is told once a fragment, not
-//!   once a particle. All of a pixel's foam is where its middle is, or its front where it hides what is behind,
-//!   under the water before that; to the thesis it is at the frontmost's depth, and a thin veil brings up what lies deep, with its own outline
-//!   (so it stays with [`water::Medium::Source`]).
-//!   Its thickness shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
+//!   resolution; what is foam of a particle is no water of it, in metres. Water before the frontmost foam
+//!   is told once a fragment, not once a particle. All of a pixel's foam is where its middle is, or its
+//!   front where it hides what is behind, under the water before that; to the thesis it is at the
+//!   frontmost's depth, and a thin veil brings up what lies deep, with its own outline (so it stays with
+//!   [`water::Medium::Source`]).
+//! - The thickness of foam shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
 //!   looks nine times a pixel, at depths that jump from sprite to sprite.
 //! - Spray is water that turns into droplets as its density falls, laid over the picture; the thesis

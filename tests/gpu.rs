@@ -20,7 +20,7 @@ mod convolution;
 mod depth;
 #[path = "gpu/environment.rs"]
 mod environment;
-#[path = "gpu/foam.rs"]
+#[path = "gpu/foam/mod.rs"]
 mod foam;
 #[path = "gpu/harness.rs"]
 mod harness;

@@ -1,6 +1,6 @@
 // What the compute path of foam has of each texel, next to each other: sums in whole steps of all foam, of what
 // in the front layer the sun does not light, of all by how far behind the frontmost it lies, and of what is behind
-// the front layer. All but the first are mostly none, and added seldom.
+// the front layer. Of many sprites all but the first are none, and not added.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;

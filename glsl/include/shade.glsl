@@ -279,12 +279,12 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
 
 // The foam in a pixel.
 struct Foam {
-    float depth; // of the frontmost, EMPTY where only thickness is left
-    float kept;  // share of the light from behind that comes through
+    float depth;  // of the frontmost, EMPTY where only thickness is left
+    float kept;   // share of the light from behind that comes through
     float behind; // metres from the frontmost to the middle of what is seen
     vec3 color;
-    float t;     // metres of it
-    vec2 water;  // where no sphere shows any, metres of water, all and before the frontmost
+    float t;      // metres of it
+    vec2 water;   // where no sphere shows any, metres of water, all and before the frontmost
 };
 
 // Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under

@@ -76,7 +76,7 @@ Splat splat_of(uint index) {
     return s;
 }
 
-// Adds to the sum of all foam, and to those after it what they get, mostly nothing. No number of sprites on one
+// Adds to the sum of all foam, and to those after it what they get, often nothing. No number of sprites on one
 // spot is too many: what comes to a word that is half full is taken out again. All in one loop: at each atomic
 // that it finds a CPU goes through the invocations one by one, whether or not they have something to add.
 void add(uint word, uvec4 steps) {

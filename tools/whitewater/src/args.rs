@@ -147,9 +147,8 @@ pub struct DrawArgs {
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
     /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
-    /// most, where there are velocities), none,
-    /// or the Weber number from which on it does. In a sequence with ids foam comes and goes in time;
-    /// frames before those that are drawn are read for it
+    /// most, where there are velocities), none, or the Weber number from which on it does. In a sequence
+    /// with ids foam comes and goes in time; frames before those that are drawn are read for it
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = foaming)]
     pub foam: Foaming,
     /// Spray, of particles too few together to be a body of water: auto (where densities are known or

@@ -49,7 +49,7 @@ pub fn clean_up_on_interrupt() {
         }
         out::note(format_args!("interrupted; finished files are kept"));
         // The lock is still held: no other thread renames or makes a file now.
-        let _ = io::stdout().flush();
+        // What was said is out: `out` flushes each time, and another thread may hold the standard output.
         end(130);
     });
 }

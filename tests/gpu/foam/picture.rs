@@ -1,0 +1,375 @@
+//! The picture with foam, by hand from its layers.
+
+use glam::{DVec2, DVec3};
+use whitewater::Config;
+use whitewater::water::{Fresnel, Ladder, Medium, Shading};
+
+use super::{Foamy, foaming, of};
+use crate::reference::smoothstep;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, extent};
+use crate::support::scenes::{self, Lens};
+use crate::support::tolerance::U;
+
+/// All at full resolution, and a picture of floats.
+fn whole(size: ash::vk::Extent2D, shading: Shading) -> Config {
+    Config {
+        composite: Some(shading),
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        smoothing_level: 0,
+        coarsening: 0,
+        ..foaming(size)
+    }
+}
+
+/// Opaque foam before all water has its own colour, whatever is behind it; foam alone lies over the
+/// scene by Beer's law; both ways of shading agree.
+#[test]
+fn foam_covers_what_is_behind_it() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let mut rig = Rig::lit(&gpu, &whole(size, shading), 1);
+        let mut case = Foamy::new(size, Lens::Standard, 10.0);
+        // A particle of foam alone, before the eye.
+        case.shot.positions = scenes::world(&case.shot.camera, &[[0.0, 0.0, 2.0]]);
+        case.amounts = vec![[1.0, 0.0]];
+        case.velocities = vec![[0.0; 3]];
+        case.ids = None;
+        let look = &mut case.shot.settings.foam;
+        (look.noise, look.relief, look.veil) = (0.0, 0.0, 0.05);
+        (look.extinction, look.front_extinction) = (3.0, 5.0);
+        (look.back_color, look.front_color) = ([0.2, 0.4, 0.6], [0.9, 0.8, 0.7]);
+        case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn);
+        let mut seen = 0;
+        for (i, [r, g, b, _]) in drawn.output.data.iter().enumerate() {
+            let scene = case.shot.color[i];
+            if found.depth.data[i] >= 1e9 {
+                assert_eq!([*r, *g, *b], [scene[0], scene[1], scene[2]], "beside the foam");
+                continue;
+            }
+            let [t, front] = found.thickness.data[i].map(f64::from);
+            seen += usize::from(t > 0.01);
+            let whole = smoothstep(0.0, f64::from(0.05_f32), t);
+            let (kept, back) = ((-3.0 * t * whole).exp(), (-5.0 * front).exp());
+            for (c, found) in [r, g, b].into_iter().enumerate() {
+                let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
+                let foam = thick + (thin - thick) * back;
+                let expected = foam + (f64::from(scene[c]) - foam) * kept;
+                // exp: 3 + 2|x| ulp; the mixes and the light a few more.
+                let bound = 40.0 * U * (1.0 + expected);
+                assert!((f64::from(*found) - expected).abs() <= bound, "{found} not {expected}");
+            }
+        }
+        assert!(seen > 100, "{seen} pixels with foam");
+        // Behind a wall of foam there is nothing to be seen.
+        let mut wall = Foamy::new(size, Lens::Standard, 0.0);
+        let block = scenes::block(3, 0.1, [40, 28, 3], [-2.0, -1.4, 2.0]);
+        wall.shot.positions = scenes::world(&wall.shot.camera, &block);
+        wall.amounts = vec![[1.0, 0.0]; block.len()];
+        wall.velocities = vec![[0.0; 3]; block.len()];
+        wall.ids = None;
+        wall.shot.settings.foam.relief = 0.0;
+        wall.shot.settings.foam.extinction = 1.0e4;
+        wall.shot.settings.foam.front_extinction = 1.0e5;
+        let over = wall.draw(&mut rig);
+        wall.shot.color.fill([7.0; 4]);
+        let other = wall.draw(&mut rig);
+        let centre = 30 * 97 + 48;
+        assert_eq!(over.output.data[centre], other.output.data[centre], "the scene shows through");
+        let white = f64::from(wall.shot.settings.foam.front_color[0])
+            * f64::from(wall.shot.settings.light.irradiance[0])
+            / std::f64::consts::PI;
+        let found = f64::from(over.output.data[centre][0]);
+        assert!((found - white).abs() < 1e-4, "{found} is not the front colour, {white}");
+    }
+}
+
+/// Metres of the water behind the frontmost foam that lie before the middle of what is seen of all, by the layers of
+/// a frame at full resolution; `after`: all of it. Of foam without a veil, of an extinction of 2.
+fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f64 {
+    let found = of(drawn);
+    let [all, _] = found.thickness.at(x, y).map(f64::from);
+    let [far, frontmost, surface] =
+        [&found.far, &found.depth, &drawn.surface].map(|image| f64::from(image.at(x, y)));
+    if all == 0.0 || after <= 0.0 {
+        return 0.0;
+    }
+    let far = far / all;
+    let middle = spacing * far * (1.0 + 1.0 / (1.0 - far));
+    let behind = (middle - all * (1.0 - (-2.0 * all).exp())).max(0.0);
+    let wet = (behind - (surface - frontmost - 4.0 * spacing).max(0.0)).max(0.0);
+    wet.min(after)
+}
+
+/// A pool that faces the eye, foam deep in it, and a veil of another foam that floats before a part of it.
+fn veiled(size: ash::vk::Extent2D) -> Foamy {
+    let mut case = Foamy::new(size, Lens::Standard, 0.0);
+    let mut points = scenes::block(3, 0.2, [22, 16, 14], [-2.1, -1.5, 2.6]);
+    let pool = points.len();
+    let deep = scenes::block(3, 0.25, [10, 6, 1], [-1.2, -0.6, 4.6]);
+    points.extend(&deep);
+    points.extend((0..12).map(|i| [-0.5 + 0.11 * i as f32, -0.1, 2.45]));
+    case.shot.positions = scenes::world(&case.shot.camera, &points);
+    case.amounts = vec![[0.0; 2]; pool];
+    case.amounts.extend(vec![[1.0, 0.0]; deep.len()]);
+    case.amounts.extend([[0.13, 0.0]; 12]);
+    case.velocities = vec![[0.0; 3]; points.len()];
+    case.ids = None;
+    let water = &mut case.shot.settings.water;
+    (water.refraction, water.specular) = (0.0, 0.0);
+    water.fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };
+    water.medium = Medium::Physical { absorption: [0.9, 0.4, 0.2], scattering: [0.1, 0.2, 0.3] };
+    let look = &mut case.shot.settings.foam;
+    (look.noise, look.relief, look.veil) = (0.0, 0.0, 0.0);
+    (look.extinction, look.front_extinction, look.front_depth) = (2.0, 5.0, 1.0);
+    (look.back_color, look.front_color) = ([0.7, 0.6, 0.5], [0.9, 0.8, 0.7]);
+    case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+    case
+}
+
+/// Foam under a veil has the water before it that is there: by hand, from the layers.
+#[test]
+fn foam_under_a_veil_lies_under_water() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let config = Config { sheets: 1, max_particles: 6000, ..whole(size, shading) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let case = veiled(size);
+        let drawn = case.draw(&mut rig);
+        let (found, water) = (of(&drawn), &case.shot.settings.water);
+        let view = case.shot.view(size);
+        let Medium::Physical { absorption, scattering } = water.medium else { unreachable!() };
+        let ambient = case.shot.settings.light.ambient.map(f64::from);
+        let mut deep = 0;
+        for (i, color) in drawn.output.data.iter().enumerate() {
+            let (x, y) = (i % 97, i / 97);
+            if drawn.depth.data[i] >= 1e9 || found.depth.data[i] >= 1e9 {
+                continue;
+            }
+            let [all, layer] = found.thickness.data[i].map(f64::from);
+            let t = f64::from(drawn.thickness.data[i]);
+            let before = f64::from(found.before.data[i]).min(t);
+            let between = between(&drawn, (x, y), case.settings().spacing, t - before);
+            deep += usize::from(all > 0.01 && between > 0.5 && before < 0.1);
+            let long = view.ray(x, y).length();
+            let back = (-5.0 * layer).exp();
+            for c in 0..3 {
+                let extinction = f64::from(absorption[c]) + f64::from(scattering[c]);
+                let through = |color: f64, metres: f64| {
+                    let kept = (-extinction * metres * long).exp();
+                    let albedo = f64::from(scattering[c]) / extinction;
+                    color * kept + ambient[c] * albedo * (1.0 - kept)
+                };
+                let over = |color: f64, metres: f64| {
+                    let foam = [0.9, 0.8, 0.7][c] + [-0.2, -0.2, -0.2][c] * back;
+                    foam + (color - foam) * (-2.0 * metres).exp()
+                };
+                let scene = f64::from(case.shot.color[i][c]);
+                let behind = through(scene, t - before - between);
+                let expected = through(over(behind, all), before + between);
+                // Metres in exponents of a few; of a mean of distances, which is a quotient of a difference.
+                let bound = 400.0 * U * (1.0 + expected);
+                let found = f64::from(color[c]);
+                assert!((found - expected).abs() <= bound, "({x}, {y}) {c}: {found}, {expected}");
+            }
+        }
+        assert!(deep > 100, "{deep} pixels with foam under a veil");
+    }
+}
+
+/// The last of foam before water: its thickness is wider than its depth, and shows in tiles that hold no more.
+#[test]
+fn the_last_of_foam_shows_in_every_tile() {
+    const TILE: usize = 16;
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let mut rig = Rig::lit(&gpu, &whole(size, shading), 1);
+        let mut case = Foamy::new(size, Lens::Standard, 0.0);
+        let mut block = scenes::block(3, 0.1, [40, 28, 3], [-2.0, -1.4, 2.0]);
+        block.push([0.0, 0.0, 0.6]);
+        case.shot.positions = scenes::world(&case.shot.camera, &block);
+        case.amounts = vec![[0.0; 2]; block.len()];
+        *case.amounts.last_mut().expect("a particle") = [0.06, 0.0];
+        case.velocities = vec![[0.0; 3]; block.len()];
+        case.ids = None;
+        let look = &mut case.shot.settings.foam;
+        (look.noise, look.veil, look.extinction) = (0.0, 0.0, 1.0e4);
+        let [white, black] = [0.9, 0.0].map(|albedo| {
+            let look = &mut case.shot.settings.foam;
+            (look.back_color, look.front_color) = ([albedo; 3], [albedo; 3]);
+            case.draw(&mut rig)
+        });
+        let found = of(&white);
+        let (width, height) = (size.width as usize, size.height as usize);
+        let in_tile = |x: usize, y: usize| {
+            let around = |c: usize, end: usize| {
+                (c / TILE * TILE).saturating_sub(1)..(c / TILE * TILE + TILE + 1).min(end)
+            };
+            around(y, height)
+                .any(|y| around(x, width).any(|x| found.depth.data[y * width + x] < 1e9))
+        };
+        let mut alone = 0;
+        for (i, [t, _]) in found.thickness.data.iter().enumerate() {
+            // Enough to hide all behind it.
+            if 1.0e4 * t > 10.0 {
+                let apart = white.output.data[i][1] - black.output.data[i][1];
+                assert!(apart > 0.05, "{shading:?}: no foam in pixel {i}: {apart}");
+                alone += usize::from(!in_tile(i % width, i / width));
+            }
+        }
+        assert!(alone > 20, "{alone} pixels in tiles without the foam's depth");
+    }
+}
+
+/// Foam turned to the sun is lighter, by the slope of its front layer from texel to texel.
+#[test]
+fn the_relief_of_foam_follows_the_sun() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config {
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        ..foaming(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+        let mut case = Foamy::new(size, lens, 0.0);
+        case.shot.positions = scenes::world(&case.shot.camera, &[[0.1, 0.0, 2.0]]);
+        (case.amounts, case.velocities, case.ids) = (vec![[1.0, 0.0]], vec![[0.0; 3]], None);
+        // Opaque at once.
+        (case.shot.settings.foam.extinction, case.shot.settings.foam.veil) = (1.0e6, 0.0);
+        let view = case.shot.view(size);
+        let sun = DVec3::new(-0.6, 0.48, 0.64);
+        let world = case.shot.camera_view().inverse().transform_vector3(sun);
+        case.shot.settings.light.direction = world.as_vec3().to_array();
+        case.shot.settings.foam.relief = 0.0;
+        let flat = case.draw(&mut rig);
+        case.shot.settings.foam.relief = 0.6;
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn);
+        let height = |x: usize, y: usize, i: isize, j: isize| {
+            f64::from(found.thickness.clamped(x as isize + i, y as isize + j)[1])
+        };
+        let (mut lighter, mut darker) = (0, 0);
+        for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+            let z = f64::from(found.depth.at(x, y));
+            if z >= 1e9 || height(x, y, 0, 0) < 1e-4 {
+                continue;
+            }
+            // In the middle of a texel: differences of both neighbours, of three rows.
+            let at = |i: isize, j: isize| height(x, y, i, j);
+            let three = |of: &dyn Fn(isize) -> f64| 0.125 * (of(-1) + 6.0 * of(0) + of(1));
+            let rise = DVec2::new(
+                three(&|j| 0.5 * (at(1, j) - at(-1, j))),
+                three(&|i| 0.5 * (at(i, 1) - at(i, -1))),
+            );
+            let wide = view.slope_step() * z;
+            let slope = rise / wide;
+            let normal = DVec3::new(-slope.x, -slope.y, 1.0).normalize();
+            let factor = (1.0 + 0.6 * (normal.dot(sun) - sun.z)).clamp(0.3, 1.3);
+            let expected = factor * f64::from(flat.output.at(x, y)[0]);
+            let found = f64::from(drawn.output.at(x, y)[0]);
+            // The rise is a difference of two sums; the quotients and the unit length a few u more.
+            let bound = U * (40.0 + 16.0 * height(x, y, 0, 0) / wide.abs().min_element());
+            assert!(
+                (found - expected).abs() <= bound * (1.0 + expected),
+                "{found}, not {expected}"
+            );
+            lighter += usize::from(factor > 1.02);
+            darker += usize::from(factor < 0.98);
+        }
+        assert!(lighter > 30 && darker > 30, "{lens:?}: {lighter} lighter, {darker} darker");
+    }
+}
+
+/// Each rung of the ladder against what its layers say: water behind the frontmost foam, foam by both
+/// rules of its colour, water before it; and the whole adds light.
+#[test]
+fn the_ladder_adds_a_layer_a_rung() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config {
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        smoothing_level: 0,
+        sheets: 1,
+        ..foaming(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = Foamy::new(size, Lens::OffAxis, 10.0);
+    case.shot.settings.water.refraction = 0.0;
+    let absorption = [1.5, 0.6, 0.2];
+    case.shot.settings.water.medium = Medium::Physical { absorption, scattering: [0.0; 3] };
+    let look = &mut case.shot.settings.foam;
+    (look.relief, look.veil, look.extinction, look.front_extinction) = (0.0, 0.0, 2.0, 3.0);
+    (look.front_depth, look.back_color, look.front_color) = (1.5, [0.2, 0.3, 0.4], [0.9, 0.8, 0.7]);
+    case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+    let view = case.shot.view(size);
+    for power in [0.0, 1.0, 2.5] {
+        case.shot.settings.foam.front_power = power;
+        let [scene, back, foam, front, whole] = [
+            Ladder::Background,
+            Ladder::BackWater,
+            Ladder::Foam,
+            Ladder::FrontWater,
+            Ladder::Whole,
+        ]
+        .map(|rung| {
+            case.shot.settings.ladder = rung;
+            case.draw(&mut rig)
+        });
+        let found = of(&whole);
+        let (mut parted, mut shone, mut deep) = (0, 0, 0);
+        for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+            if whole.depth.at(x, y) >= 1e9 {
+                continue;
+            }
+            let [all, before] = [&whole.thickness, &found.before].map(|t| f64::from(t.at(x, y)));
+            let before = before.min(all);
+            let [t, layer] = found.thickness.at(x, y).map(f64::from);
+            let long = view.ray(x, y).length();
+            let kept = (-2.0 * t).exp();
+            let much = match power {
+                0.0 => 1.0 - (-3.0 * layer).exp(),
+                p => (layer / 1.5).clamp(1e-6, 1.0).powf(f64::from(p)),
+            };
+            let between = between(&whole, (x, y), case.settings().spacing, all - before);
+            deep += usize::from(t > 0.01 && between > 0.02);
+            let before = before + between;
+            parted += usize::from(before > 0.02 && all - before > 0.02 && kept < 0.9);
+            for i in 0..3 {
+                let thin = f64::from([0.2_f32, 0.3, 0.4][i]);
+                let color = thin + (f64::from([0.9_f32, 0.8, 0.7][i]) - thin) * much;
+                let of = |drawn: &Drawn| f64::from(drawn.output.at(x, y)[i]);
+                let lost = |c: f64, t: f64| c * (-f64::from(absorption[i]) * t * long).exp();
+                let c0 = f64::from(case.shot.color[y * 97 + x][i]);
+                let c1 = lost(c0, all - before);
+                let c2 = color + (c1 - color) * kept;
+                let c3 = lost(c2, before);
+                // Exponentials of at most a few, 3 + 2|x| ulp each; the power's logarithm 16 ulp
+                // times its exponent; quotients and mixes a few more.
+                let bound = 400.0 * U * (1.0 + c0);
+                for (name, drawn, expected) in [
+                    ("scene", &scene, c0),
+                    ("back", &back, c1),
+                    ("foam", &foam, c2),
+                    ("front", &front, c3),
+                ] {
+                    let off = (of(drawn) - expected).abs();
+                    assert!(off <= bound, "{name} {power} {x} {y}: {} not {expected}", of(drawn));
+                }
+                shone += usize::from(of(&whole) > of(&front) + 1e-3);
+            }
+        }
+        assert!(
+            parted > 100 && shone > 100 && deep > 20,
+            "{power}: {parted} parted, {shone} lit, {deep} deep"
+        );
+    }
+}
