@@ -48,7 +48,7 @@
 //! water and foam it is the surface's own motion, by the velocities of the particles near it, not that of
 //! what is seen through it; of the scene, which stands still for it, the camera's. An engine that has
 //! vectors of its own moving things takes ours where there is water: where `water.depth` or
-//! `foam.depth` (which has the thickness' resolution) is less than 1e10.
+//! `water.foam` (which has the thickness' resolution) is less than 1e10.
 //!
 //! # Promises
 //!

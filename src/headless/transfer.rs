@@ -157,7 +157,7 @@ impl Headless {
     /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
     /// smoothing come at the finest resolution in use; `water.back` is the smoothed back sheet, and
     /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`, and
-    /// `foam.thickness.front`, what lies right behind the frontmost, of `foam.thickness`, and
+    /// `water.foam.front`, what lies right behind the frontmost, of `water.foam.thickness`, and
     /// `motion.X` and `motion.Y` of `motion`.
     ///
     /// # Errors
@@ -166,7 +166,7 @@ impl Headless {
         let image = match name {
             "water.back" => "water.surface",
             "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
-            "foam.thickness.front" => "foam.thickness",
+            "water.foam.front" => "water.foam.thickness",
             "motion.X" | "motion.Y" => "motion",
             name => name,
         };
@@ -186,7 +186,7 @@ impl Headless {
             area.extent = vk::Extent2D { width: width as u32, height: height as u32 };
         }
         let channel = match name {
-            "water.thickness.back" | "foam.thickness.front" | "motion.Y" => 1,
+            "water.thickness.back" | "water.foam.front" | "motion.Y" => 1,
             _ => 0,
         };
         if layer.format == vk::Format::R32G32B32A32_SFLOAT {

@@ -317,14 +317,14 @@ impl Water {
             layers.push(layer("water.thickness.sheets", sheets, self.thickness.level, access));
         }
         if let Some(foam) = &self.foam {
-            layers.push(layer("foam.depth", foam.depth(), foam.level, foam::AFTER));
-            layers.push(layer("foam.thickness", foam.thickness(), foam.level, foam::AFTER));
+            layers.push(layer("water.foam", foam.depth(), foam.level, foam::AFTER));
+            layers.push(layer("water.foam.thickness", foam.thickness(), foam.level, foam::AFTER));
         }
         if let Some(spray) = &self.spray {
-            layers.push(layer("spray", spray.image(), 0, spray::AFTER));
+            layers.push(layer("water.spray", spray.image(), 0, spray::AFTER));
         }
         if let Some(noise) = &self.noise {
-            layers.push(layer("noise", noise.image(), noise.level, access));
+            layers.push(layer("water.noise", noise.image(), noise.level, access));
         }
         layers
     }

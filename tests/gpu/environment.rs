@@ -91,7 +91,7 @@ fn verbose(name: &str, census: &crate::reference::Census) {
 /// Maps of texels that have nothing to do with each other, so that none can stand for another.
 #[test]
 fn a_map_becomes_the_twins_cube() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let gpu = gpu;
     let bits = gpu.limits().sub_texel_precision_bits;
@@ -131,7 +131,7 @@ fn a_map_becomes_the_twins_cube() {
 /// From noon to after sunset, and a sun that is not of unit length.
 #[test]
 fn the_sky_becomes_the_twins_cube() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = 32;
@@ -159,7 +159,7 @@ fn the_sky_becomes_the_twins_cube() {
 /// The brightest texel is one that half precision can hold, and mips stay finite.
 #[test]
 fn radiance_over_half_precision_is_cut() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let gpu = gpu;
     let mut rig = Rig::new(&gpu, &config(extent(16, 8)));

@@ -19,7 +19,7 @@ const NO_MEMORY: vk::Result = vk::Result::ERROR_OUT_OF_DEVICE_MEMORY;
 
 /// A device with the spy in its function table; the lock on it goes with the test's.
 fn spied() -> (Gpu, Device) {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     let functions = spy::functions(&gpu);
     let allocator = gpu.make_allocator(&functions);
     let mut device = gpu.take_device();
@@ -185,7 +185,7 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
 /// Foam by a step of the state: of velocities, ids and time; new particles have none until then.
 #[test]
 fn a_step_makes_foam() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     let device = gpu.take_device();
     let size = extent(64, 48);
     let config = Config { foam: true, ..config(size) };
@@ -204,7 +204,7 @@ fn a_step_makes_foam() {
             headless.step(dt, &foam).expect("a step");
         }
         headless.render(&camera, &look, &background).expect("a frame");
-        let depth = headless.layer("foam.depth").expect("read").expect("a layer");
+        let depth = headless.layer("water.foam").expect("read").expect("a layer");
         // Of a quarter of the resolution.
         16 * depth.data.iter().filter(|z| **z < 1e9).count()
     };

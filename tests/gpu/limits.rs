@@ -31,7 +31,7 @@ fn claimed(
     claims: Claims,
     checks: impl Fn(&spy::Bound, u64),
 ) {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let shot = shot();
     let expected = Rig::new(&gpu, config).draw(&shot);
@@ -120,7 +120,7 @@ fn bindings_are_no_longer_than_the_device_allows() {
 /// What was aligned on another device may not be on this one.
 #[test]
 fn offsets_that_the_device_cannot_bind_are_errors() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     claim(&mut gpu, Claims { offset_alignment: Some(256), ..Claims::default() });
     let gpu = gpu;
     let mut rig = Rig::new(&gpu, &config(extent(32, 16)));
@@ -155,7 +155,7 @@ fn offsets_that_the_device_cannot_bind_are_errors() {
 #[test]
 fn timestamps_that_wrap_are_still_durations() {
     for bits in [36_u32, 48, 64] {
-        let mut gpu = Gpu::own();
+        let mut gpu = Gpu::spied();
         spy::install(&mut gpu);
         let claims = Claims {
             timestamp_valid_bits: Some(bits),
@@ -186,7 +186,7 @@ fn timestamps_that_wrap_are_still_durations() {
 /// A queue without timestamps: no queries, no timings, no error.
 #[test]
 fn a_queue_without_timestamps_has_no_timings() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let size = extent(32, 16);
     let expected = Rig::new(&gpu, &config(size)).draw(&water(size));

@@ -17,7 +17,7 @@ use crate::support::scenes::{self, Lens};
 use crate::support::{slow, spy};
 
 fn spied() -> Gpu {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     gpu
 }
@@ -427,7 +427,7 @@ fn a_failed_record_can_be_repeated() {
 /// The headless renderer reports a lost device from submit and wait.
 #[test]
 fn headless_reports_a_lost_device() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     let functions = spy::functions(&gpu);
     let mut device = gpu.take_device();
     device.device = functions;

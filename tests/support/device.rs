@@ -1,16 +1,27 @@
-//! The device under test. GPU tests run one at a time, so that a validation message belongs to the
-//! test that is running; each ends by asserting that there was none.
+//! The device under test. A device has one test at a time, so that a validation message belongs to the
+//! test that is running; each ends by asserting that there was none. There are a few, so that tests run side
+//! by side: compiling shaders is most of the work, on the test's thread.
 
 use std::ops::Deref;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
+use std::thread::available_parallelism;
 
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use whitewater::headless::{Device, DeviceOptions};
 use whitewater::{Error, Host};
 
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-static SHARED: OnceLock<Device> = OnceLock::new();
+const MOST_SHARED: usize = 4;
+static SHARED: [Shared; MOST_SHARED] = [const { Shared::new() }; MOST_SHARED];
+
+/// What spies count, and what a device is said to claim, is the process'.
+static SPIED: Mutex<()> = Mutex::new(());
+
+/// A device that tests share, one after the other.
+struct Shared {
+    device: OnceLock<Device>,
+    one_at_a_time: Mutex<()>,
+}
 
 /// A device for the time of one test.
 pub struct Gpu {
@@ -22,7 +33,7 @@ pub struct Gpu {
     pub claims: Option<ash::Instance>,
     /// The test leaves objects behind on purpose.
     pub leaks: bool,
-    _lock: MutexGuard<'static, ()>,
+    _lock: Option<MutexGuard<'static, ()>>,
 }
 
 enum Held {
@@ -62,8 +73,30 @@ fn make(options: &DeviceOptions) -> Device {
     device
 }
 
-fn lock() -> MutexGuard<'static, ()> {
-    ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner)
+impl Shared {
+    const fn new() -> Self {
+        Self { device: OnceLock::new(), one_at_a_time: Mutex::new(()) }
+    }
+
+    /// The first that no test has, else the one that comes free.
+    fn take() -> (&'static Device, MutexGuard<'static, ()>) {
+        let all = &SHARED[..available_parallelism().map_or(1, |n| n.get().min(MOST_SHARED))];
+        let free = |shared: &'static Self| match shared.one_at_a_time.try_lock() {
+            Ok(lock) => Some((shared, lock)),
+            Err(TryLockError::Poisoned(lock)) => Some((shared, lock.into_inner())),
+            Err(TryLockError::WouldBlock) => None,
+        };
+        let (shared, lock) = all.iter().find_map(free).unwrap_or_else(|| {
+            let lock = all[0].one_at_a_time.lock();
+            (&all[0], lock.unwrap_or_else(PoisonError::into_inner))
+        });
+        let device = shared.device.get_or_init(|| {
+            let device = make(&DeviceOptions::default());
+            eprintln!("gpu: adapter {} ({})", device.adapter, device.driver);
+            device
+        });
+        (device, lock)
+    }
 }
 
 fn messages_of(device: &Device) -> Vec<String> {
@@ -71,7 +104,7 @@ fn messages_of(device: &Device) -> Vec<String> {
 }
 
 impl Gpu {
-    fn new(lock: MutexGuard<'static, ()>, device: Held) -> Self {
+    fn new(lock: Option<MutexGuard<'static, ()>>, device: Held) -> Self {
         let (functions, allocator) = match &device {
             Held::Shared(device) => (device.device.clone(), device.allocator.clone()),
             Held::Own(device) => (device.device.clone(), device.allocator.clone()),
@@ -79,16 +112,11 @@ impl Gpu {
         Self { device: Some(device), functions, allocator, claims: None, leaks: false, _lock: lock }
     }
 
-    /// The device that most tests share.
+    /// One of the devices that most tests share.
     pub fn shared() -> Self {
-        let lock = lock();
-        let device = SHARED.get_or_init(|| {
-            let device = make(&DeviceOptions::default());
-            eprintln!("gpu: adapter {} ({})", device.adapter, device.driver);
-            device
-        });
+        let (device, lock) = Shared::take();
         drop(messages_of(device));
-        Self::new(lock, Held::Shared(device))
+        Self::new(Some(lock), Held::Shared(device))
     }
 
     /// A device of the test's own: everything made from it must be gone at the end.
@@ -98,8 +126,19 @@ impl Gpu {
 
     /// The same with options.
     pub fn own_with(options: &DeviceOptions) -> Self {
-        let lock = lock();
-        Self::new(lock, Held::Own(Box::new(make(options))))
+        Self::new(None, Held::Own(Box::new(make(options))))
+    }
+
+    /// A device of the test's own, for a spy or for claims: one at a time.
+    pub fn spied() -> Self {
+        let lock = SPIED.lock().unwrap_or_else(PoisonError::into_inner);
+        Self::new(Some(lock), Held::Own(Box::new(make(&DeviceOptions::default()))))
+    }
+
+    /// Panics unless it is [`spied`](Self::spied).
+    pub fn assert_spied(&self) {
+        let own = matches!(self.device, Some(Held::Own(_)));
+        assert!(own && self._lock.is_some(), "Gpu::spied() is for spies and claims");
     }
 
     /// The host's side of the contract.

@@ -81,6 +81,7 @@ unsafe extern "system" fn families(
 
 /// The instance the library is given makes these claims.
 pub fn claim(gpu: &mut Gpu, claims: Claims) {
+    gpu.assert_spied();
     let instance = &gpu.instance;
     let mut functions = instance.fp_v1_0().clone();
     let real = (

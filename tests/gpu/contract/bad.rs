@@ -221,7 +221,7 @@ fn bad_frames_in_the_sun_are_errors_before_any_command() {
 }
 
 fn bad_frames_in_the_sun(kind: Shadows) {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);
@@ -262,7 +262,7 @@ fn bad_frames_in_the_sun(kind: Shadows) {
 /// Each is found before the first command; the command buffer is still good for the next record.
 #[test]
 fn bad_frames_are_errors_before_any_command() {
-    let mut gpu = Gpu::own();
+    let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
     let gpu = gpu;
     let size = extent(32, 16);

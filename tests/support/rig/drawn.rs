@@ -193,14 +193,14 @@ impl Rig<'_> {
                     foam.before = both.map(|t| t[1]);
                 }
                 "water.thickness" => drawn.thickness = self.floats(layer, whole),
-                "foam.depth" => (foam.depth, foams) = (self.floats(layer, whole), true),
-                "spray" => {
+                "water.foam" => (foam.depth, foams) = (self.floats(layer, whole), true),
+                "water.spray" => {
                     let both = self.halves(layer, whole);
                     drawn.spray = Some(both.map(|s| s[0]));
                     drawn.lit_spray = Some(both.map(|s| s[1]));
                 }
                 "motion" => drawn.motion = Some(self.pairs(layer, whole)),
-                "noise" => drawn.noise = Some(self.floats(layer, whole)),
+                "water.noise" => drawn.noise = Some(self.floats(layer, whole)),
                 "light.front" => drawn.light_front = Some(self.floats(layer, whole)),
                 "light.thickness" => {
                     let bytes = self.bytes(layer, whole);
@@ -211,7 +211,7 @@ impl Rig<'_> {
                     drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
                 }
                 "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
-                "foam.thickness" => {
+                "water.foam.thickness" => {
                     let four: Image<[f32; 4]> =
                         picture(layer.format, layer.extent, &self.bytes(layer, whole));
                     foam.thickness = four.map(|t| [t[0], t[1]]);

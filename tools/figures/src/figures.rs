@@ -48,14 +48,14 @@ fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     let layers = &frame.layers;
     let panels = [
         depth(layers, "water.depth.Z")?,
-        depth(layers, "foam.depth.Z")?,
+        depth(layers, "water.foam.Z")?,
         depth(layers, "water.surface.Z")?,
         normals(layers)?,
         iterations(layers)?,
         amount(layers, "water.thickness", 6.0 * radius)?,
-        amount(layers, "foam.thickness", radius)?,
-        amount(layers, "foam.thickness.front", radius)?,
-        amount(layers, "spray", 0.5)?,
+        amount(layers, "water.foam.thickness", radius)?,
+        amount(layers, "water.foam.front", radius)?,
+        amount(layers, "water.spray", 0.5)?,
         tool.frame("waterfall", 240, "--foam none --spray none")?.picture,
         without.picture,
         frame.picture,
@@ -86,7 +86,7 @@ fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
     for source in [110.0, 90.0, 70.0, 50.0] {
         let threshold = 135.0 / 80.0 * source;
         let drawn = tool.frame("waterfall", 240, &format!("--foam {threshold}"))?;
-        let foam = panels::mean_of(&drawn.layers, "foam.thickness")?;
+        let foam = panels::mean_of(&drawn.layers, "water.foam.thickness")?;
         println!("thresholds, We {threshold:.0}: {foam:.6} m of foam a pixel");
         if foam <= before {
             return Err(format!("foam does not grow as the threshold falls to {threshold}"));
@@ -129,7 +129,7 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("corridor", 110, &format!("{wave} --foam none --spray none"))?.picture,
         tool.frame("corridor", 110, wave)?.picture,
         tool.frame("waterfall", 240, under)?.picture,
-        amount(&tool.frame("waterfall", 240, under)?.layers, "foam.thickness", 0.05)?,
+        amount(&tool.frame("waterfall", 240, under)?.layers, "water.foam.thickness", 0.05)?,
     ];
     grid(&panels, 2, &pictures(docs, "foam.png"))
 }

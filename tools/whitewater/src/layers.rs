@@ -19,11 +19,11 @@ const GROUPS: [&str; 16] = [
     "water.thickness",
     "water.thickness.front",
     "water.thickness.back",
-    "foam.depth",
-    "foam.thickness",
-    "foam.thickness.front",
-    "spray",
-    "noise",
+    "water.foam",
+    "water.foam.thickness",
+    "water.foam.front",
+    "water.spray",
+    "water.noise",
     "scene",
     MOTION,
     LADDER,
@@ -129,7 +129,7 @@ pub fn collect(
         push(name, &color.map(|v| v[c]), Merge::Mean)?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
-    for name in ["water.depth", "water.back", "foam.depth"] {
+    for name in ["water.depth", "water.back", "water.foam"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
@@ -141,10 +141,10 @@ pub fn collect(
         ("water.thickness", Merge::Mean),
         ("water.thickness.front", Merge::Mean),
         ("water.thickness.back", Merge::Mean),
-        ("foam.thickness", Merge::Mean),
-        ("foam.thickness.front", Merge::Mean),
-        ("spray", Merge::Mean),
-        ("noise", Merge::Mean),
+        ("water.foam.thickness", Merge::Mean),
+        ("water.foam.front", Merge::Mean),
+        ("water.spray", Merge::Mean),
+        ("water.noise", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
@@ -184,7 +184,7 @@ pub fn collect(
     {
         // A mean over an outline is no motion of anything: that of the nearest sample.
         let mut depths = headless.scene_depth()?.map(|z| lens.eye_depth(*z));
-        for name in ["water.depth", "foam.depth"] {
+        for name in ["water.depth", "water.foam"] {
             if let Some(layer) = headless.layer(name)? {
                 // Texels of a reduced layer are a power of two pixels wide.
                 let texel = depths.width.div_ceil(layer.width).next_power_of_two();

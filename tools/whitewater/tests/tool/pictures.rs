@@ -20,13 +20,13 @@ fn a_block_of_water_has_all_its_layers() {
         "motion.X",
         "motion.Y",
         "scene.Z",
-        "spray",
         "water.back.Z",
         "water.depth.Z",
         "water.iterations",
         "water.normal.X",
         "water.normal.Y",
         "water.normal.Z",
+        "water.spray",
         "water.surface.Z",
         "water.thickness",
         "water.thickness.back",
@@ -117,8 +117,8 @@ fn the_baselines_noise_is_drawn_where_it_is_asked_for() {
     }
     let [none, surface, foam, flat] =
         ["none", "surface", "foam", "flat"].map(|name| folder.picture(&format!("{name}.exr")));
-    assert!(none.channel("noise").is_none());
-    let noise = surface.channel("noise").unwrap();
+    assert!(none.channel("water.noise").is_none());
+    let noise = surface.channel("water.noise").unwrap();
     assert!(noise.iter().any(|n| n.abs() > 0.1) && noise.contains(&0.0));
     let [none, surface, foam, flat] = [&none, &surface, &foam, &flat].map(|p| p.rgb().unwrap());
     assert!(none == flat && none != surface && surface != foam);

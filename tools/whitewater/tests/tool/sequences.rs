@@ -74,7 +74,7 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
         }
         folder.text(&format!("f_{frame}.csv"), &rows);
     }
-    let common = format!("{SMALL} --foam 1 --fps 4 --layers foam.thickness");
+    let common = format!("{SMALL} --foam 1 --fps 4 --layers water.foam.thickness");
     folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok();
     folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 3-4")).ok();
     folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 4 --overwrite")).ok();
@@ -86,7 +86,7 @@ fn foam_comes_and_goes_whichever_frames_are_drawn() {
     assert!(folder.path("e_2.exr").exists() && !folder.path("e_3.exr").exists());
     let foam = |name: &str| -> f32 {
         let picture = folder.picture(name);
-        let layer = picture.channels.iter().find(|c| c.name == "foam.thickness");
+        let layer = picture.channels.iter().find(|c| c.name == "water.foam.thickness");
         layer.expect("the layer").data.iter().sum()
     };
     let [first, second, third, fourth] = [1, 2, 3, 4].map(|n| foam(&format!("a_{n}.exr")));

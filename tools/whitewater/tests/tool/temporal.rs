@@ -32,8 +32,8 @@ fn bilinear(data: &[f32], x: f32, y: f32) -> f32 {
 fn changes(now: &Layers, before: &Layers) -> ([f32; 4], usize) {
     let channel = |of: &Layers, name: &str| of.channel(name).unwrap().to_vec();
     let [x_by, y_by] = ["motion.X", "motion.Y"].map(|name| channel(now, name));
-    let foam = [now, before].map(|of| channel(of, "foam.depth.Z"));
-    let thickness = [now, before].map(|of| channel(of, "foam.thickness"));
+    let foam = [now, before].map(|of| channel(of, "water.foam.Z"));
+    let thickness = [now, before].map(|of| channel(of, "water.foam.thickness"));
     let colors = ["R", "G", "B"].map(|name| {
         [now, before].map(|of| channel(of, name).into_iter().map(display).collect::<Vec<_>>())
     });
@@ -68,7 +68,7 @@ fn foam_of_a_simulation_does_not_flicker() {
     folder
         .run(&format!(
             "render {}/ParticleData_Fluid_*.bgeo -o a_%d.exr --size {WIDTH}x{HEIGHT} --fps 50 \
-             --frames 52-57 --layers motion,foam.depth,foam.thickness",
+             --frames 52-57 --layers motion,water.foam,water.foam.thickness",
             cache.display()
         ))
         .ok();
