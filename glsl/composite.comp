@@ -15,6 +15,7 @@
 #include "convolution.glsl"
 #include "sunlight.glsl"
 #include "surface_noise.glsl"
+#include "intensity.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -12,6 +12,7 @@
 #include "convolution.glsl"
 #include "sunlight.glsl"
 #include "surface_noise.glsl"
+#include "intensity.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::contract::{Config, Count, Frame, Particles, Stream};
+use crate::contract::{Config, Count, DiffuseParticles, Frame, Particles, Stream};
 use crate::error::Error;
 use crate::frame::{Lens, check_settings};
 use crate::water::MOST_COARSENING;
@@ -19,6 +19,7 @@ pub fn frame(
     frame.settings.spray.check()?;
     frame.settings.shadow.check()?;
     frame.settings.noise.check()?;
+    frame.settings.diffuse.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
     if part.width > most.width || part.height > most.height {
         return Err(Error::bad(
@@ -79,6 +80,9 @@ pub fn frame(
         ));
     }
     particles(&frame.particles, config, limits)?;
+    if let Some(particles) = &frame.diffuse {
+        diffuse(particles, config, limits)?;
+    }
     sun(frame, config)?;
     previous(frame, config)?;
     Lens::new(&frame.camera)
@@ -119,19 +123,11 @@ fn particles(
             return Err(Error::bad("Frame.particles.foam", why));
         }
     }
-    let aligned = |field, offset: u64| {
-        let to = limits.min_storage_buffer_offset_alignment.max(4);
-        if offset.is_multiple_of(to) {
-            Ok(())
-        } else {
-            Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
-        }
-    };
     if let Count::Gpu { offset, .. } = particles.count {
-        aligned("Frame.particles.count.offset", offset)?;
+        aligned("Frame.particles.count.offset", offset, limits)?;
     }
     if let Some(packets) = &particles.packets {
-        aligned("Frame.particles.packets.offset", packets.offset)?;
+        aligned("Frame.particles.packets.offset", packets.offset, limits)?;
         if packets.count > 65_535 {
             return Err(Error::bad(
                 "Frame.particles.packets.count",
@@ -140,6 +136,55 @@ fn particles(
         }
     }
     Ok(())
+}
+
+fn diffuse(
+    particles: &DiffuseParticles,
+    config: &Config,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<(), Error> {
+    let Some(config) = &config.diffuse else {
+        return Err(Error::bad("Frame.diffuse", "given, but Config.diffuse is None"));
+    };
+    let count = match particles.count {
+        Count::Cpu(count) if count > config.max_particles => {
+            let most = config.max_particles;
+            let why = format!("{count} is more than Config.diffuse.max_particles, {most}");
+            return Err(Error::bad("Frame.diffuse.count", why));
+        }
+        Count::Cpu(count) => count,
+        Count::Gpu { offset, .. } => {
+            aligned("Frame.diffuse.count.offset", offset, limits)?;
+            0
+        }
+    };
+    let most = ("Config.diffuse.max_stride", config.max_stride);
+    particles.positions.check("Frame.diffuse.positions", 12, count, most)?;
+    let others = [
+        ("Frame.diffuse.kinds", &particles.kinds),
+        ("Frame.diffuse.radii", &particles.radii),
+        ("Frame.diffuse.ages", &particles.ages),
+        ("Frame.diffuse.ids", &particles.ids),
+    ];
+    for (field, stream) in others {
+        if let Some(stream) = stream {
+            stream.check(field, 4, count, most)?;
+        }
+    }
+    Ok(())
+}
+
+/// An offset at which a storage buffer can be bound.
+fn aligned(
+    field: &'static str,
+    offset: u64,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<(), Error> {
+    let to = limits.min_storage_buffer_offset_alignment.max(4);
+    if offset.is_multiple_of(to) {
+        return Ok(());
+    }
+    Err(Error::bad(field, format!("{offset} is no multiple of the device's {to}")))
 }
 
 fn previous(frame: &Frame<'_>, config: &Config) -> Result<(), Error> {
@@ -223,6 +268,9 @@ pub fn config(config: &Config) -> Result<(), Error> {
     }
     if let Some(Shadows::Convolution(convolution)) = config.shadow {
         convolution.check()?;
+    }
+    if let Some(diffuse) = &config.diffuse {
+        diffuse.check()?;
     }
     if let Some(level) = config.noise
         && level > 3

@@ -8,6 +8,7 @@ use ash::vk;
 
 use crate::contract::Config;
 use crate::error::Error;
+use crate::foam::Foam;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED,
@@ -66,7 +67,11 @@ fn pipelines(
         level if level == config.smoothing_level => 1,
         _ => 2,
     };
-    let beside = [(10, u32::from(config.spray)), (14, u32::from(config.noise.is_some()))];
+    let beside = [
+        (10, u32::from(config.spray)),
+        (14, u32::from(config.noise.is_some())),
+        (20, u32::from(config.diffuse.is_some())),
+    ];
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();
     for (i, pipeline) in (0..).zip(&mut all) {
@@ -142,12 +147,13 @@ impl Composite {
         }
     }
 
-    /// All layers come and go as sampled by fragments.
+    /// All layers come and go as sampled by fragments, those of `diffuse` by compute too.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         around: &Surroundings,
         layers: &WaterLayers<'_>,
+        diffuse: Option<&Foam>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -155,6 +161,9 @@ impl Composite {
         // Where there are none they are not read: any buffer will do.
         let boundaries = Resource::buffer(layers.boundaries.unwrap_or(&layers.split.lists));
         let foam = layers.foam.unwrap_or([layers.thickness; 2]);
+        let diffuse = diffuse.map_or([layers.thickness; 3], Foam::layers);
+        let [diffuse, diffuse_thickness, diffuse_light] =
+            diffuse.map(|image| Resource::Sampled(image.view, nearest));
         let [shadow, light_thickness, basis, span] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
@@ -178,6 +187,9 @@ impl Composite {
             basis,
             span,
             (20, Resource::Sampled(layers.noise.unwrap_or(layers.thickness).view, nearest)),
+            (21, diffuse),
+            (22, diffuse_thickness),
+            (23, diffuse_light),
         ];
         let arguments = layers.split.arguments.handle;
         let first = |i: u32| layers.split.most * (i % KINDS);

@@ -14,6 +14,7 @@ use glam::{Mat4, Vec3, Vec4};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::error::Error;
+use crate::foam::settings::{DiffuseConfig, DiffuseLook};
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
     FoamLook, FoamSettings, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing,
@@ -112,6 +113,9 @@ pub struct Config {
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
+    /// Diffuse particles are drawn (spray, foam and bubbles of their own, [`Frame::diffuse`]): the passes
+    /// `splat`, `radiance`, `blur`. `None` (default): they are not. 84 bytes a pixel more.
+    pub diffuse: Option<DiffuseConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
     /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4
     /// a texel.
@@ -157,6 +161,7 @@ impl Config {
             sheets: 2,
             foam: false,
             spray: false,
+            diffuse: None,
             noise: None,
             shadow: None,
             cast: None,
@@ -325,6 +330,45 @@ impl Particles {
     }
 }
 
+/// The diffuse particles of one frame: spray, foam on the surface and bubbles under it, each by itself (Ihmsen et
+/// al. 2012). Only read.
+#[derive(Clone, Copy, Debug)]
+pub struct DiffuseParticles {
+    /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are not drawn.
+    pub positions: Stream,
+    /// What each is (u32): 0 foam, 1 spray, 2 bubble; `None`: all are foam.
+    pub kinds: Option<Stream>,
+    /// Their radii (f32, scene units, (0, ∞)); `None`, and of 0 or less, [`DiffuseLook::radius`].
+    pub radii: Option<Stream>,
+    /// What of its life has passed (f32, 0 new to 1 gone); `None`: all are new. Those of 1 or more are not
+    /// drawn.
+    pub ages: Option<Stream>,
+    /// Numbers that follow them from frame to frame (u32), for their sizes; `None`: their place.
+    pub ids: Option<Stream>,
+    /// How many.
+    pub count: Count,
+    /// Last use of all these buffers before `record` (layout ignored).
+    pub before: Access,
+    /// First use of them after `record` (layout ignored).
+    pub after: Access,
+}
+
+impl DiffuseParticles {
+    /// Foam at positions alone, in buffers that the CPU wrote before the submit.
+    pub fn new(positions: Stream, count: Count) -> Self {
+        Self {
+            positions,
+            kinds: None,
+            radii: None,
+            ages: None,
+            ids: None,
+            count,
+            before: crate::gpu::access::NOTHING,
+            after: crate::gpu::access::NOTHING,
+        }
+    }
+}
+
 /// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
 /// as they are after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
@@ -453,6 +497,8 @@ pub struct Frame<'a> {
     pub scene_depth: HostImage,
     /// The particles.
     pub particles: Particles,
+    /// Diffuse particles, with [`Config::diffuse`]; `None`: there are none.
+    pub diffuse: Option<DiffuseParticles>,
     /// The view.
     pub camera: Camera,
     /// The sun's way, with [`Config::shadow`] and [`Config::cast`].
@@ -479,6 +525,8 @@ pub struct Settings {
     pub foam: FoamLook,
     /// Drops too small for the particles.
     pub spray: SprayLook,
+    /// Foam of diffuse particles.
+    pub diffuse: DiffuseLook,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
     /// Noise on its surface.

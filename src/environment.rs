@@ -3,7 +3,7 @@
 //! once per environment.
 
 use ash::vk;
-use bytemuck::{Pod, Zeroable};
+use bytemuck::{NoUninit, Pod, Zeroable};
 
 use crate::contract::{Config, HostImage};
 use crate::error::Error;
@@ -70,6 +70,22 @@ struct EquirectPush {
     turn: f32,
 }
 
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct IrradiancePush {
+    size: u32,
+    coarse: u32,
+    mip: f32,
+}
+shader::assert_layout!(
+    shader::ENVIRONMENT_IRRADIANCE_COMP,
+    "Push",
+    IrradiancePush { size, coarse, mip }
+);
+
+/// Edge of the irradiance's faces, and most of the environment's it is gathered from.
+const COARSE: u32 = 16;
+
 /// The cube between its passes: read by any shader.
 const SAMPLED: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 
@@ -81,6 +97,10 @@ pub struct Environment {
     pub cube: Image,
     faces: Owned<vk::ImageView>,
     mips: u32,
+    gather: Pipeline,
+    /// What a surface gathers of it, over 2π: RGBA16F, six faces.
+    pub irradiance: Image,
+    irradiance_faces: Owned<vk::ImageView>,
 }
 
 impl Environment {
@@ -103,22 +123,46 @@ impl Environment {
                 )
             },
         )?;
-        let faces = gpu.view(cube.handle, cube.format, 6, 0, 1, "environment/faces")?;
+        let array = vk::ImageViewType::TYPE_2D_ARRAY;
+        let faces = gpu.view(cube.handle, cube.format, array, 6, 1, "environment/faces")?;
         let faces = gpu.own(faces, Grave::View);
+        let name = "environment/irradiance";
+        let irradiance = Image::new(
+            gpu,
+            &ImageDesc {
+                layers: 6,
+                ..ImageDesc::new(
+                    name,
+                    vk::Extent2D { width: COARSE, height: COARSE },
+                    cube.format,
+                    vk::ImageUsageFlags::STORAGE
+                        | vk::ImageUsageFlags::SAMPLED
+                        | vk::ImageUsageFlags::TRANSFER_DST,
+                )
+            },
+        )?;
+        let irradiance_faces = gpu.view(irradiance.handle, cube.format, array, 6, 1, name)?;
+        let irradiance_faces = gpu.own(irradiance_faces, Grave::View);
         Ok(Self {
             sky: Pipeline::compute(gpu, shader::ENVIRONMENT_SKY_COMP, &[])?,
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
             cube,
             faces,
             mips,
+            gather: Pipeline::compute(gpu, shader::ENVIRONMENT_IRRADIANCE_COMP, &[])?,
+            irradiance,
+            irradiance_faces,
         })
     }
 
     /// A first, black environment, so that a frame may sample it.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
-        gpu.barriers(cmd, &[access::image(&self.cube, access::NOTHING, access::CLEAR)], &[]);
-        gpu.clear_color(cmd, &self.cube, [0.0, 0.0, 0.0, 1.0]);
-        gpu.barriers(cmd, &[access::image(&self.cube, access::CLEAR, SAMPLED)], &[]);
+        let both = [&self.cube, &self.irradiance];
+        gpu.barriers(cmd, &both.map(|i| access::image(i, access::NOTHING, access::CLEAR)), &[]);
+        for image in both {
+            gpu.clear_color(cmd, image, [0.0, 0.0, 0.0, 1.0]);
+        }
+        gpu.barriers(cmd, &both.map(|i| access::image(i, access::CLEAR, SAMPLED)), &[]);
     }
 
     pub fn record(
@@ -165,7 +209,32 @@ impl Environment {
             gpu.barriers(cmd, &[after], &[]);
         }
         self.record_mips(gpu, cmd);
+        self.record_irradiance(gpu, cmd, descriptors)?;
         gpu.end_label(cmd);
+        Ok(())
+    }
+
+    fn record_irradiance(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+    ) -> Result<(), Error> {
+        let image = &self.irradiance;
+        gpu.barriers(cmd, &[access::image(image, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
+        let resources = [
+            (0, Resource::Storage(self.irradiance_faces.handle)),
+            (1, Resource::Sampled(self.cube.view, gpu.samplers.linear)),
+        ];
+        descriptors.bind(gpu, cmd, &self.gather, &resources)?;
+        let size = self.cube.extent.width;
+        let coarse = size.min(COARSE);
+        let mip = (size / coarse).ilog2() as f32;
+        self.gather.push(gpu, cmd, &IrradiancePush { size: COARSE, coarse, mip });
+        let groups = COARSE.div_ceil(self.gather.local_size[0]);
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 6) };
+        gpu.barriers(cmd, &[access::image(image, COMPUTE_WRITE, SAMPLED)], &[]);
         Ok(())
     }
 

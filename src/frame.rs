@@ -7,6 +7,7 @@ use glam::{DMat4, Mat4, Vec4};
 
 use crate::contract::{Camera, Config, Frame, Light, Region, Settings};
 use crate::error::Error;
+use crate::foam::settings::{Mixing, Reach, Submerged};
 use crate::gpu::shader;
 use crate::water::settings::{
     Amplitude, FoamLook, Fresnel, Medium, Rule, SprayLook, WaterSettings,
@@ -70,6 +71,15 @@ pub struct FrameUniforms {
     pub noise: [f32; 4],
     pub noise_image: [f32; 4],
     pub noise_color: [f32; 4],
+    pub diffuse: [f32; 4],
+    pub diffuse_below: [f32; 4],
+    pub diffuse_light: [f32; 4],
+    pub diffuse_search: [f32; 4],
+    pub diffuse_samples: [f32; 4],
+    pub diffuse_opacity: [f32; 4],
+    pub diffuse_shadow: [f32; 4],
+    pub diffuse_color: [f32; 4],
+    pub diffuse_sun: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -126,6 +136,15 @@ shader::assert_layout!(
         noise,
         noise_image,
         noise_color,
+        diffuse,
+        diffuse_below,
+        diffuse_light,
+        diffuse_search,
+        diffuse_samples,
+        diffuse_opacity,
+        diffuse_shadow,
+        diffuse_color,
+        diffuse_sun,
     }
 );
 
@@ -279,6 +298,11 @@ impl FrameUniforms {
         let (medium_a, medium_b) = medium(&water.medium);
         let look = &frame.settings.foam;
         let ripples = &frame.settings.noise;
+        let diffuse = &frame.settings.diffuse;
+        let falloff = match diffuse.submerged {
+            Submerged::Water => None,
+            Submerged::Falloff { most, n, m } => Some([most, n, m, 0.0]),
+        };
         let noise_level = config.noise.unwrap_or(0);
         let noisy = reduced(full, noise_level);
         let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
@@ -377,6 +401,41 @@ impl FrameUniforms {
                 ripples.cells / radius,
             ],
             noise_color: foam_color(ripples.color, light),
+            diffuse: [diffuse.radius, 0.0, 0.0, f32::from(u8::from(falloff.is_some()))],
+            diffuse_below: falloff.unwrap_or([1.0; 4]),
+            diffuse_light: [
+                diffuse.half,
+                diffuse.exponent,
+                f32::from(u8::from(diffuse.mixing == Mixing::Source)),
+                0.0,
+            ],
+            diffuse_search: [
+                diffuse.search[0],
+                diffuse.search[1],
+                diffuse.passes as f32,
+                diffuse.density,
+            ],
+            diffuse_samples: [
+                diffuse.samples[0] as f32,
+                diffuse.samples[1] as f32,
+                match diffuse.reach {
+                    Reach::Radii(radii) => radii,
+                    Reach::Metres(metres) => -metres,
+                },
+                0.0,
+            ],
+            diffuse_opacity: [
+                diffuse.opacity[0],
+                diffuse.opacity[1],
+                diffuse.shadow[0],
+                diffuse.shadow[1],
+            ],
+            diffuse_shadow: with(
+                light_vector(diffuse.shadow_color.map(|c| 1.0 - c)),
+                diffuse.shadow[2],
+            ),
+            diffuse_color: light_vector(diffuse.albedo.map(|c| 2.0 * c)),
+            diffuse_sun: sun_on(light),
         }
     }
 }
@@ -414,6 +473,13 @@ impl Since {
 fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
+}
+
+/// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
+fn sun_on(light: &Light) -> [f32; 4] {
+    let height = light.direction[1].max(0.1);
+    let part = |i: usize| (light.irradiance[i] - light.shade[i]).max(0.0) / height;
+    light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))
 }
 
 /// Where water begins and is whole, and where spray ends; droplets of a particle.

@@ -36,6 +36,9 @@
 //! | `particles.velocities` | 3×f32, world space, with `Config.foam`, `Config.spray` or `Config.motion` | as above | as above |
 //! | `particles.ids` | u32 that follow the particles, likewise, and with `Config.noise` | as above | as above |
 //! | `particles.foam` | with `Config.foam`: foam and age (2×f32, as [`State::foam`]) | as above | as above |
+//! | `diffuse.positions` | with `Config.diffuse`: 3×f32, spray, foam and bubbles of their own; NaN, infinite and huge ones are not drawn | as above | as above |
+//! | `diffuse.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 of each; none need be there | as above | as above |
+//! | `diffuse.count` | as `particles.count` | as above | as above |
 //! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, of any size from frame to frame, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |
 //! | `previous` | with `Config.motion`: the camera of the frame before and the seconds since | | |
@@ -105,6 +108,7 @@
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |
 //! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
+//! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 84 w h | 73.8 MiB | 166.1 MiB |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
@@ -154,6 +158,17 @@
 //!   surface has steps of more than the border's threshold from texel to texel: what goes straight on is no
 //!   border, and a pixel that finds none of the four texels about it looks at those next to them. Else there are
 //!   dark dashes.
+//!
+//! Against Akinci et al. (2013), whose foam of diffuse particles it is:
+//!
+//! - Particles smaller than a pixel and a half are widened, and their light is kept exactly, wherever between the
+//!   pixels they lie: far foam does not sparkle.
+//! - What is behind the water's surface lies in the water, at its mean depth, and loses light as all in it does; the
+//!   source's falloff is there as [`foam::Submerged::Falloff`].
+//! - A sample is hidden by how far its occluder stands before the sample itself; the print has the fragment's depth.
+//!   The reach is a radius of the search, not metres ([`foam::Reach`]).
+//! - Light is scaled by what is in shadow ([`foam::Mixing`]); the source subtracts the shadow. The sun, which an
+//!   environment does not hold, is added.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
@@ -173,6 +188,7 @@ mod composite;
 mod contract;
 mod environment;
 mod error;
+pub mod foam;
 mod frame;
 mod gpu;
 #[cfg(feature = "headless")]

@@ -10,6 +10,8 @@ use crate::composite::{Composite, Surroundings};
 use crate::contract::{Config, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot};
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
+use crate::foam::Foam;
+use crate::foam::splat;
 use crate::frame::{FrameUniforms, Lens};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
@@ -50,6 +52,7 @@ pub struct Renderer {
     composite: Composite,
     light: Option<Light>,
     convolving: Option<Convolving>,
+    foam: Option<Foam>,
     environment: Environment,
     /// Copy of the scene's colour, when it is the output itself.
     scene_copy: Option<Image>,
@@ -93,6 +96,7 @@ impl Renderer {
             composite: parts.composite,
             light: parts.light,
             convolving: parts.convolving,
+            foam: parts.foam,
             environment,
             scene_copy: parts.scene_copy,
         })
@@ -205,7 +209,11 @@ impl Renderer {
         {
             convolving.record(&mut r, &convolution, shadow, shadow_map(shadow, gpu))?;
         }
-        self.water.record(&mut r, &frame.particles, self.light.as_ref())?;
+        let diffuse = self.foam.as_ref().map(|foam| (foam, frame.diffuse.as_ref()));
+        self.water.record(&mut r, &frame.particles, self.light.as_ref(), diffuse)?;
+        if let Some(foam) = &self.foam {
+            foam.record_radiance(&mut r, &self.environment)?;
+        }
         let scene_color = match (&self.scene_copy, &self.light) {
             (_, Some(light)) => {
                 let output = Output {
@@ -236,15 +244,27 @@ impl Renderer {
                 environment: Resource::Sampled(self.environment.cube.view, gpu.samplers.linear),
             },
             &self.water.layers(),
+            self.foam.as_ref(),
         )?;
 
         let cmd = r.cmd;
         let given_back = |handle| buffer(handle, COMPUTE_READ, frame.particles.after);
-        let buffers: Vec<_> = buffers_of(&frame.particles).into_iter().map(given_back).collect();
+        let mut buffers: Vec<_> =
+            buffers_of(&frame.particles).into_iter().map(given_back).collect();
+        if let Some(diffuse) = &frame.diffuse {
+            let back = |handle| buffer(handle, COMPUTE_READ, diffuse.after);
+            buffers.extend(splat::buffers_of(diffuse).into_iter().map(back));
+        }
         gpu.barriers(cmd, &release(frame, &uses), &buffers);
         gpu.end_label(cmd);
         let recorded = Recorded {
-            layers: kept(&self.config, &self.water, from, frame.output.rect.extent),
+            layers: kept(
+                &self.config,
+                &self.water,
+                self.foam.as_ref(),
+                from,
+                frame.output.rect.extent,
+            ),
             active_samples: self.water.query_results(),
             counts: Some(self.water.counts()),
             levels: Some(self.water.levels()),
@@ -311,6 +331,9 @@ impl Renderer {
         if let Some(light) = &mut self.light {
             light.resize(&self.gpu, config, &mut self.retired)?;
         }
+        if let Some(foam) = &mut self.foam {
+            foam.resize(&self.gpu, config, &mut self.retired)?;
+        }
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
@@ -334,6 +357,7 @@ impl Renderer {
         retired.replace(&mut self.composite, parts.composite);
         retired.replace(&mut self.light, parts.light);
         retired.replace(&mut self.convolving, parts.convolving);
+        retired.replace(&mut self.foam, parts.foam);
         retired.replace(&mut self.scene_copy, parts.scene_copy);
         if let Some(new) = environment {
             retired.replace(&mut self.environment, new);
@@ -369,11 +393,12 @@ impl Renderer {
         let mut memory = self.water.memory();
         let light = self.light.as_ref().map(Light::memory);
         let convolving = self.convolving.as_ref().map(Convolving::memory);
-        for (images, buffers) in light.into_iter().chain(convolving) {
+        let foam = self.foam.as_ref().map(Foam::memory);
+        for (images, buffers) in light.into_iter().chain(convolving).chain(foam) {
             memory.images += images;
             memory.buffers += buffers;
         }
-        memory.images += self.environment.cube.size;
+        memory.images += self.environment.cube.size + self.environment.irradiance.size;
         memory.images += self.scene_copy.as_ref().map_or(0, |image| image.size);
         memory.buffers += self.slots.iter().map(|slot| slot.uniforms.size).sum::<u64>();
         memory
@@ -427,6 +452,7 @@ struct Parts {
     composite: Composite,
     light: Option<Light>,
     convolving: Option<Convolving>,
+    foam: Option<Foam>,
     scene_copy: Option<Image>,
 }
 
@@ -437,6 +463,7 @@ impl Parts {
             composite: Composite::new(gpu, config)?,
             light: Self::light(gpu, config)?,
             convolving: Self::convolving(gpu, config)?,
+            foam: config.diffuse.map(|diffuse| Foam::new(gpu, config, &diffuse)).transpose()?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
     }
@@ -479,7 +506,8 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        100 + 27 * crate::water::chunks(&gpu.limits, config).1
+        let diffuse = config.diffuse.map_or(0, |diffuse| splat::chunks(&gpu.limits, &diffuse).1);
+        110 + 27 * crate::water::chunks(&gpu.limits, config).1 + 2 * diffuse
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -506,6 +534,7 @@ impl SlotState {
 fn kept(
     config: &Config,
     water: &Water,
+    foam: Option<&Foam>,
     (light, convolving): (Option<&Light>, Option<&Convolving>),
     size: vk::Extent2D,
 ) -> Vec<Layer> {
@@ -514,6 +543,7 @@ fn kept(
         layers = water.kept(size, FRAGMENT_SAMPLED);
         layers.extend(light.into_iter().flat_map(Light::layers));
         layers.extend(convolving.map(Convolving::layer));
+        layers.extend(foam.into_iter().flat_map(|foam| foam.kept(size)));
     }
     layers.extend(water.motion(size));
     layers

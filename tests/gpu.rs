@@ -18,6 +18,8 @@ mod contract;
 mod convolution;
 #[path = "gpu/depth.rs"]
 mod depth;
+#[path = "gpu/diffuse.rs"]
+mod diffuse;
 #[path = "gpu/environment.rs"]
 mod environment;
 #[path = "gpu/foam/mod.rs"]

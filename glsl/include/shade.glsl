@@ -2,9 +2,11 @@
 // its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
-// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment.
+// Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
+// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
+// light of diffuse particles.
 // Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
-// surface_noise.glsl.
+// surface_noise.glsl, intensity.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -19,6 +21,8 @@ layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
 layout(set = 0, binding = 12) uniform sampler2D sheets;
 layout(set = 0, binding = 14) uniform sampler2D foam_thickness;
+layout(set = 0, binding = 22) uniform sampler2D diffuse_thickness;
+layout(set = 0, binding = 23) uniform sampler2D diffuse_light;
 
 #include "ripples.glsl"
 
@@ -365,12 +369,35 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     return foam;
 }
 
+// Radiance of foam of diffuse particles, from what light it gathers and its shadow (Akinci et al. 2013, Sec. 2.5).
+vec3 diffuse_color(vec4 light) {
+    vec3 shadow = clamp(light.w * frame.diffuse_shadow.rgb, 0.0, 1.0);
+    vec3 whole = frame.diffuse_color.rgb * light.rgb;
+    return frame.diffuse_light.z > 0.5 ? max(min(whole, 1.0) - shadow, 0.0) : whole * (1.0 - shadow);
+}
+
+// With what of the diffuse particles is behind the water's surface, as far as they are in the mean.
+Foam with_submerged(Foam foam, ivec2 pixel, float front) {
+    vec3 thick = texelFetch(diffuse_thickness, pixel, 0).xyz;
+    float kept = 1.0 - intensity_of(thick.y);
+    float far = thick.y > 0.0 ? min(thick.z / thick.y, 0.999) : 0.0;
+    float behind = frame.particle.y * far / (1.0 - far);
+    vec3 color = diffuse_color(texelFetch(diffuse_light, pixel, 0));
+    // Of two kinds of foam each has its part.
+    float own = (1.0 - foam.kept) / max(2.0 - foam.kept - kept, 1.0e-6);
+    foam.behind = mix(behind, foam.behind + max(foam.depth - front, 0.0), own);
+    foam.color = mix(color, foam.color, own);
+    foam.kept *= kept;
+    return foam;
+}
+
 // Light through a sheet with foam in it and off it, whose surface lies at a depth: `before` of its t metres
 // along z are before the frontmost foam. What mirrors is the water before that, where there is any. Foam lies
 // where its middle is, under the water before that: else a thin veil would bring up to it what is deep below, with
 // its own outline. Not in the source, to which all is at the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
-    float first = before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
+    // Diffuse particles before it lie over all.
+    float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     // No water before its surface; but that a pixel shows no sphere of a drop says nothing of less than its width.
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
@@ -468,11 +495,16 @@ vec3 layers_at(vec2 pixel, float front) {
         } else if (!past) {
             sheet = among(foam, t, sheet);
         }
+    } else if (DIFFUSE == 1u) {
+        foam = Foam(front, 1.0, 0.0, vec3(0.0), 0.0, vec2(0.0));
+    }
+    if (DIFFUSE == 1u) {
+        foam = with_submerged(foam, ivec2(pixel), front);
     }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     sheet = on_ladder(sheet);
     back = on_ladder(back);
-    if (FOAM == 0u) {
+    if (FOAM + DIFFUSE == 0u) {
         sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
         back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
         if (front >= EMPTY) {
@@ -485,6 +517,9 @@ vec3 layers_at(vec2 pixel, float front) {
     }
     foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
     bool dry = front >= EMPTY;
+    if (dry && FOAM == 0u) {
+        return scene_at(pixel);
+    }
     if (dry) {
         c = scene_at(pixel);
         all = foam.water;
@@ -515,6 +550,10 @@ vec3 layers_at(vec2 pixel, float front) {
 // All layers at a pixel where water, foam or spray is: spray lies over the others.
 vec3 shade(vec2 pixel, float front) {
     vec3 c = layers_at(pixel, front);
+    if (DIFFUSE == 1u && frame.target.z >= FOAM_TOO) {
+        float over = intensity_of(texelFetch(diffuse_thickness, ivec2(pixel), 0).x);
+        c = mix(c, diffuse_color(texelFetch(diffuse_light, ivec2(pixel), 0)), over);
+    }
     if (SPRAY == 0u) {
         return c;
     }

@@ -127,9 +127,15 @@ impl Image {
         }
         .context(|| format!("vkBindImageMemory {name}"))?;
         gpu.name(self.handle, name);
-        self.view = gpu.view(self.handle, desc.format, desc.layers, 0, desc.mips, name)?;
+        let kind = match desc.layers {
+            1 => vk::ImageViewType::TYPE_2D,
+            6 => vk::ImageViewType::CUBE,
+            _ => vk::ImageViewType::TYPE_2D_ARRAY,
+        };
+        let view = |format| gpu.view(self.handle, format, kind, desc.layers, desc.mips, name);
+        self.view = view(desc.format)?;
         if let Some(alias) = desc.alias {
-            self.alias_view = gpu.view(self.handle, alias, desc.layers, 0, desc.mips, name)?;
+            self.alias_view = view(alias)?;
         }
         Ok(())
     }
@@ -151,29 +157,23 @@ pub fn aspect_of(format: vk::Format) -> vk::ImageAspectFlags {
 }
 
 impl Gpu {
-    /// A view of all layers and some mips.
+    /// A view of all layers and the first mips.
     pub fn view(
         &self,
         image: vk::Image,
         format: vk::Format,
+        kind: vk::ImageViewType,
         layers: u32,
-        first_mip: u32,
         mips: u32,
         name: &str,
     ) -> Result<vk::ImageView, Error> {
-        let cube = layers == 6 && mips > 1;
-        let kind = match (layers, cube) {
-            (1, _) => vk::ImageViewType::TYPE_2D,
-            (_, true) => vk::ImageViewType::CUBE,
-            _ => vk::ImageViewType::TYPE_2D_ARRAY,
-        };
         let info = vk::ImageViewCreateInfo::default()
             .image(image)
             .view_type(kind)
             .format(format)
             .subresource_range(vk::ImageSubresourceRange {
                 aspect_mask: aspect_of(format),
-                base_mip_level: first_mip,
+                base_mip_level: 0,
                 level_count: mips,
                 base_array_layer: 0,
                 layer_count: layers,

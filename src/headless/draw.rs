@@ -2,6 +2,7 @@
 
 use ash::vk;
 
+use super::inputs::Diffusing;
 use super::submit::Parts;
 use super::transfer::staging;
 use super::{COLOR_REST, DEPTH_REST, Headless};
@@ -129,12 +130,14 @@ impl Headless {
             shadow: stage.map(|stage| stage.renderer.shadow(settings.water.spacing)),
             region: self.region,
         };
+        let diffuse = self.diffuse.as_ref().map(Diffusing::streams);
         let frame = Frame {
             slot: Slot(0),
             output,
             scene_color: output,
             scene_depth: host_image(&self.depth, DEPTH_REST),
             particles,
+            diffuse,
             camera: *camera,
             sun,
             previous: self.previous,

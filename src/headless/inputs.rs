@@ -6,7 +6,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::Headless;
-use crate::contract::{Access, Count, Particles, Slot, Step, Stream};
+use crate::contract::{Access, Count, DiffuseParticles, Particles, Slot, Step, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::buffer::Buffer;
@@ -19,6 +19,69 @@ pub(super) struct Foaming {
     pub state: State,
     /// By the particles that are here now.
     stepped: bool,
+}
+
+/// Diffuse particles of a frame, each attribute as long as `positions`. What they are is said at
+/// [`DiffuseParticles`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Diffuse<'a> {
+    /// World-space centres.
+    pub positions: &'a [[f32; 3]],
+    /// 0 foam, 1 spray, 2 bubble.
+    pub kinds: Option<&'a [u32]>,
+    /// Radii, scene units.
+    pub radii: Option<&'a [f32]>,
+    /// What of their lives has passed, 0 to 1.
+    pub ages: Option<&'a [f32]>,
+    /// Numbers that follow them from frame to frame.
+    pub ids: Option<&'a [u32]>,
+}
+
+/// The same on the device.
+pub(super) struct Diffusing {
+    count: u32,
+    positions: Buffer,
+    kinds: Option<Buffer>,
+    radii: Option<Buffer>,
+    ages: Option<Buffer>,
+    ids: Option<Buffer>,
+}
+
+impl Diffusing {
+    fn new(gpu: &Arc<Gpu>, diffuse: &Diffuse<'_>) -> Result<Self, Error> {
+        let count = diffuse.positions.len();
+        let lengths = [
+            diffuse.kinds.map(<[_]>::len),
+            diffuse.radii.map(<[_]>::len),
+            diffuse.ages.map(<[_]>::len),
+            diffuse.ids.map(<[_]>::len),
+        ];
+        if lengths.into_iter().flatten().any(|length| length != count) {
+            return Err(Error::bad("diffuse", "an attribute is not as long as positions"));
+        }
+        let some = |name, bytes: Option<&[u8]>| bytes.map(|b| input(gpu, name, b)).transpose();
+        Ok(Self {
+            count: u32::try_from(count).map_err(|_| Error::bad("diffuse", "more than 2^32"))?,
+            positions: input(gpu, "headless/diffuse", bytemuck::cast_slice(diffuse.positions))?,
+            kinds: some("headless/diffuse/kinds", diffuse.kinds.map(bytemuck::cast_slice))?,
+            radii: some("headless/diffuse/radii", diffuse.radii.map(bytemuck::cast_slice))?,
+            ages: some("headless/diffuse/ages", diffuse.ages.map(bytemuck::cast_slice))?,
+            ids: some("headless/diffuse/ids", diffuse.ids.map(bytemuck::cast_slice))?,
+        })
+    }
+
+    pub fn streams(&self) -> DiffuseParticles {
+        let words = |buffer: &Option<Buffer>| buffer.as_ref().map(|buffer| stream(buffer, 4));
+        DiffuseParticles {
+            kinds: words(&self.kinds),
+            radii: words(&self.radii),
+            ages: words(&self.ages),
+            ids: words(&self.ids),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..DiffuseParticles::new(stream(&self.positions, 12), Count::Cpu(self.count))
+        }
+    }
 }
 
 /// Written by the CPU before the submit.
@@ -91,6 +154,18 @@ impl Headless {
         if let Some(ids) = ids {
             self.ids = Some(make("headless/ids", bytemuck::cast_slice(ids))?);
         }
+        Ok(())
+    }
+
+    /// Uploads the diffuse particles of a frame, with [`Config::diffuse`](crate::Config::diffuse); `None`: there
+    /// are none.
+    ///
+    /// # Errors
+    /// Attributes of another length, no memory; then there are none.
+    pub fn diffuse(&mut self, diffuse: Option<&Diffuse<'_>>) -> Result<(), Error> {
+        self.diffuse = None;
+        self.gpu.bury();
+        self.diffuse = diffuse.map(|diffuse| Diffusing::new(&self.gpu, diffuse)).transpose()?;
         Ok(())
     }
 

@@ -22,7 +22,8 @@ use ash::vk;
 
 pub use device::{Device, DeviceOptions};
 pub use draw::Background;
-use inputs::Foaming;
+pub use inputs::Diffuse;
+use inputs::{Diffusing, Foaming};
 pub use readback::Picture;
 use stage::Stage;
 use submit::{Commands, begin, submit};
@@ -75,6 +76,7 @@ pub struct Headless {
     densities: Option<Buffer>,
     velocities: Option<Buffer>,
     ids: Option<Buffer>,
+    diffuse: Option<Diffusing>,
     foam: Option<Foaming>,
     region: Option<Region>,
     previous: Option<Previous>,
@@ -120,6 +122,7 @@ impl Headless {
             densities: None,
             velocities: None,
             ids: None,
+            diffuse: None,
             foam: None,
             region: None,
             previous: None,
@@ -230,7 +233,7 @@ impl Headless {
         }
         // Freed with the shared objects.
         drop((self.commands, self.color, self.depth, self.scene));
-        drop((self.positions, self.densities, self.velocities, self.ids));
+        drop((self.positions, self.densities, self.velocities, self.ids, self.diffuse));
         // SAFETY: the device is idle, or lost.
         unsafe { renderer.destroy() };
         gpu.destroy();

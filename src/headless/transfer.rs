@@ -158,7 +158,9 @@ impl Headless {
     /// smoothing come at the finest resolution in use; `water.back` is the smoothed back sheet, and
     /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`, and
     /// `water.foam.front`, what lies right behind the frontmost, of `water.foam.thickness`, and
-    /// `motion.X` and `motion.Y` of `motion`.
+    /// `motion.X` and `motion.Y` of `motion`; of diffuse particles there are `foam` (depth), `foam.intensity`,
+    /// `foam.thickness`, `foam.submerged` (what of the thickness is behind the water's surface), `foam.normal.X`,
+    /// `.Y`, `.Z`, `foam.radius` (of the search), `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
@@ -168,6 +170,12 @@ impl Headless {
             "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
             "water.foam.front" => "water.foam.thickness",
             "motion.X" | "motion.Y" => "motion",
+            "foam.intensity" => "foam",
+            "foam.submerged" => "foam.thickness",
+            "foam.normal.X" | "foam.normal.Y" | "foam.normal.Z" | "foam.radius" => "foam.normal",
+            "foam.irradiance.R" | "foam.irradiance.G" | "foam.irradiance.B" | "foam.shadow" => {
+                "foam.irradiance"
+            }
             name => name,
         };
         let Some(layer) = self.layers.iter().find(|layer| layer.name == image).copied() else {
@@ -187,12 +195,20 @@ impl Headless {
         }
         let channel = match name {
             "water.thickness.back" | "water.foam.front" | "motion.Y" => 1,
+            "foam.intensity" | "foam.submerged" | "foam.normal.Y" | "foam.irradiance.G" => 1,
+            "foam.normal.Z" | "foam.irradiance.B" => 2,
+            "foam.radius" | "foam.shadow" => 3,
             _ => 0,
         };
         if layer.format == vk::Format::R32G32B32A32_SFLOAT {
             let all: Picture<[f32; 4]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
             return Ok(Some(all.map(|all| all[channel])));
+        }
+        if layer.format == vk::Format::R16G16B16A16_SFLOAT {
+            let half: Picture<[u16; 4]> =
+                self.read(layer.image, layer.format, area, layer.access)?;
+            return Ok(Some(half.map(|all| half::f16::from_bits(all[channel]).to_f32())));
         }
         if layer.format == vk::Format::R32G32_SFLOAT {
             let both: Picture<[f32; 2]> =

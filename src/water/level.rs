@@ -116,6 +116,7 @@ impl Level {
             (3, 1 << config.thickness_level),
             (9, u32::from(config.foam)),
             (10, u32::from(config.spray)),
+            (20, u32::from(config.diffuse.is_some())),
         ];
         let coarsening = coarsening(config);
         let size = size_of::<SmoothingLevels>() as u64;
@@ -221,7 +222,7 @@ impl Level {
                 buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_WRITE),
             ],
         );
-        let [foam, spray] = depths.beside(r);
+        let [foam, spray, diffuse] = depths.beside(r);
         r.descriptors.bind(
             gpu,
             cmd,
@@ -236,6 +237,7 @@ impl Level {
                 (7, self.resource()),
                 foam,
                 spray,
+                diffuse,
             ],
         )?;
         // SAFETY: as above; the arguments are visible (barrier).

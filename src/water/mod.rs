@@ -23,8 +23,9 @@ mod tiles;
 
 use ash::vk;
 
-use crate::contract::{Config, Layer, MemoryUse, ParticleCounts, Particles};
+use crate::contract::{Config, DiffuseParticles, Layer, MemoryUse, ParticleCounts, Particles};
 use crate::error::Error;
+use crate::foam::Foam;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::Access;
@@ -36,7 +37,7 @@ use crate::gpu::timing::{Scope, Timer};
 use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::{Classify, ROW};
-pub(crate) use cull::{CAST, SphereList, Window, buffers_of, chunk_unit, chunks};
+pub(crate) use cull::{CAST, SphereList, Window, buffers_of, capacity, chunk_unit, chunks};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule,
@@ -192,12 +193,13 @@ impl Water {
         self.split.resize(gpu, config, retired)
     }
 
-    /// The passes of a frame; `light`: its maps are made on the way.
+    /// The passes of a frame; `light`: its maps are made on the way, as is where `diffuse` shows.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
         light: Option<&Light>,
+        diffuse: Option<(&Foam, Option<&DiffuseParticles>)>,
     ) -> Result<(), Error> {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
@@ -211,6 +213,9 @@ impl Water {
         if let Some(spray) = &self.spray {
             spray.record(r, particles, &self.cull.list, &self.depth.image)?;
         }
+        if let Some((foam, particles)) = diffuse {
+            foam.record_splat(r, particles, &self.depth.image)?;
+        }
         let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
         if let Some(gaps) = gaps {
             gaps.record(r, &self.front.list, &self.cull.list)?;
@@ -218,7 +223,8 @@ impl Water {
         let foam = self.foam.as_ref().map(foam::Foam::depth);
         self.thickness.record(r, &self.cull.list, gaps, foam)?;
         let spray = self.spray.as_ref().map(spray::Spray::image);
-        let depths = reduce::Depths { water: &self.depth.image, foam, spray };
+        let diffuse = diffuse.map(|(foam, _)| foam.layers()[0]);
+        let depths = reduce::Depths { water: &self.depth.image, foam, spray, diffuse };
         self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
         let (plan, tiles, level) = (&self.reduce.plan, &self.tiles, &self.level);

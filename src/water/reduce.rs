@@ -35,16 +35,18 @@ pub struct Depths<'a> {
     /// Where there is some of either its tiles are drawn too.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
+    /// Of diffuse particles.
+    pub diffuse: Option<&'a Image>,
 }
 
 impl Depths<'_> {
-    /// Foam and spray for glsl/include/beside.glsl, or anything where there is none.
-    pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 2] {
+    /// What glsl/include/beside.glsl reads, or anything where there is none.
+    pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 3] {
         let nearest = r.gpu.samplers.nearest;
         let bound = |image: Option<&Image>| {
             image.map_or(r.scene_depth, |image| Resource::Sampled(image.view, nearest))
         };
-        [(13, bound(self.foam)), (15, bound(self.spray))]
+        [(13, bound(self.foam)), (15, bound(self.spray)), (21, bound(self.diffuse))]
     }
 }
 
@@ -74,6 +76,7 @@ impl Reduce {
             (3, 1 << config.thickness_level),
             (9, u32::from(config.foam)),
             (10, u32::from(config.spray)),
+            (20, u32::from(config.diffuse.is_some())),
         ];
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
@@ -136,7 +139,7 @@ impl Reduce {
                 buffer(over, COPY_WRITE, COMPUTE_READ_WRITE),
             ],
         );
-        let [foam, spray] = depths.beside(r);
+        let [foam, spray, diffuse] = depths.beside(r);
         r.descriptors.bind(
             gpu,
             cmd,
@@ -152,6 +155,7 @@ impl Reduce {
                 (8, Resource::buffer(&level.over)),
                 foam,
                 spray,
+                diffuse,
             ],
         )?;
         self.pipeline.push(gpu, cmd, &tiles.atlas.columns);

@@ -515,7 +515,7 @@ impl NoiseLook {
     }
 }
 
-fn range(
+pub(crate) fn range(
     field: &'static str,
     value: f32,
     least: f32,

@@ -4,6 +4,7 @@
 use std::mem;
 
 use ash::vk;
+use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
 use whitewater::{Config, Error, Frame, Particles, Recorded, Slot};
@@ -83,6 +84,7 @@ fn record_only_records() {
         ("query", Config { smoothing: query, ..base }),
         ("motion", Config { motion: true, ..base }),
         ("noise", Config { noise: Some(1), ..base }),
+        ("diffuse", Config { diffuse: Some(DiffuseConfig::new(1024)), ..base }),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));

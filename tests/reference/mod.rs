@@ -15,6 +15,7 @@ pub mod composite;
 pub mod convolution;
 pub mod cull;
 pub mod depth;
+pub mod diffuse;
 pub mod environment;
 pub mod foam;
 pub mod light;

@@ -169,6 +169,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             scene_depth: scenes[i].1.host_image(),
             particles: clouds[i].particles(),
             camera: shots[i].camera,
+            diffuse: None,
             sun: Default::default(),
             previous: None,
             settings: &shots[i].settings,

@@ -41,6 +41,8 @@ pub struct Drawn {
     pub light_thickness: Option<Image<[f32; 4]>>,
     /// As above.
     pub caustics: Option<Image<f32>>,
+    /// With diffuse particles.
+    pub diffuse: Option<Diffused>,
     /// The host's shadow map as a Fourier basis, all pages.
     pub shadow_basis: Option<Image<[f32; 4]>>,
     pub work: Work,
@@ -68,6 +70,7 @@ impl Drawn {
             light_front: None,
             light_thickness: None,
             caustics: None,
+            diffuse: None,
             shadow_basis: None,
             work: Work::default(),
         }
@@ -112,6 +115,19 @@ impl Foaming {
             foam::seen(layers, (x, y), self.level, scene.at(x, y), spacing)
         })
     }
+}
+
+/// What a frame with diffuse particles gave besides.
+#[derive(Clone)]
+pub struct Diffused {
+    /// Depth of the frontmost, intensity of all, depths of fluid and scene.
+    pub occluders: Image<[f32; 4]>,
+    /// Thickness before the fluid, behind it, the second by how far.
+    pub thickness: Image<[f32; 4]>,
+    /// World normal of the frontmost, its search radius.
+    pub normal: Image<[f32; 4]>,
+    /// Light gathered, shadow.
+    pub light: Image<[f32; 4]>,
 }
 
 /// What a frame with two sheets gave besides.
@@ -183,6 +199,10 @@ impl Rig<'_> {
             level: self.config.thickness_level,
         };
         let mut foams = false;
+        let four = || Image::new(0, 0, [0.0; 4]);
+        let mut diffuse =
+            Diffused { occluders: four(), thickness: four(), normal: four(), light: four() };
+        let mut diffuses = false;
         for layer in &recorded.layers {
             let whole = layer.extent.into();
             match layer.name {
@@ -241,12 +261,17 @@ impl Rig<'_> {
                         second.1 = self.texels(layer, area(coarser));
                     }
                 }
+                "foam" => (diffuse.occluders, diffuses) = (self.fours(layer), true),
+                "foam.thickness" => diffuse.thickness = self.fours(layer),
+                "foam.normal" => diffuse.normal = self.fours(layer),
+                "foam.irradiance" => diffuse.light = self.fours(layer),
                 other => panic!("an unknown layer {other}"),
             }
         }
         drawn.coarser = fading.then_some(second);
         drawn.sheets = sheets;
         drawn.foam = foams.then_some(foam);
+        drawn.diffuse = diffuses.then_some(diffuse);
         drawn
     }
 
@@ -284,6 +309,10 @@ impl Rig<'_> {
         assert_eq!(layer.format, vk::Format::R32G32B32A32_SFLOAT);
         picture(layer.format, area.extent, &self.bytes(layer, area))
             .map(|[x, y, z, _]| [*x, *y, *z])
+    }
+
+    fn fours(&self, layer: &Layer) -> Image<[f32; 4]> {
+        picture(layer.format, layer.extent, &self.bytes(layer, layer.extent.into()))
     }
 
     fn pairs(&self, layer: &Layer, area: vk::Rect2D) -> Image<[f32; 2]> {

@@ -6,14 +6,14 @@ mod shot;
 use ash::vk;
 use whitewater::water::{Shading, Splat};
 use whitewater::{
-    Access, Config, Count, EnvironmentSource, Equirectangular, Error, Frame, HostImage, Particles,
-    Renderer, Slot, Stream,
+    Access, Config, Count, DiffuseParticles, EnvironmentSource, Equirectangular, Error, Frame,
+    HostImage, Particles, Renderer, Slot, Stream,
 };
 
 use super::device::Gpu;
 use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 
-pub use drawn::{Drawn, Foaming, Sheets};
+pub use drawn::{Diffused, Drawn, Foaming, Sheets};
 pub use shot::{AROUND, Shot};
 
 /// Format of the outputs: its rounding is that of the shaders.
@@ -191,6 +191,32 @@ impl<'g> Rig<'g> {
 
     /// Draws a shot with other particles than its own.
     pub fn draw_particles(&mut self, shot: &Shot, particles: &Particles) -> Drawn {
+        self.draw_diffuse(shot, particles, None)
+    }
+
+    /// The same with diffuse particles.
+    pub fn draw_diffuse(
+        &mut self,
+        shot: &Shot,
+        particles: &Particles,
+        diffuse: Option<DiffuseParticles>,
+    ) -> Drawn {
+        self.try_draw(shot, particles, diffuse).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// What is said of a shot that can't be drawn.
+    pub fn refused(&mut self, shot: &Shot, diffuse: Option<DiffuseParticles>) -> String {
+        let cloud = self.particles(shot);
+        let result = self.try_draw(shot, &cloud.particles(), diffuse);
+        result.err().expect("an error").to_string()
+    }
+
+    fn try_draw(
+        &mut self,
+        shot: &Shot,
+        particles: &Particles,
+        diffuse: Option<DiffuseParticles>,
+    ) -> Result<Drawn, Error> {
         let (color, depth) = self.scene(shot);
         let apart = (!self.config.in_place).then(|| {
             let format = self.config.output_format;
@@ -205,6 +231,7 @@ impl<'g> Rig<'g> {
         let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
         let frame = Frame {
             scene_color: placed(&color, shot.size),
+            diffuse,
             ..shot.frame(output, placed(&depth, shot.depth_extent), *particles)
         };
         let cmd = self.stub.begin(0);
@@ -213,8 +240,7 @@ impl<'g> Rig<'g> {
         let recorded = unsafe { renderer.record(cmd, &frame) };
         self.stub.end(0);
         self.stub.wait(0);
-        let recorded = recorded.unwrap_or_else(|error| panic!("{error}"));
-        let drawn = self.read(&output, &recorded);
+        let drawn = recorded.map(|recorded| self.read(&output, &recorded));
         self.renderer().collect(Slot(0));
         drawn
     }

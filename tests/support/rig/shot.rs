@@ -71,6 +71,7 @@ impl Shot {
             scene_depth: depth,
             particles,
             camera: self.camera,
+            diffuse: None,
             sun: self.sun,
             previous: self.previous,
             settings: &self.settings,

@@ -167,6 +167,7 @@ pub fn draw(
             scene_depth: depth,
             particles,
             camera: Camera { view, projection },
+            diffuse: None,
             sun: Sun::default(),
             previous: None,
             settings: &settings,

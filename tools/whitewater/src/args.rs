@@ -83,6 +83,11 @@ pub struct RenderArgs {
     /// [default: found from positions and velocities]
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
+    /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
+    /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
+    /// given several times. Then --foam and --spray are of the water no more unless they are given
+    #[arg(long, value_name = "[KIND=]FILES", value_parser = crate::diffuse::named)]
+    pub whitewater: Vec<Whitewater>,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,
@@ -95,6 +100,14 @@ pub struct RenderArgs {
     pub camera: CameraArgs,
     #[command(flatten)]
     pub draw: DrawArgs,
+}
+
+/// Files of diffuse particles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Whitewater {
+    /// What they all are; none: as the files say.
+    pub kind: Option<u32>,
+    pub files: String,
 }
 
 #[derive(Args, Debug)]
@@ -119,7 +132,8 @@ pub struct DrawArgs {
     /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = times_as_large)]
     pub supersample: u32,
-    /// Settings as TOML, tables [water], [foam], [spray], [noise] and [light]
+    /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [shadow], [noise]
+    /// and [light]
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
@@ -146,15 +160,15 @@ pub struct DrawArgs {
     /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
-    /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
+    /// What of the water foams: auto [default, but with --whitewater none] (the fastest twentieth of it, of a sequence three tenths at a time at
     /// most, where there are velocities), none, or the Weber number from which on it does. In a sequence
     /// with ids foam comes and goes in time; frames before those that are drawn are read for it
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = foaming)]
-    pub foam: Foaming,
-    /// Spray, of particles too few together to be a body of water: auto (where densities are known or
-    /// can be found) or none
-    #[arg(long, value_enum, default_value_t = SprayArg::Auto)]
-    pub spray: SprayArg,
+    #[arg(long, value_name = "WHEN", value_parser = foaming)]
+    pub foam: Option<Foaming>,
+    /// Spray, of particles too few together to be a body of water: auto [default, but with --whitewater
+    /// none] (where densities are known or can be found) or none
+    #[arg(long, value_enum)]
+    pub spray: Option<SprayArg>,
     /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface
     /// (its normals), or foam (its grey foam too); with --rule fixed:40 and --foam none it is whole
     #[arg(long, value_enum, default_value_t = NoiseArg::None)]

@@ -5,7 +5,7 @@ use whitewater::io::particles::{self, Extension};
 use whitewater::water::FoamLook;
 use whitewater::{Region, Settings};
 
-use crate::args::DemoArgs;
+use crate::args::{DemoArgs, Foaming, SprayArg};
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
@@ -59,11 +59,25 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     };
     camera.check([0], args.draw.size)?;
     let count = particles.positions.len();
-    let foam = foam::settings(args.draw.foam, std::slice::from_ref(&particles), &[0.0], &settings);
+    let foam = args.draw.foam.unwrap_or(Foaming::Auto);
+    let spray = args.draw.spray != Some(SprayArg::None);
+    let foam = foam::settings(foam, std::slice::from_ref(&particles), &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
-    let look =
-        Look { camera, settings, environment, scene, foam, shadows, region, fps: None, rate: None };
+    let (diffuse, fps, rate) = (None, None, None);
+    let look = Look {
+        camera,
+        settings,
+        environment,
+        scene,
+        foam,
+        diffuse,
+        spray,
+        shadows,
+        region,
+        fps,
+        rate,
+    };
     let mut progress = Progress::new(1, "frames");
     let mut session = Session::new(&args.draw, checked, look, progress.steps())?;
     session.frame(0, None, "waterfall", &particles)?;

@@ -10,7 +10,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 16] = [
+const GROUPS: [&str; 24] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -24,6 +24,14 @@ const GROUPS: [&str; 16] = [
     "water.foam.front",
     "water.spray",
     "water.noise",
+    "foam",
+    "foam.thickness",
+    "foam.submerged",
+    "foam.intensity",
+    "foam.radius",
+    "foam.normal",
+    "foam.shadow",
+    "foam.irradiance",
     "scene",
     MOTION,
     LADDER,
@@ -129,7 +137,7 @@ pub fn collect(
         push(name, &color.map(|v| v[c]), Merge::Mean)?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
-    for name in ["water.depth", "water.back", "water.foam"] {
+    for name in ["water.depth", "water.back", "water.foam", "foam"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
@@ -145,11 +153,25 @@ pub fn collect(
         ("water.foam.front", Merge::Mean),
         ("water.spray", Merge::Mean),
         ("water.noise", Merge::Mean),
+        ("foam.thickness", Merge::Mean),
+        ("foam.submerged", Merge::Mean),
+        ("foam.intensity", Merge::Mean),
+        ("foam.radius", Merge::Most),
+        ("foam.shadow", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
             push(name, &picture, merge)?;
+        }
+    }
+    for (name, axes) in [("foam.normal", ["X", "Y", "Z"]), ("foam.irradiance", ["R", "G", "B"])] {
+        for name in
+            axes.map(|axis| format!("{name}.{axis}")).iter().filter(|_| wanted.contains(&name))
+        {
+            if let Some(picture) = headless.layer(name)? {
+                push(name, &picture, Merge::Mean)?;
+            }
         }
     }
     let (surface, normal) = (wanted.contains(&"water.surface"), wanted.contains(&"water.normal"));

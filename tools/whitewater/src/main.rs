@@ -7,6 +7,7 @@ mod bounds;
 mod camera;
 mod compare;
 mod demo;
+mod diffuse;
 mod environment;
 mod failure;
 mod foam;

@@ -2,13 +2,15 @@
 
 use glam::Vec3;
 use whitewater::Settings;
+use whitewater::foam::DiffuseLook;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 use whitewater::water::FoamLook;
 
-use crate::args::{RenderArgs, Up};
+use crate::args::{Foaming, RenderArgs, SprayArg, Up};
 use crate::bounds::{self, Bounds};
 use crate::camera::CameraFile;
+use crate::diffuse;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::foam;
@@ -56,9 +58,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let mut probes = steps.during("reading", || Probes::read(args, &all, &left))?;
     let settings = settings.unwrap_or_default();
     let sequence = Sequence { is: all.len() > 1, motion: session::has_motion(&checked) };
+    let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
+    let diffuse = diffuse::Files::find(&args.whitewater, args.up_axis, single)?;
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, camera, settings, environment, &progress)
     })?;
+    let look = Look { diffuse, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
@@ -300,6 +305,7 @@ fn look(
         settings.water.rest_density = density;
     }
     settings.foam = FoamLook::of_spacing(spacing);
+    settings.diffuse = DiffuseLook::of_spacing(spacing);
     settings.noise = session::noise(&args.draw);
     if probes.frames.iter().all(|frame| frame.densities.is_none()) {
         settings.spray.densities = GUESSED_DENSITIES;
@@ -343,14 +349,19 @@ fn look(
         }
     };
     scene.sun = environment.sun_light();
+    // Diffuse particles take the place of the water's own foam and spray.
+    let diffused = !args.whitewater.is_empty();
+    let spray = args.draw.spray.unwrap_or(if diffused { SprayArg::None } else { SprayArg::Auto });
+    let spray = spray == SprayArg::Auto;
     // As `Session::frame` does it.
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
-        frame.densities = session::guessed_densities(&args.draw, frame, &settings.water);
+        frame.densities = session::guessed_densities(spray, frame, &settings.water);
     }
     let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
-    let foam = foam::settings(args.draw.foam, &probes.frames, &seconds, &settings);
+    let foam = args.draw.foam.unwrap_or(if diffused { Foaming::None } else { Foaming::Auto });
+    let foam = foam::settings(foam, &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {
         progress.say(&format!(
             "foam from Weber number {} on (--foam sets it; none)",
@@ -371,7 +382,20 @@ fn look(
     let shadows = file.shadows().map_err(Failure::input)?;
     let rate = fps.filter(|_| vectors);
     let fps = fps.filter(|_| remembers);
-    Ok(Look { camera, settings, environment, scene, foam, shadows, region, fps, rate })
+    let diffuse = None;
+    Ok(Look {
+        camera,
+        settings,
+        environment,
+        scene,
+        foam,
+        diffuse,
+        spray,
+        shadows,
+        region,
+        fps,
+        rate,
+    })
 }
 
 /// Four digits are enough to read.

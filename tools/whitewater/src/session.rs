@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
+use whitewater::foam::DiffuseConfig;
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles};
@@ -10,8 +11,9 @@ use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, NoiseLook, Shadows, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
-use crate::args::{DrawArgs, NoiseArg, ShadowArg, SprayArg};
+use crate::args::{DrawArgs, NoiseArg, ShadowArg};
 use crate::camera::{CameraFile, Lens};
+use crate::diffuse;
 use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
@@ -28,6 +30,10 @@ pub struct Look {
     pub scene: Scene,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
+    /// Diffuse particles beside the water.
+    pub diffuse: Option<diffuse::Files>,
+    /// Particles of the water turn to spray.
+    pub spray: bool,
     /// How the scene's shadow map is filtered.
     pub shadows: Shadows,
     /// Where water and foam cast shadows.
@@ -109,11 +115,11 @@ const WARM_STEP: f32 = 0.1;
 
 /// Of a file that has none, in the unit of the rest density, where there is to be spray.
 pub fn guessed_densities(
-    args: &DrawArgs,
+    spray: bool,
     particles: &Particles,
     water: &WaterSettings,
 ) -> Option<Vec<f32>> {
-    let wanted = args.spray == SprayArg::Auto && particles.densities.is_none();
+    let wanted = spray && particles.densities.is_none();
     wanted.then(|| {
         let shares = particles::estimate_densities(&particles.positions, water.spacing);
         shares.into_iter().map(|share| share * water.rest_density).collect()
@@ -194,9 +200,16 @@ impl<'a> Session<'a> {
     /// Makes a renderer with room for that many particles, if the one there is has not. A new one
     /// knows of no foam.
     pub fn make_room(&mut self, count: usize) -> Outcome<()> {
+        self.make_room_with(count, 0)
+    }
+
+    fn make_room_with(&mut self, count: usize, diffuse: usize) -> Outcome<()> {
         let count = u32::try_from(count)
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        if self.headless.as_ref().is_some_and(|h| h.renderer().config().max_particles >= count) {
+        let diffuse = diffuse::too_many(diffuse)?;
+        let there = self.headless.as_ref().map(|h| *h.renderer().config());
+        let most = |config: &Config| config.diffuse.map_or(0, |diffuse| diffuse.max_particles);
+        if there.is_some_and(|config| config.max_particles >= count && most(&config) >= diffuse) {
             return Ok(());
         }
         let device = match self.headless.take() {
@@ -211,14 +224,18 @@ impl<'a> Session<'a> {
             [args.size.0, args.size.1].map(|n| n.saturating_mul(args.supersample));
         let extent = vk::Extent2D { width, height };
         // Sequences grow: a quarter more than is needed now.
-        let room = count.saturating_add(count / 4).max(1024);
+        let room = |count: u32| count.saturating_add(count / 4).max(1024);
+        let before = there.as_ref();
+        let diffuse = room(diffuse).max(before.map_or(0, most));
+        let room = room(count).max(before.map_or(0, |config| config.max_particles));
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
         config.smoothing_level = args.smoothing_level;
         config.thickness_level = args.thickness_level;
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
-        config.spray = args.spray == SprayArg::Auto;
+        config.spray = self.look.spray;
+        config.diffuse = self.look.diffuse.is_some().then(|| DiffuseConfig::new(diffuse));
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
         config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
@@ -259,7 +276,12 @@ impl<'a> Session<'a> {
         particles: &Particles,
     ) -> Outcome<()> {
         self.look.scene.frame = number;
-        self.make_room(particles.positions.len())?;
+        let files = self.look.diffuse.as_ref();
+        let diffuse = self
+            .times
+            .step("read", number, || files.map(|files| files.read(number)).transpose())?;
+        let count = diffuse.as_ref().map_or(0, diffuse::Diffuse::len);
+        self.make_room_with(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
             (Some(before), Some(rate)) => {
                 let camera = self.look.camera.at_frame(before).camera(self.args.size)?;
@@ -269,6 +291,8 @@ impl<'a> Session<'a> {
         };
         if let Some(headless) = &mut self.headless {
             headless.previous(previous);
+            let input = diffuse.as_ref().map(diffuse::Diffuse::input);
+            self.times.step("upload", number, || headless.diffuse(input.as_ref()))?;
         }
         self.step(number, source, particles, true)
     }
@@ -311,8 +335,8 @@ impl<'a> Session<'a> {
         };
         // Spray goes by density.
         let water = &self.look.settings.water;
-        let guessed =
-            times.step("densities", number, || guessed_densities(self.args, particles, water));
+        let guessed = times
+            .step("densities", number, || guessed_densities(self.look.spray, particles, water));
         times.step("upload", number, || {
             let densities = particles.densities.as_deref().or(guessed.as_deref());
             headless.particles(&particles.positions, densities)?;

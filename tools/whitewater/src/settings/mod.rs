@@ -1,5 +1,7 @@
 //! Settings from TOML: a mirror of `whitewater::Settings` in which every value may be left out.
 
+mod diffuse;
+
 use std::path::Path;
 
 use serde::Deserialize;
@@ -17,6 +19,7 @@ pub struct SettingsFile {
     pub water: WaterTable,
     pub foam: FoamTable,
     pub spray: SprayTable,
+    pub diffuse: diffuse::DiffuseTable,
     pub shadow: ShadowTable,
     pub noise: NoiseTable,
     pub light: LightTable,
@@ -223,6 +226,7 @@ impl SettingsFile {
         set(&mut spray.shutter, table.shutter);
         spray.color = table.color.unwrap_or(spray.color);
         spray.additive = table.additive.unwrap_or(spray.additive);
+        self.diffuse.apply(&mut settings.diffuse);
         let (shadow, table) = (&mut settings.shadow, &self.shadow);
         set(&mut shadow.width, table.width);
         set(&mut shadow.damping, table.damping);
@@ -357,6 +361,7 @@ pub fn to_toml(settings: &Settings) -> String {
         "[water]\n{}amplitude = '{amplitude}'\nmedium = {medium}\nfresnel = {fresnel}\n\n\
          [foam]\n{}back_color = {:?}\nfront_color = {:?}\n\n\
          [spray]\n{}droplets = {}\ndensities = {:?}\ncolor = {:?}\nadditive = {}\n\n\
+         {}\n\
          [shadow]\n{}\n\
          [noise]\n{}color = {:?}\n\n\
          [light]\ndirection = {:?}\ncolor = {:?}\nambient = {:?}\nirradiance = {:?}\nshade = {:?}\n",
@@ -369,6 +374,7 @@ pub fn to_toml(settings: &Settings) -> String {
         spray.densities,
         spray.color,
         spray.additive,
+        diffuse::to_toml(&settings.diffuse),
         lines(&of_shadow),
         lines(&of_noise),
         noise.color,
@@ -387,6 +393,7 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use whitewater::foam::{DiffuseLook, Mixing, Reach, Submerged};
     use whitewater::water::{NoiseLook, SprayLook};
 
     #[test]
@@ -421,6 +428,13 @@ mod tests {
         settings.foam.veil = 0.25;
         settings.foam.front_color = [0.1, 0.2, 0.3];
         settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
+        settings.diffuse = DiffuseLook {
+            submerged: Submerged::Falloff { most: 0.3, n: 2.0, m: 4.0 },
+            reach: Reach::Metres(5.0),
+            mixing: Mixing::Source,
+            samples: [8, 64],
+            ..DiffuseLook::of_spacing(0.1)
+        };
         settings.shadow.width = 7.5;
         settings.noise = NoiseLook { cells: 0.7, ..NoiseLook::SOURCE };
         settings.light.irradiance = [1.0, 2.0, 3.0];

@@ -1,0 +1,36 @@
+#version 460
+// Pass `environment`: what a surface gathers of the environment, over 2 pi: a half of one that is 1 everywhere, as
+// the samples it stands for (Akinci et al. 2013, Sec. 2.4.2).
+// Reads: environment. Writes: irradiance (RGBA16F), all faces.
+
+#include "cube.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 0, rgba16f) uniform writeonly image2DArray irradiance;
+layout(set = 0, binding = 1) uniform samplerCube environment;
+layout(push_constant, std430) uniform Push {
+    uint size;   // of the irradiance
+    uint coarse; // of the environment's mip that is read
+    float mip;
+} push;
+
+void main() {
+    ivec3 texel = ivec3(gl_GlobalInvocationID);
+    if (max(texel.x, texel.y) >= int(push.size)) {
+        return;
+    }
+    vec3 normal = cube_direction(texel, int(push.size));
+    vec4 sum = vec4(0.0);
+    int n = int(push.coarse);
+    for (int i = 0; i < 6 * n * n; ++i) {
+        ivec3 from = ivec3(i % n, i / n % n, i / (n * n));
+        vec3 direction = cube_direction(from, n);
+        // Solid angle of a texel, up to what is the same for all.
+        vec2 place = (vec2(from.xy) + 0.5) / float(n) * 2.0 - 1.0;
+        float angle = pow(1.0 + dot(place, place), -1.5);
+        vec3 light = textureLod(environment, direction, push.mip).rgb;
+        sum += angle * vec4(max(dot(direction, normal), 0.0) * light, 1.0);
+    }
+    // Over all directions, not the half of them: twice.
+    imageStore(irradiance, texel, vec4(min(2.0 * sum.rgb / sum.w, 65000.0), 1.0));
+}

@@ -1,0 +1,47 @@
+#version 460
+// Pass `splat`, first part: nothing in any pixel but the depths of scene and fluid, which particles ask for many
+// times (Akinci et al. 2013, passes 1 and 2); the dispatches that the particles need.
+// Reads: scene depth, water depth, count. Writes: words, arguments.
+
+#include "frame.glsl"
+#include "diffuse_words.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(set = 0, binding = 1, std430) writeonly buffer Words { uint words[]; };
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 3) uniform sampler2D water_depth;
+layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
+// Groups of each chunk, and its particles.
+layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint count;      // from the host, or the most there may be
+    uint from_gpu;
+    uint chunks;
+    uint chunk_size;
+    uint group_size;
+} push;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (gl_GlobalInvocationID.y == 0u && gl_GlobalInvocationID.x < push.chunks) {
+        uint chunk = gl_GlobalInvocationID.x;
+        uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;
+        uint own = min(all - min(all, chunk * push.chunk_size), push.chunk_size);
+        arguments[chunk] = uvec4((own + push.group_size - 1u) / push.group_size, 1u, 1u, own);
+    }
+    if (all(lessThan(pixel, ivec2(frame.extent.xy)))) {
+        float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
+        float fluid = texelFetch(water_depth, pixel, 0).x;
+        // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+        scene = scene > 0.0 ? min(scene, EMPTY) : EMPTY;
+        uint at = words_of(pixel);
+        words[at + FRONT] = floatBitsToUint(scene);
+        words[at + WITH] = 0xffffffffu;
+        words[at + SCENE] = floatBitsToUint(scene);
+        words[at + FLUID] = floatBitsToUint(fluid < scene ? fluid : EMPTY);
+        for (uint word = SUMS; word < WORDS; ++word) {
+            words[at + word] = 0u;
+        }
+    }
+}

@@ -1,0 +1,47 @@
+#version 460
+// Pass `blur`: takes the noise of the samples from light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along
+// rows and then along columns, not across gaps in depth.
+// Reads: foam depth, foam normal with its search radius, light and shadow. Writes: the same, blurred.
+
+#include "frame.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 1) uniform sampler2D occluders;
+layout(set = 0, binding = 2) uniform sampler2D normals;
+layout(set = 0, binding = 3) uniform sampler2D radiance;
+layout(set = 0, binding = 4, rgba16f) uniform writeonly image2D blurred;
+layout(push_constant, std430) uniform Push { ivec2 step; } push;
+
+const int MOST = 32;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = ivec2(frame.extent.xy);
+    if (any(greaterThanEqual(pixel, size))) {
+        return;
+    }
+    vec4 middle = texelFetch(radiance, pixel, 0);
+    float depth = texelFetch(occluders, pixel, 0).x;
+    if (depth >= EMPTY) {
+        imageStore(blurred, pixel, vec4(0.0));
+        return;
+    }
+    float search = texelFetch(normals, pixel, 0).w;
+    float first = search * (frame.diffuse_search.x + frame.diffuse_search.y);
+    float radius = 1.5 * 0.5 * first * frame.extent.y;
+    // Two radii of the particle.
+    float gap = 2.0 * search * depth / abs(frame.projection.y);
+    int reach = min(int(radius), MOST);
+    float narrow = -2.0 / max(radius * radius, 1.0e-6);
+    vec4 sum = middle;
+    float weights = 1.0;
+    for (int i = -reach; i <= reach; ++i) {
+        ivec2 p = pixel + i * push.step;
+        bool there = i != 0 && all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, size));
+        float z = there ? texelFetch(occluders, p, 0).x : EMPTY;
+        float weight = abs(z - depth) <= gap ? exp(narrow * float(i * i)) : 0.0;
+        sum += weight > 0.0 ? weight * texelFetch(radiance, p, 0) : vec4(0.0);
+        weights += weight;
+    }
+    imageStore(blurred, pixel, sum / weights);
+}

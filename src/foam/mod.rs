@@ -1,0 +1,89 @@
+//! Screen-space foam of diffuse particles: spray, foam and bubbles, by the million (Akinci, Dippel, Akinci,
+//! Teschner, Screen Space Foam Rendering, 2013). A pass a file.
+
+mod radiance;
+pub mod settings;
+pub(crate) mod splat;
+
+use crate::contract::{Config, DiffuseParticles, Layer};
+use crate::environment::Environment;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::image::Image;
+use crate::gpu::retire::RetireList;
+use crate::water::Recording;
+pub use settings::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Reach, Submerged};
+
+/// The technique: its passes in the order of the frame.
+pub(crate) struct Foam {
+    sprites: splat::Sprites,
+    radiance: radiance::Radiance,
+}
+
+impl Foam {
+    pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
+        Ok(Self {
+            sprites: splat::Sprites::new(gpu, config, diffuse)?,
+            radiance: radiance::Radiance::new(gpu, config, diffuse)?,
+        })
+    }
+
+    /// Replaces what depends on the extent.
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        self.sprites.resize(gpu, config, retired)?;
+        self.radiance.resize(gpu, config, retired)
+    }
+
+    /// Where foam is, and how much: as soon as the depth of the water is known, so that its tiles are drawn.
+    pub fn record_splat(
+        &self,
+        r: &mut Recording<'_>,
+        particles: Option<&DiffuseParticles>,
+        water: &Image,
+    ) -> Result<(), Error> {
+        self.sprites.record(r, particles, water)
+    }
+
+    /// The light on it.
+    pub fn record_radiance(
+        &self,
+        r: &mut Recording<'_>,
+        environment: &Environment,
+    ) -> Result<(), Error> {
+        self.radiance.record(r, &self.sprites, environment)
+    }
+
+    /// What `composite` reads: depth and intensity, thickness, light and shadow.
+    pub fn layers(&self) -> [&Image; 3] {
+        [self.sprites.occluders(), self.sprites.thickness(), self.radiance.image()]
+    }
+
+    /// The layers of a frame of a size for the host.
+    pub fn kept(&self, extent: ash::vk::Extent2D) -> Vec<Layer> {
+        let layer = |name, image: &Image| Layer {
+            name,
+            image: image.handle,
+            view: image.view,
+            format: image.format,
+            extent,
+            access: splat::AFTER,
+        };
+        vec![
+            layer("foam", self.sprites.occluders()),
+            layer("foam.thickness", self.sprites.thickness()),
+            layer("foam.normal", self.sprites.normal()),
+            layer("foam.irradiance", self.radiance.image()),
+        ]
+    }
+
+    /// Bytes of images and of buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        let (a, b) = (self.sprites.memory(), self.radiance.memory());
+        (a.0 + b.0, a.1 + b.1)
+    }
+}

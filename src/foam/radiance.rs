@@ -1,0 +1,184 @@
+//! Passes `radiance` and `blur`: how much light foam gets of its surroundings (Akinci et al. 2013, Sec. 2.4 and
+//! 2.5; passes 6 and 7).
+//!
+//! The samples are the source's: the same points of a sphere for every pixel, of the Halton sequence, in spheres
+//! of growing radius.
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use super::settings::{DiffuseConfig, Irradiance};
+use super::splat::{AFTER, Sprites};
+use crate::contract::Config;
+use crate::environment::Environment;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::water::Recording;
+
+/// Most samples of a sphere.
+const MOST_SAMPLES: usize = 512;
+
+/// The number whose digits in a base are those of `index`, mirrored at the point.
+fn radical_inverse(mut index: u32, base: u32) -> f64 {
+    let (mut value, mut digit) = (0.0, 1.0 / f64::from(base));
+    while index > 0 {
+        value += f64::from(index % base) * digit;
+        index /= base;
+        digit /= f64::from(base);
+    }
+    value
+}
+
+/// The first Halton points (bases 2, 3, 5, from 1 on, in [−1, 1]³) inside the unit sphere, with `λ = (1 − |s|)²`.
+fn points() -> Vec<[f32; 4]> {
+    let point = |index| [2, 3, 5].map(|base| 2.0 * radical_inverse(index, base) - 1.0);
+    let inside = (1..).map(point).filter_map(|[x, y, z]| {
+        let length = (x * x + y * y + z * z).sqrt();
+        (length < 1.0).then(|| [x, y, z, (1.0 - length).powi(2)].map(|v| v as f32))
+    });
+    inside.take(MOST_SAMPLES).collect()
+}
+
+/// The passes.
+pub struct Radiance {
+    gather: Pipeline,
+    blur: Pipeline,
+    points: Buffer,
+    /// Light gathered and shadow, and room for them half blurred.
+    images: [Image; 2],
+}
+
+impl Radiance {
+    pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
+        let sampled = u32::from(diffuse.irradiance == Irradiance::Sampled);
+        let points = points();
+        let bytes: &[u8] = bytemuck::cast_slice(&points);
+        let mut buffer = Buffer::new(
+            gpu,
+            "foam/radiance/points",
+            bytes.len() as u64,
+            vk::BufferUsageFlags::STORAGE_BUFFER,
+            MemoryLocation::CpuToGpu,
+        )?;
+        buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+        Ok(Self {
+            gather: Pipeline::compute(gpu, shader::FOAM_RADIANCE_COMP, &[(0, sampled)])?,
+            blur: Pipeline::compute(gpu, shader::FOAM_BLUR_COMP, &[])?,
+            points: buffer,
+            images: Self::images(gpu, config)?,
+        })
+    }
+
+    fn images(gpu: &Gpu, config: &Config) -> Result<[Image; 2], Error> {
+        let image = |name| {
+            let usage = vk::ImageUsageFlags::STORAGE
+                | vk::ImageUsageFlags::SAMPLED
+                | vk::ImageUsageFlags::TRANSFER_SRC;
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            Image::new(gpu, &ImageDesc::new(name, config.extent, format, usage))
+        };
+        Ok([image("foam/radiance")?, image("foam/blur")?])
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        for (old, new) in self.images.iter_mut().zip(Self::images(gpu, config)?) {
+            retired.replace(old, new);
+        }
+        Ok(())
+    }
+
+    /// Light and shadow, blurred.
+    pub fn image(&self) -> &Image {
+        &self.images[0]
+    }
+
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        sprites: &Sprites,
+        environment: &Environment,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let [image, half] = &self.images;
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        let cube = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
+        let (occluders, normals) = (sampled(sprites.occluders()), sampled(sprites.normal()));
+        let scope = r.begin(c"radiance");
+        let before = AFTER.and(COPY_READ).discarded();
+        gpu.barriers(cmd, &[access::image(image, before, COMPUTE_WRITE)], &[]);
+        let resources = [
+            (0, r.uniforms),
+            (1, occluders),
+            (2, normals),
+            (3, Resource::buffer(&self.points)),
+            (4, cube(&environment.irradiance)),
+            (5, cube(&environment.cube)),
+            (6, Resource::storage(image)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.gather, &resources)?;
+        r.dispatch_over(r.extent, self.gather.local_size);
+        r.end(scope);
+
+        let scope = r.begin(c"blur");
+        for (from, to, step) in [(image, half, [1, 0]), (half, image, [0, 1])] {
+            let images = [
+                access::image(from, COMPUTE_WRITE, COMPUTE_SAMPLED),
+                access::image(to, COMPUTE_SAMPLED.discarded(), COMPUTE_WRITE),
+            ];
+            gpu.barriers(cmd, &images, &[]);
+            let resources = [
+                (0, r.uniforms),
+                (1, occluders),
+                (2, normals),
+                (3, sampled(from)),
+                (4, Resource::storage(to)),
+            ];
+            r.descriptors.bind(gpu, cmd, &self.blur, &resources)?;
+            self.blur.push::<[i32; 2]>(gpu, cmd, &step);
+            r.dispatch_over(r.extent, self.blur.local_size);
+        }
+        gpu.barriers(cmd, &[access::image(image, COMPUTE_WRITE, AFTER)], &[]);
+        r.end(scope);
+        Ok(())
+    }
+
+    /// Bytes of images and buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        (self.images.iter().map(|image| image.size).sum(), self.points.size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_fill_the_sphere() {
+        let points = points();
+        assert_eq!(points.len(), MOST_SAMPLES);
+        assert_eq!(
+            [2, 3, 5].map(|base| radical_inverse(5, base)),
+            [0.625, 0.7777777777777777, 0.04]
+        );
+        let mean: f32 =
+            points.iter().map(|[x, y, z, _]| x * x + y * y + z * z).sum::<f32>() / 512.0;
+        assert!(
+            (mean - 0.6).abs() < 0.01,
+            "mean square of the radius {mean}, of a full sphere 3/5"
+        );
+        let weight: f32 = points.iter().map(|p| p[3]).sum::<f32>() / 512.0;
+        assert!((weight - 0.1).abs() < 0.005, "mean weight {weight}, of a full sphere 1/10");
+    }
+}

@@ -1,0 +1,376 @@
+//! Pass `splat`: the frontmost of the diffuse particles with its normal, and their thickness (Akinci et al.
+//! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
+//!
+//! An invocation a particle, with integer atomics: a depth by its bits, sums of whole steps, which no order of the
+//! particles changes. Depth and thickness in one go, so that a particle is read once for both; what goes with the
+//! frontmost by a second. No list of sprites between: of millions it would be most of the memory.
+//! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use crate::contract::{Config, Count, DiffuseParticles};
+use crate::error::Error;
+use crate::foam::settings::DiffuseConfig;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+    FRAGMENT_SAMPLED, INDIRECT, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::water::{Recording, Window, capacity};
+
+/// Bytes of a pixel's words (glsl/include/diffuse_words.glsl).
+const WORDS: u64 = 28;
+/// Groups of a dispatch at most.
+const MOST_GROUPS: u32 = 65_535;
+
+/// The images between frames, and after the pass.
+pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct BeginPush {
+    count: u32,
+    from_gpu: u32,
+    chunks: u32,
+    chunk_size: u32,
+    group_size: u32,
+}
+shader::assert_layout!(
+    shader::FOAM_BEGIN_COMP,
+    "Push",
+    BeginPush { count, from_gpu, chunks, chunk_size, group_size }
+);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    position_word: u32,
+    position_stride: u32,
+    kind_word: u32,
+    kind_stride: u32,
+    radius_word: u32,
+    radius_stride: u32,
+    age_word: u32,
+    age_stride: u32,
+    id_word: u32,
+    id_stride: u32,
+    chunk_first: u32,
+    chunk: u32,
+}
+shader::assert_layout!(
+    shader::FOAM_SPLAT_COMP,
+    "Push",
+    Push {
+        position_word,
+        position_stride,
+        kind_word,
+        kind_stride,
+        radius_word,
+        radius_stride,
+        age_word,
+        age_stride,
+        id_word,
+        id_stride,
+        chunk_first,
+        chunk,
+    }
+);
+
+/// Particles of a chunk and how many chunks there are.
+pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &DiffuseConfig) -> (u32, u32) {
+    let range = limits.max_storage_buffer_range.saturating_sub(256);
+    let size = (range / config.max_stride).min(64 * MOST_GROUPS).min(config.max_particles).max(1);
+    (size, config.max_particles.div_ceil(size))
+}
+
+/// What depends on the frame's size.
+struct Sized {
+    words: Buffer,
+    /// Foam depth, intensity of all, depths of fluid and scene.
+    occluders: Image,
+    /// Before the fluid, behind it, the second by how far.
+    thickness: Image,
+    /// World normal, search radius.
+    normal: Image,
+}
+
+impl Sized {
+    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let extent = config.extent;
+        let image = |name, format| {
+            let usage = vk::ImageUsageFlags::STORAGE
+                | vk::ImageUsageFlags::SAMPLED
+                | vk::ImageUsageFlags::TRANSFER_SRC;
+            Image::new(gpu, &ImageDesc::new(name, extent, format, usage))
+        };
+        let bytes = WORDS * u64::from(extent.width) * u64::from(extent.height);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        Ok(Self {
+            words: Buffer::new(gpu, "foam/splat/words", bytes, usage, MemoryLocation::GpuOnly)?,
+            occluders: image("foam/splat/occluders", vk::Format::R32G32B32A32_SFLOAT)?,
+            thickness: image("foam/splat/thickness", vk::Format::R32G32B32A32_SFLOAT)?,
+            normal: image("foam/splat/normal", vk::Format::R16G16B16A16_SFLOAT)?,
+        })
+    }
+}
+
+/// The pass.
+pub struct Sprites {
+    begin: Pipeline,
+    depth: Pipeline,
+    frontmost: Pipeline,
+    resolve: Pipeline,
+    arguments: Buffer,
+    sized: Sized,
+    chunk_size: u32,
+    chunks: u32,
+    max_particles: u32,
+}
+
+impl Sprites {
+    pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
+        let (chunk_size, chunks) = chunks(&gpu.limits, diffuse);
+        let splat = |which| Pipeline::compute(gpu, shader::FOAM_SPLAT_COMP, &[(0, which)]);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER;
+        let bytes = 16 * u64::from(chunks);
+        Ok(Self {
+            begin: Pipeline::compute(gpu, shader::FOAM_BEGIN_COMP, &[])?,
+            depth: splat(0)?,
+            frontmost: splat(1)?,
+            resolve: Pipeline::compute(gpu, shader::FOAM_RESOLVE_COMP, &[])?,
+            arguments: Buffer::new(
+                gpu,
+                "foam/splat/arguments",
+                bytes,
+                usage,
+                MemoryLocation::GpuOnly,
+            )?,
+            sized: Sized::new(gpu, config)?,
+            chunk_size,
+            chunks,
+            max_particles: diffuse.max_particles,
+        })
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let sized = Sized::new(gpu, config)?;
+        let old = &mut self.sized;
+        retired.replace(&mut old.words, sized.words);
+        retired.replace(&mut old.occluders, sized.occluders);
+        retired.replace(&mut old.thickness, sized.thickness);
+        retired.replace(&mut old.normal, sized.normal);
+        Ok(())
+    }
+
+    /// Foam depth, its intensity, depths of fluid and scene.
+    pub fn occluders(&self) -> &Image {
+        &self.sized.occluders
+    }
+
+    /// Thickness before the fluid, behind it, the second by how far behind it lies.
+    pub fn thickness(&self) -> &Image {
+        &self.sized.thickness
+    }
+
+    /// World normal of the frontmost, and its search radius.
+    pub fn normal(&self) -> &Image {
+        &self.sized.normal
+    }
+
+    /// `water`: depth of its frontmost spheres, as its pass left it; it comes back so.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: Option<&DiffuseParticles>,
+        water: &Image,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"splat");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let Sized { words, occluders, thickness, normal } = &self.sized;
+        let (words, arguments) = (words.handle, self.arguments.handle);
+        let mut before = vec![
+            buffer(words, COMPUTE_READ, COMPUTE_WRITE),
+            buffer(arguments, INDIRECT.and(COMPUTE_READ), COMPUTE_WRITE),
+        ];
+        if let Some(particles) = particles {
+            let host = buffers_of(particles).into_iter();
+            before.extend(host.map(|handle| buffer(handle, particles.before, COMPUTE_READ)));
+        }
+        let both = COMPUTE_READ_WRITE;
+        gpu.barriers(cmd, &[access::image(water, both, COMPUTE_SAMPLED)], &before);
+        self.record_begin(r, particles, water)?;
+        gpu.barriers(
+            cmd,
+            &[access::image(water, COMPUTE_SAMPLED, both)],
+            &[
+                buffer(words, COMPUTE_WRITE, both),
+                buffer(arguments, COMPUTE_WRITE, INDIRECT.and(COMPUTE_READ)),
+            ],
+        );
+        if let Some(particles) = particles {
+            for pipeline in [&self.depth, &self.frontmost] {
+                self.record_particles(r, particles, pipeline)?;
+                gpu.barriers(cmd, &[], &[buffer(words, both, both)]);
+            }
+        }
+        let images = [occluders, thickness, normal];
+        let hand = |from: Access, to| images.map(|image| access::image(image, from, to));
+        gpu.barriers(
+            cmd,
+            &hand(AFTER.and(COPY_READ).discarded(), COMPUTE_WRITE),
+            &[buffer(words, both, COMPUTE_READ)],
+        );
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::buffer(&self.sized.words)),
+            (2, Resource::storage(occluders)),
+            (3, Resource::storage(thickness)),
+            (4, Resource::storage(normal)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.resolve, &resources)?;
+        r.dispatch_over(r.extent, self.resolve.local_size);
+        gpu.barriers(cmd, &hand(COMPUTE_WRITE, AFTER), &[]);
+        r.end(scope);
+        Ok(())
+    }
+
+    fn record_begin(
+        &self,
+        r: &Recording<'_>,
+        particles: Option<&DiffuseParticles>,
+        water: &Image,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let most = particles.map_or(0, |p| streams(p).map(capacity).fold(u32::MAX, u32::min));
+        let most = most.min(self.max_particles);
+        // Where the host knows the count any buffer will do.
+        let unread = Resource::buffer(&self.sized.words);
+        let (count, from_gpu, host_count) = match particles.map(|p| p.count) {
+            Some(Count::Gpu { buffer, offset }) => {
+                (most, true, Resource::Buffer(buffer, offset, 4))
+            }
+            Some(Count::Cpu(count)) => (count.min(most), false, unread),
+            None => (0, false, unread),
+        };
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::buffer(&self.sized.words)),
+            (2, r.scene_depth),
+            (3, Resource::Sampled(water.view, gpu.samplers.nearest)),
+            (4, host_count),
+            (5, Resource::buffer(&self.arguments)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
+        self.begin.push(
+            gpu,
+            cmd,
+            &BeginPush {
+                count,
+                from_gpu: u32::from(from_gpu),
+                chunks: self.chunks,
+                chunk_size: self.chunk_size,
+                group_size: self.depth.local_size[0],
+            },
+        );
+        // At least an invocation a chunk.
+        let extent = vk::Extent2D { width: r.extent.width.max(self.chunks), ..r.extent };
+        r.dispatch_over(extent, self.begin.local_size);
+        Ok(())
+    }
+
+    fn record_particles(
+        &self,
+        r: &Recording<'_>,
+        particles: &DiffuseParticles,
+        pipeline: &Pipeline,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
+        for chunk in 0..self.chunks {
+            let first = chunk * self.chunk_size;
+            let bound = Window::all(gpu, &particles.positions, others, first);
+            // A stream that ends before the chunk has no particles in it: the count was clamped.
+            let Some((positions, [kinds, radii, ages, ids])) = bound else { break };
+            let resources = [
+                (0, r.uniforms),
+                (1, positions.resource),
+                (2, kinds.resource),
+                (3, radii.resource),
+                (4, ages.resource),
+                (5, ids.resource),
+                (6, Resource::buffer(&self.sized.words)),
+                (7, Resource::buffer(&self.arguments)),
+            ];
+            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            let push = Push {
+                position_word: positions.word,
+                position_stride: positions.stride,
+                kind_word: kinds.word,
+                kind_stride: kinds.stride,
+                radius_word: radii.word,
+                radius_stride: radii.stride,
+                age_word: ages.word,
+                age_stride: ages.stride,
+                id_word: ids.word,
+                id_stride: ids.stride,
+                chunk_first: first,
+                chunk,
+            };
+            pipeline.push(gpu, cmd, &push);
+            let groups = 16 * u64::from(chunk);
+            // SAFETY: outside a render pass; the arguments are visible since `begin`.
+            unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, groups) };
+            if chunk + 1 < self.chunks {
+                // Atomics alone, in any order: for a layer that does not know.
+                let both = COMPUTE_READ_WRITE;
+                gpu.barriers(cmd, &[], &[buffer(self.sized.words.handle, both, both)]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Bytes of images and buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        let Sized { words, occluders, thickness, normal } = &self.sized;
+        let images = [occluders, thickness, normal].map(|image| image.size).iter().sum();
+        (images, words.size + self.arguments.size)
+    }
+}
+
+/// The streams that there are, with the bytes of a value.
+fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&crate::contract::Stream, u64)> {
+    let all = [
+        (Some(&particles.positions), 12),
+        (particles.kinds.as_ref(), 4),
+        (particles.radii.as_ref(), 4),
+        (particles.ages.as_ref(), 4),
+        (particles.ids.as_ref(), 4),
+    ];
+    all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
+}
+
+/// The host's buffers, each once: interleaved streams share one.
+pub fn buffers_of(particles: &DiffuseParticles) -> Vec<vk::Buffer> {
+    let count = match particles.count {
+        Count::Gpu { buffer, .. } => Some(buffer),
+        Count::Cpu(_) => None,
+    };
+    let mut all: Vec<_> =
+        streams(particles).map(|(stream, _)| stream.buffer).chain(count).collect();
+    all.sort_by_key(|handle| vk::Handle::as_raw(*handle));
+    all.dedup();
+    all
+}

@@ -1,0 +1,590 @@
+//! Passes `splat`, `radiance` and `blur`: foam of diffuse particles against the twin, and the picture with it.
+
+use ash::vk;
+use glam::{DVec3, Vec3};
+use whitewater::foam::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Reach, Submerged};
+use whitewater::water::Shading;
+use whitewater::{Config, Count, DiffuseParticles, Renderer, Settings};
+
+use crate::reference::diffuse::{
+    self, Attenuation, Kind, Layers, Occlusion, Particle, Seen, foam_bounds,
+};
+use crate::reference::{EMPTY, Image};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Diffused, Drawn, Rig, Shot, config, extent, stream};
+use crate::support::scenes::{self, LENSES, Lens, Random};
+use crate::support::tolerance::Between;
+
+const SIZE: vk::Extent2D = vk::Extent2D { width: 93, height: 61 };
+/// A rounding to half precision: Vulkan leaves it whether to the nearest or towards zero.
+const HALF: f64 = 1.0 / 1024.0;
+
+fn diffusing(size: vk::Extent2D) -> Config {
+    Config { diffuse: Some(DiffuseConfig::new(4096)), ..config(size) }
+}
+
+/// A shot with diffuse particles.
+#[derive(Clone)]
+struct Diffuse {
+    shot: Shot,
+    positions: Vec<[f32; 3]>,
+    kinds: Vec<u32>,
+    radii: Option<Vec<f32>>,
+    ages: Vec<f32>,
+    ids: Option<Vec<u32>>,
+}
+
+impl Diffuse {
+    /// Particles of all kinds, ages and sizes from a fiftieth of a pixel on, before and behind some water and a
+    /// scene whose right half is near.
+    fn new(lens: Lens) -> Self {
+        let mut shot = Shot::new(SIZE, lens, 0.2, &scenes::cloud(31, 40, 3.0, 9.0));
+        shot.scene_depth(|x, _| Some(if x < SIZE.width / 2 { 8.5 } else { 6.0 }));
+        shot.settings.diffuse.radius = 0.3;
+        let points = scenes::cloud(7, 400, 2.0, 9.0);
+        let mut random = Random(3);
+        let positions = scenes::world(&shot.camera, &points);
+        let count = positions.len();
+        let radius = |i: usize, random: &mut Random| match i % 3 {
+            0 => random.between(0.001, 0.05),
+            _ => random.between(0.05, 0.6),
+        };
+        Self {
+            shot,
+            positions,
+            kinds: (0..count).map(|i| i as u32 % 4).collect(),
+            radii: Some((0..count).map(|i| radius(i, &mut random)).collect()),
+            ages: (0..count).map(|_| random.between(-0.1, 1.1)).collect(),
+            ids: Some((0..count).map(|_| random.bits() as u32).collect()),
+        }
+    }
+
+    fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let data = |bytes: &[u8]| rig.stub.data(bytes, usage);
+        let cloud = rig.particles(&self.shot);
+        let positions = data(bytemuck::cast_slice(&self.positions));
+        let kinds = data(bytemuck::cast_slice(&self.kinds));
+        let radii = self.radii.as_ref().map(|all| data(bytemuck::cast_slice(all)));
+        let ages = data(bytemuck::cast_slice(&self.ages));
+        let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
+        let count = Count::Cpu(self.positions.len() as u32);
+        let particles = DiffuseParticles {
+            kinds: Some(stream(&kinds, 0, 4)),
+            radii: radii.as_ref().map(|all| stream(all, 0, 4)),
+            ages: Some(stream(&ages, 0, 4)),
+            ids: ids.as_ref().map(|all| stream(all, 0, 4)),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..DiffuseParticles::new(stream(&positions, 0, 12), count)
+        };
+        rig.draw_diffuse(&self.shot, &cloud.particles(), Some(particles))
+    }
+
+    fn particles(&self) -> Vec<Particle> {
+        let particle = |(i, position): (usize, &[f32; 3])| Particle {
+            position: Vec3::from(*position).as_dvec3(),
+            kind: Kind::of(self.kinds[i]),
+            radius: self.radii.as_ref().map(|all| f64::from(all[i])),
+            age: f64::from(self.ages[i]),
+            id: self.ids.as_ref().map_or(i as u32, |all| all[i]),
+        };
+        self.positions.iter().enumerate().map(particle).collect()
+    }
+
+    fn twin_settings(&self) -> diffuse::Settings {
+        let Settings { diffuse: look, water, .. } = &self.shot.settings;
+        diffuse::Settings {
+            radius: f64::from(look.radius),
+            spacing: f64::from(water.spacing),
+            attenuation: match look.submerged {
+                Submerged::Water => Attenuation::Water,
+                Submerged::Falloff { most, n, m } => {
+                    Attenuation::Falloff { max: most.into(), n: n.into(), m: m.into() }
+                }
+            },
+        }
+    }
+
+    fn occlusion(&self) -> Occlusion {
+        let look = &self.shot.settings.diffuse;
+        Occlusion {
+            passes: look.passes,
+            radii: look.search.map(f64::from),
+            density: look.density.into(),
+            counts: look.samples.map(f64::from),
+            reach: match look.reach {
+                Reach::Radii(radii) => diffuse::Reach::Radii(radii.into()),
+                Reach::Metres(metres) => diffuse::Reach::Scene(metres.into()),
+            },
+            opacities: look.opacity.map(f64::from),
+            shadow: look.shadow.map(f64::from),
+        }
+    }
+}
+
+/// One channel of an image.
+fn channel(image: &Image<[f32; 4]>, i: usize) -> Image<f32> {
+    image.map(|texel| texel[i])
+}
+
+fn doubles(image: &Image<f32>) -> Image<f64> {
+    image.map(|v| f64::from(*v))
+}
+
+/// The frontmost as the images have it.
+fn seen(drawn: &Diffused) -> Image<Option<Seen>> {
+    let (depth, with) = (&drawn.occluders, &drawn.normal);
+    Image::from_fn(depth.width, depth.height, |x, y| {
+        let ([depth, ..], [nx, ny, nz, h]) = (depth.at(x, y), with.at(x, y));
+        let normal = DVec3::new(nx.into(), ny.into(), nz.into());
+        (f64::from(depth) < EMPTY).then_some(Seen { depth: depth.into(), h: h.into(), normal })
+    })
+}
+
+#[test]
+fn foam_is_the_twins() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    let spacing = 0.2 / 0.656;
+    for (lens, falloff) in LENSES.iter().flat_map(|lens| [(*lens, false), (*lens, true)]) {
+        let mut cloud = Diffuse::new(lens);
+        if falloff {
+            let most = 6.0 * spacing;
+            cloud.shot.settings.diffuse.submerged = Submerged::Falloff { most, n: 2.0, m: 4.0 };
+            cloud.radii = None;
+            cloud.ids = None;
+        }
+        let drawn = cloud.draw(&mut rig);
+        let foam = drawn.diffuse.expect("diffuse particles");
+        let fluid = channel(&foam.occluders, 2);
+        compare::same("diffuse-fluid", &fluid, &drawn.depth);
+        let view = cloud.shot.view(SIZE);
+        let scene = cloud.shot.scene_at(SIZE, 0);
+        let bounds = foam_bounds(
+            &cloud.particles(),
+            &view,
+            &cloud.twin_settings(),
+            &scene,
+            &doubles(&fluid),
+        );
+        compare::between("diffuse-depth", &channel(&foam.occluders, 0), &bounds.depth);
+        for (i, sum) in bounds.sums.iter().enumerate() {
+            compare::between(&format!("diffuse-sum-{i}"), &channel(&foam.thickness, i), sum);
+        }
+        let seen = seen(&foam);
+        let mut told = 0;
+        for y in 0..seen.height {
+            for x in 0..seen.width {
+                let Some(Seen { depth, h, normal }) = seen.at(x, y) else { continue };
+                let candidates = bounds.candidates.at(x, y);
+                // Octahedral in two bytes: half a step of 1/127 both ways, stretched by 3 at most; halves.
+                let turned = 3.0 * 2.0_f64.sqrt() * 0.5 / 127.0 + 2.0 * HALF;
+                let fits = candidates.iter().any(|one| {
+                    (one.depth.v - depth).abs() <= one.depth.e
+                        && (one.h.v - h).abs() <= one.h.e + HALF * one.h.v
+                        && (one.normal.v - normal).length() <= one.normal.e + turned
+                });
+                assert!(fits, "{lens:?} ({x}, {y}): {depth} {h} {normal} of {candidates:?}");
+                told += usize::from(candidates.len() == 1);
+            }
+        }
+        assert!(told > 300, "{lens:?}: {told} pixels can tell");
+    }
+}
+
+#[test]
+fn intensity_is_the_formula() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    let mut cloud = Diffuse::new(Lens::Standard);
+    cloud.shot.settings.diffuse.half = 0.7;
+    cloud.shot.settings.diffuse.exponent = 1.6;
+    let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+    let expected = Image::from_fn(foam.thickness.width, foam.thickness.height, |x, y| {
+        let [above, below, ..] = foam.thickness.at(x, y);
+        diffuse::intensity(
+            f64::from(above) + f64::from(below),
+            f64::from(0.7_f32),
+            f64::from(1.6_f32),
+        )
+    });
+    // pow is exp2 of a product with log2: 3 ulp and 2^-21 beyond, of numbers to 4; the rest 4 ulp.
+    compare::close("diffuse-intensity", &channel(&foam.occluders, 1), &expected, 0, |_, _, v| {
+        4e-6 * v
+    });
+}
+
+#[test]
+fn shadow_is_the_twins() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    for (lens, reach) in [
+        (Lens::Standard, Reach::Radii(1.0)),
+        (Lens::ReversedInfinite, Reach::Radii(3.0)),
+        (Lens::OffAxis, Reach::Metres(5.0)),
+    ] {
+        let mut cloud = Diffuse::new(lens);
+        let look = &mut cloud.shot.settings.diffuse;
+        look.reach = reach;
+        look.samples = [8, 96];
+        look.shadow = [2.0, 0.8, -0.02];
+        let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+        let (front, by) = (seen(&foam), cloud.occlusion());
+        let view = cloud.shot.view(SIZE);
+        let of = |i| doubles(&channel(&foam.occluders, i));
+        let (opacity, fluid, solid) = (of(1), of(2), of(3));
+        let layers = Layers { front: &front, opacity: &opacity, fluid: &fluid, solid: &solid };
+        let omega = diffuse::occlusion(&layers, &view, &by);
+        let shadowed = omega.data.iter().flatten().filter(|o| by.zeta(o.low) > 0.05).count();
+        assert!(shadowed > 200, "{lens:?}: {shadowed} pixels in shadow");
+        // A mean of positive weights: of lower ends it is lower. Three roundings to halves.
+        let blurred = |end: fn(&diffuse::Omega) -> f64| {
+            let zeta = omega.map(|o| [o.map_or(0.0, |o| by.zeta(end(&o))), 0.0, 0.0, 0.0]);
+            diffuse::blur(&zeta, &front, &view, &by).map(|v| v[0])
+        };
+        let pow = 4.0e-6;
+        let bounds = Between {
+            low: blurred(|o| o.low).map(|v| v * (1.0 - 3.0 * HALF) - pow),
+            high: blurred(|o| o.high).map(|v| v * (1.0 + 3.0 * HALF) + pow),
+        };
+        compare::between("diffuse-shadow", &channel(&foam.light, 3), &bounds);
+    }
+}
+
+/// An environment of one colour, and no sun.
+fn even(rig: &mut Rig<'_>, shot: &mut Shot, color: [f32; 4]) {
+    rig.environment(extent(16, 8), &[color; 128]);
+    shot.settings.light.shade = shot.settings.light.irradiance;
+}
+
+#[test]
+fn light_of_an_even_environment_is_half_of_it() {
+    let gpu = Gpu::shared();
+    for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
+        let diffuse = DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) };
+        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let mut cloud = Diffuse::new(Lens::Standard);
+        even(&mut rig, &mut cloud.shot, [1.0, 2.0, 0.25, 1.0]);
+        let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+        let front = seen(&foam);
+        // Of points all round there are more or less on a side: the twin knows how many.
+        let expected = match irradiance {
+            Irradiance::Prefiltered => front.map(|seen| seen.map(|_| DVec3::splat(0.5))),
+            Irradiance::Sampled => {
+                let view = cloud.shot.view(SIZE);
+                diffuse::irradiance(&front, &view, &cloud.occlusion(), |_| DVec3::ONE)
+            }
+        };
+        let both = expected.map(|light| light.map_or([0.0; 4], |l| [0.0, l.x, l.y, l.z]));
+        let expected = diffuse::blur(&both, &front, &cloud.shot.view(SIZE), &cloud.occlusion());
+        for (i, part) in [1.0, 2.0, 0.25].into_iter().enumerate() {
+            let expected = expected.map(|light| light[1 + i] * part);
+            // Halves: the environment, its sum, three images, a normal of unit length; few operations.
+            let tolerance = |_: usize, _: usize, v: f64| 8.0 * HALF * v;
+            compare::close("diffuse-light", &channel(&foam.light, i), &expected, 0, tolerance);
+        }
+    }
+}
+
+#[test]
+fn both_ways_to_gather_light_agree() {
+    let gpu = Gpu::shared();
+    let draw = |irradiance| {
+        let diffuse = DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) };
+        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let mut cloud = Diffuse::new(Lens::Standard);
+        // Bright above, dark below.
+        let texels: Vec<_> =
+            (0..128).map(|i| [1.5 - (i / 16) as f32 / 7.0, 0.5, 0.5, 1.0]).collect();
+        rig.environment(extent(16, 8), &texels);
+        cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
+        cloud.shot.settings.diffuse.samples = [512, 512];
+        channel(&cloud.draw(&mut rig).diffuse.expect("diffuse particles").light, 0)
+    };
+    let (once, sampled) = (draw(Irradiance::Prefiltered), draw(Irradiance::Sampled));
+    let (low, high) = once
+        .data
+        .iter()
+        .filter(|v| **v > 0.0)
+        .fold((9.0_f32, 0.0_f32), |(a, b), v| (a.min(*v), b.max(*v)));
+    assert!(high > 1.3 * low, "the side that is turned up is lighter: {low} to {high}");
+    // 512 points: their mean cosine differs by a fiftieth from side to side.
+    compare::close("diffuse-gathered", &sampled, &doubles(&once), 0, |_, _, v| 0.03 * v);
+}
+
+#[test]
+fn foam_lies_over_the_scene() {
+    let gpu = Gpu::shared();
+    for (shading, mixing) in [(Shading::Raster, Mixing::Scaled), (Shading::Compute, Mixing::Source)]
+    {
+        let config = Config { composite: Some(shading), ..diffusing(SIZE) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut cloud = Diffuse::new(Lens::Standard);
+        cloud.shot.positions.clear();
+        let look = &mut cloud.shot.settings.diffuse;
+        (look.mixing, look.albedo, look.shadow_color) = (mixing, [0.9, 0.7, 0.5], [0.1, 0.0, 0.3]);
+        let (albedo, shadow) = (Vec3::from(look.albedo), Vec3::from(look.shadow_color));
+        let drawn = cloud.draw(&mut rig);
+        let foam = drawn.diffuse.as_ref().expect("diffuse particles");
+        let over = match mixing {
+            Mixing::Scaled => diffuse::composite_hdr,
+            Mixing::Source => diffuse::composite_source,
+        };
+        let expected = |x: usize, y: usize| {
+            let [r, g, b, zeta] = foam.light.at(x, y).map(f64::from);
+            let rho = f64::from(foam.thickness.at(x, y)[0]);
+            let [br, bg, bb, _] = cloud.shot.color[y * foam.light.width + x].map(f64::from);
+            let (background, light) = (DVec3::new(br, bg, bb), DVec3::new(r, g, b));
+            let iota = diffuse::intensity(rho, 3.0, 1.25);
+            let scale = 2.0 * albedo.as_dvec3();
+            over(background, iota, zeta, light, shadow.as_dvec3(), scale).to_array()
+        };
+        for i in 0..3 {
+            let expected =
+                Image::from_fn(foam.light.width, foam.light.height, |x, y| expected(x, y)[i]);
+            let name = format!("diffuse-over-{i}");
+            // As `intensity_is_the_formula`, of the difference to the background; a mean.
+            compare::close(&name, &channel(&drawn.output, i), &expected, 0, |_, _, v| {
+                1e-5 * (1.0 + v)
+            });
+        }
+        let touched =
+            (drawn.output.data.iter().zip(&cloud.shot.color)).filter(|(a, b)| a != b).count();
+        assert!(touched > 500, "{touched} pixels with foam");
+    }
+}
+
+#[test]
+fn bubbles_lie_under_the_water() {
+    let gpu = Gpu::shared();
+    let config = Config { max_particles: 20_000, ..diffusing(SIZE) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let draw = |rig: &mut Rig<'_>, depth: Option<f32>| {
+        // A wall of water from 4 to 7, and a cloud of bubbles before, in and behind it.
+        let block = scenes::block(3, 0.2, [40, 28, 15], [-4.0, -2.8, 4.0]);
+        let mut shot = Shot::new(SIZE, Lens::Standard, 0.656 * 0.2, &block);
+        even(rig, &mut shot, [1.0, 1.0, 1.0, 1.0]);
+        let points: Vec<_> = depth.map_or(Vec::new(), |d| {
+            (0..40).map(|i| [(i % 8) as f32 * 0.12 - 0.4, (i / 8) as f32 * 0.12 - 0.3, d]).collect()
+        });
+        let count = points.len();
+        Diffuse {
+            positions: scenes::world(&shot.camera, &points),
+            shot,
+            kinds: vec![0; count],
+            radii: Some(vec![0.2; count]),
+            ages: vec![0.0; count],
+            ids: Some(vec![0; count]),
+        }
+        .draw(rig)
+    };
+    let middle = |drawn: &Drawn| Vec3::from_slice(&drawn.output.at(46, 30)[..3]);
+    let without = middle(&draw(&mut rig, None));
+    let [before, near, deep] = [3.0, 4.6, 6.0].map(|depth| draw(&mut rig, Some(depth)));
+    let sums =
+        |drawn: &Drawn| drawn.diffuse.as_ref().expect("diffuse particles").thickness.at(46, 30);
+    assert!(sums(&before)[0] > 1.0 && sums(&before)[1] == 0.0, "{:?}", sums(&before));
+    assert!(sums(&near)[0] == 0.0 && sums(&near)[1] > 1.0, "{:?}", sums(&near));
+    let change = [before, near, deep].map(|drawn| (middle(&drawn) - without).length());
+    assert!(change[0] > 1.2 * change[1] && change[1] > 1.2 * change[2], "{change:?}");
+    assert!(change[2] > 0.01, "{change:?}");
+}
+
+#[test]
+fn order_is_no_matter() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    let cloud = Diffuse::new(Lens::Reversed);
+    let mut turned = cloud.clone();
+    let order = Random(9).order(cloud.positions.len());
+    let moved = |all: &[u32]| -> Vec<u32> { order.iter().map(|i| all[*i]).collect() };
+    turned.positions = order.iter().map(|i| cloud.positions[*i]).collect();
+    turned.kinds = moved(&cloud.kinds);
+    turned.ids = cloud.ids.as_deref().map(moved);
+    turned.ages = order.iter().map(|i| cloud.ages[*i]).collect();
+    turned.radii = cloud.radii.as_ref().map(|all| order.iter().map(|i| all[*i]).collect());
+    let [a, b] = [cloud.draw(&mut rig), turned.draw(&mut rig)];
+    compare::same_color("diffuse-order", &a.output, &b.output);
+    let [a, b] = [a, b].map(|drawn| drawn.diffuse.expect("diffuse particles"));
+    compare::same_color("diffuse-order-thickness", &a.thickness, &b.thickness);
+    compare::same_color("diffuse-order-normal", &a.normal, &b.normal);
+}
+
+#[test]
+fn without_particles_nothing_changes() {
+    let gpu = Gpu::shared();
+    let cloud = Diffuse::new(Lens::Standard);
+    let plain = Rig::lit(&gpu, &config(SIZE), 1).draw(&cloud.shot).output;
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    let none = rig.draw(&cloud.shot).output;
+    // Another shader: its compiler may round otherwise.
+    let doubles = plain.map(|c| c.map(f64::from));
+    compare::close_color("diffuse-none", &none, &doubles, |_, _| [1e-6; 4]);
+    let nothing = |positions, ages| Diffuse { positions, ages, ..cloud.clone() };
+    let far = |p: [f32; 3]| vec![p; cloud.positions.len()];
+    let new = vec![0.0; cloud.positions.len()];
+    for (name, cloud) in [
+        ("nan", nothing(far([f32::NAN, 0.0, -4.0]), new.clone())),
+        ("infinite", nothing(far([0.0, f32::INFINITY, -4.0]), new.clone())),
+        ("huge", nothing(far([0.0, 0.0, 1.0e30]), new)),
+        ("gone", nothing(cloud.positions.clone(), vec![1.0; cloud.positions.len()])),
+        ("aged by NaN", nothing(cloud.positions.clone(), vec![f32::NAN; cloud.positions.len()])),
+    ] {
+        compare::same_color(&format!("diffuse-{name}"), &cloud.draw(&mut rig).output, &none);
+    }
+}
+
+#[test]
+fn many_on_one_spot_are_as_many_as_there_is_room_for() {
+    let gpu = Gpu::shared();
+    let diffuse = DiffuseConfig::new(200_000);
+    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+    let mut cloud = Diffuse::new(Lens::Standard);
+    let count = 200_000;
+    cloud.positions = scenes::world(&cloud.shot.camera, &vec![[0.0, 0.0, 4.0]; count]);
+    cloud.shot.positions.clear();
+    (cloud.kinds, cloud.ages) = (vec![0; count], vec![0.0; count]);
+    (cloud.radii, cloud.ids) = (Some(vec![1.0; count]), Some(vec![0; count]));
+    let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+    let most = foam.thickness.data.iter().map(|t| t[0]).fold(0.0, f32::max);
+    assert!((32_768.0..32_770.0).contains(&most), "half a word of 16.16: {most}");
+}
+
+/// The same particles in other buffers.
+#[test]
+fn streams_of_any_shape_are_the_same() {
+    let gpu = Gpu::shared();
+    let cloud = Diffuse::new(Lens::Standard);
+    let expected = cloud.draw(&mut Rig::lit(&gpu, &diffusing(SIZE), 1));
+    // A record has them all: 48 bytes, behind 20 of something else; a chunk holds a part of them.
+    let range = u64::from(gpu.limits().max_storage_buffer_range);
+    let strides = [48, (range / 150).next_multiple_of(4).min(1 << 20) as u32];
+    for (stride, counted) in [(strides[0], false), (strides[0], true), (strides[1], true)] {
+        let diffuse = DiffuseConfig { max_stride: stride, ..DiffuseConfig::new(500) };
+        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let count = cloud.positions.len();
+        let mut bytes = vec![0xa5_u8; 20 + stride as usize * count];
+        for (i, record) in bytes[20..].chunks_exact_mut(stride as usize).enumerate() {
+            record[..12].copy_from_slice(bytemuck::bytes_of(&cloud.positions[i]));
+            record[12..16].copy_from_slice(&cloud.kinds[i].to_ne_bytes());
+            let (radii, ids) = (cloud.radii.as_ref(), cloud.ids.as_ref());
+            record[16..20].copy_from_slice(&radii.expect("radii")[i].to_ne_bytes());
+            record[20..24].copy_from_slice(&cloud.ages[i].to_ne_bytes());
+            record[24..28].copy_from_slice(&ids.expect("ids")[i].to_ne_bytes());
+        }
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let data = rig.stub.data(&bytes, usage);
+        let number = rig.stub.data(&(count as u32).to_ne_bytes(), usage);
+        let at = |offset: u64| stream(&data, 20 + offset, stride);
+        let count = if counted {
+            Count::Gpu { buffer: number.buffer, offset: 0 }
+        } else {
+            Count::Cpu(count as u32)
+        };
+        let particles = DiffuseParticles {
+            kinds: Some(at(12)),
+            radii: Some(at(16)),
+            ages: Some(at(20)),
+            ids: Some(at(24)),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..DiffuseParticles::new(at(0), count)
+        };
+        let water = rig.particles(&cloud.shot);
+        let drawn = rig.draw_diffuse(&cloud.shot, &water.particles(), Some(particles));
+        let name = format!("diffuse-stride-{stride}-{counted}");
+        compare::same_color(&name, &drawn.output, &expected.output);
+    }
+}
+
+#[test]
+fn size_and_configuration_change() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(extent(200, 100)), 1);
+    let cloud = Diffuse::new(Lens::Standard);
+    let expected = cloud.draw(&mut Rig::lit(&gpu, &diffusing(SIZE), 1)).output;
+    rig.resize(extent(1, 1));
+    rig.resize(SIZE);
+    compare::same_color("diffuse-resized", &cloud.draw(&mut rig).output, &expected);
+    rig.renderer().reconfigure(&config(SIZE)).expect("reconfigure");
+    rig.renderer().reconfigure(&diffusing(SIZE)).expect("reconfigure");
+    compare::same_color("diffuse-again", &cloud.draw(&mut rig).output, &expected);
+}
+
+#[test]
+fn memory_is_by_the_pixel() {
+    let gpu = Gpu::shared();
+    let of = |most| {
+        let size = extent(1280, 720);
+        let diffuse = (most > 0).then(|| DiffuseConfig::new(most));
+        // SAFETY: live handles.
+        let renderer = unsafe { Renderer::new(&gpu.host(1), &Config { diffuse, ..config(size) }) };
+        let renderer = renderer.expect("a renderer");
+        let memory = renderer.memory();
+        // SAFETY: nothing was recorded.
+        unsafe { renderer.destroy() };
+        (memory.images + memory.buffers) as f64
+    };
+    let (without, said) = (of(0), 84.0 * 1280.0 * 720.0);
+    for most in [1, 30_000_000] {
+        let found = of(most) - without;
+        assert!((found - said).abs() < 0.01 * said + 128.0 * 1024.0, "{most}: {found}");
+    }
+}
+
+#[test]
+fn mistakes_are_named() {
+    let gpu = Gpu::shared();
+    let cloud = Diffuse::new(Lens::Standard);
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    type Mistake = fn(&mut DiffuseLook);
+    let cases: [(&str, Mistake); 10] = [
+        ("Settings.diffuse.radius", |look| look.radius = f32::NAN),
+        ("Settings.diffuse.submerged.most", |look| {
+            look.submerged = Submerged::Falloff { most: 0.0, n: 2.0, m: 4.0 };
+        }),
+        ("Settings.diffuse.half", |look| look.half = 0.0),
+        ("Settings.diffuse.exponent", |look| look.exponent = -1.0),
+        ("Settings.diffuse.passes", |look| look.passes = 9),
+        ("Settings.diffuse.samples", |look| look.samples = [16, 513]),
+        ("Settings.diffuse.samples", |look| look.samples = [32, 16]),
+        ("Settings.diffuse.reach", |look| look.reach = Reach::Metres(0.0)),
+        ("Settings.diffuse.opacity", |look| look.opacity[1] = 1.5),
+        ("Settings.diffuse.albedo", |look| look.albedo[2] = 1.01),
+    ];
+    for (field, mistake) in cases {
+        let mut shot = cloud.shot.clone();
+        mistake(&mut shot.settings.diffuse);
+        let error = rig.refused(&shot, None);
+        assert!(error.contains(field), "{field}: {error}");
+    }
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let data = rig.stub.data(&[0; 1024], usage);
+    let good = DiffuseParticles::new(stream(&data, 0, 12), Count::Cpu(80));
+    let short = Some(stream(&data, 1000, 4));
+    for (field, particles) in [
+        ("Frame.diffuse.positions", DiffuseParticles { count: Count::Cpu(86), ..good }),
+        ("Frame.diffuse.count", DiffuseParticles { count: Count::Cpu(4097), ..good }),
+        ("Frame.diffuse.kinds", DiffuseParticles { kinds: short, ..good }),
+        ("Frame.diffuse.radii", DiffuseParticles { radii: short, ..good }),
+        ("Frame.diffuse.ages", DiffuseParticles { ages: short, ..good }),
+        ("Frame.diffuse.ids", DiffuseParticles { ids: Some(stream(&data, 2, 4)), ..good }),
+    ] {
+        let error = rig.refused(&cloud.shot, Some(particles));
+        assert!(error.contains(field), "{field}: {error}");
+    }
+    let error = Rig::new(&gpu, &config(SIZE)).refused(&cloud.shot, Some(good));
+    assert!(error.contains("Frame.diffuse"), "{error}");
+    for (field, diffuse) in [
+        ("Config.diffuse.max_particles", DiffuseConfig::new(0)),
+        ("Config.diffuse.max_stride", DiffuseConfig { max_stride: 8, ..DiffuseConfig::new(1) }),
+    ] {
+        let config = Config { diffuse: Some(diffuse), ..config(SIZE) };
+        // SAFETY: live handles.
+        let error = unsafe { Renderer::new(&gpu.host(1), &config) }.err().expect("refused");
+        assert!(error.to_string().contains(field), "{field}: {error}");
+    }
+}

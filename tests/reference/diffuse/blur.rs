@@ -1,0 +1,56 @@
+//! The blur of shadow and light.
+
+use super::super::{Image, View};
+use super::{Occlusion, Seen};
+
+/// Most pixels to either side.
+const WIDEST: f64 = 32.0;
+
+/// Shadow and light, a number each and a colour, blurred along the rows and then along the columns.
+/// The radius is a pixel's own, of its first pass; what has no foam or lies more than a particle's
+/// diameter before or behind is left out. Pixels without foam keep theirs.
+pub fn blur(
+    values: &Image<[f64; 4]>,
+    front: &Image<Option<Seen>>,
+    view: &View,
+    settings: &Occlusion,
+) -> Image<[f64; 4]> {
+    let rows = along(values, front, view, settings, (1, 0));
+    along(&rows, front, view, settings, (0, 1))
+}
+
+/// The same along one axis.
+fn along(
+    values: &Image<[f64; 4]>,
+    front: &Image<Option<Seen>>,
+    view: &View,
+    settings: &Occlusion,
+    (dx, dy): (isize, isize),
+) -> Image<[f64; 4]> {
+    Image::from_fn(view.width, view.height, |x, y| {
+        let Some(seen) = front.at(x, y) else { return values.at(x, y) };
+        let radius = 1.5 * 0.5 * settings.search(seen.h, 1) * view.extent().y;
+        let sigma = 0.5 * radius;
+        let gap = 2.0 * seen.h * seen.depth / view.focal().y.abs();
+        let most = radius.floor().min(WIDEST) as isize;
+        let (mut sum, mut weights) = ([0.0; 4], 0.0);
+        for i in -most..=most {
+            let (x, y) = (x as isize + i * dx, y as isize + i * dy);
+            let (Some(Some(there)), Some(value)) = (front.checked(x, y), values.checked(x, y))
+            else {
+                continue;
+            };
+            if (there.depth - seen.depth).abs() > gap {
+                continue;
+            }
+            let away = i as f64;
+            // The middle counts in whole, however narrow the blur.
+            let weight = if i == 0 { 1.0 } else { (-away * away / (2.0 * sigma * sigma)).exp() };
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += weight * value;
+            }
+            weights += weight;
+        }
+        sum.map(|sum| sum / weights)
+    })
+}

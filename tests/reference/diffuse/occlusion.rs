@@ -1,0 +1,282 @@
+//! What of the space about the nearest foam lies behind something: samples of spheres of several
+//! radii, each looked up in the picture.
+
+use super::super::foam::ray_off;
+use super::super::{Image, View};
+use super::{Seen, has_fluid};
+use crate::support::rounded::Rounded;
+use crate::support::tolerance::U;
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// How far behind an occluder a sample is still hidden by it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// In radii of the pass' sphere.
+    Radii(f64),
+    /// In scene units.
+    Scene(f64),
+}
+
+/// What the occlusion is found by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Occlusion {
+    /// P, passes.
+    pub passes: u32,
+    /// Search radius of a pass in those of the foam: the first and what pass p adds p times.
+    pub radii: [f64; 2],
+    /// Samples to a cubic pixel.
+    pub density: f64,
+    /// Fewest and most samples of a pass.
+    pub counts: [f64; 2],
+    /// How far occluders reach.
+    pub reach: Reach,
+    /// Opacity of the fluid and of solids.
+    pub opacities: [f64; 2],
+    /// Of the shadow `(scale omega)^power + offset`.
+    pub shadow: [f64; 3],
+}
+
+impl Default for Occlusion {
+    fn default() -> Self {
+        Self {
+            passes: 3,
+            radii: [1.0, 7.0],
+            density: 0.5,
+            counts: [16.0, 512.0],
+            reach: Reach::Radii(1.0),
+            opacities: [0.5, 1.0],
+            shadow: [1.0, 1.5, -0.05],
+        }
+    }
+}
+
+/// What samples are looked up in.
+#[derive(Clone, Copy)]
+pub struct Layers<'a> {
+    /// The nearest foam.
+    pub front: &'a Image<Option<Seen>>,
+    /// Intensity of all foam.
+    pub opacity: &'a Image<f64>,
+    /// Eye depth of the fluid's surface.
+    pub fluid: &'a Image<f64>,
+    /// Eye depth of solids.
+    pub solid: &'a Image<f64>,
+}
+
+/// How much is hidden, 0 to 1, by the definition and in single precision at least and at most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Omega {
+    /// By the definition.
+    pub value: f64,
+    /// At least.
+    pub low: f64,
+    /// At most.
+    pub high: f64,
+}
+
+/// By the definition, at least, at most.
+type Ends = [f64; 3];
+
+impl Occlusion {
+    /// h_p, a pass' search radius over half the height of the picture.
+    pub fn search(&self, h: f64, pass: u32) -> f64 {
+        h * (self.radii[0] + self.radii[1] * f64::from(pass))
+    }
+
+    /// Samples of a sphere of so many pixels, not rounded.
+    fn wanted(&self, h_px: f64) -> f64 {
+        let [fewest, most] = self.counts;
+        (4.0 / 3.0 * PI * h_px.powi(3) * self.density).clamp(fewest, most)
+    }
+
+    /// Samples of a sphere of so many pixels: the half is rounded up.
+    pub fn samples(&self, h_px: f64) -> usize {
+        (self.wanted(h_px) + 0.5).floor() as usize
+    }
+
+    /// What that may be in single precision: the radius is off by 8u, its cube and the rest 8u.
+    fn samples_ends(&self, h_px: f64) -> [usize; 2] {
+        let wanted = self.wanted(h_px);
+        let e = if self.counts.contains(&wanted) { 0.0 } else { (3.0 * 8.0 + 8.0) * U * wanted };
+        [wanted - e, wanted + e].map(|n| (n + 0.5).floor() as usize)
+    }
+
+    /// The shadow by what is hidden.
+    pub fn zeta(&self, omega: f64) -> f64 {
+        let [scale, power, offset] = self.shadow;
+        ((omega.max(0.0) * scale).powf(power) + offset).clamp(0.0, 1.0)
+    }
+
+    /// How much so much behind an occluder counts.
+    fn falls(&self, behind: f64, radius: f64) -> f64 {
+        let reach = match self.reach {
+            Reach::Radii(radii) => radii * radius,
+            Reach::Scene(reach) => reach,
+        };
+        (1.0 - behind / reach).max(0.0).powi(2)
+    }
+
+    /// How much of a sample at a depth, give or take, is hidden by what is seen in a pixel.
+    fn hidden(&self, layers: &Layers<'_>, at: (usize, usize), d: (f64, f64), radius: f64) -> Ends {
+        let (x, y) = at;
+        let foam = layers.front.at(x, y).map(|seen| (seen.depth, layers.opacity.at(x, y)));
+        let [fluid, solid] = [layers.fluid, layers.solid].map(|image| image.at(x, y));
+        let [fluid_opacity, solid_opacity] = self.opacities;
+        let fluid = has_fluid(fluid).then_some((fluid, fluid_opacity));
+        let mut sums = [0.0; 3];
+        for (depth, opacity) in [foam, fluid, Some((solid, solid_opacity))].into_iter().flatten() {
+            // Depths are made of the projection, 8u. The radius 16u, the quotient, the difference,
+            // the square: less than 48u of no more than 1.
+            let (behind, e) = (d.0 - depth, d.1 + 8.0 * U * depth + U * (d.0 - depth).abs());
+            let [near, far] = [behind - e, behind + e];
+            let part = |behind: f64| self.falls(behind, radius) * opacity;
+            let own = 48.0 * U * opacity;
+            sums[0] += if behind > 0.0 { part(behind) } else { 0.0 };
+            sums[1] += if near > 0.0 { (part(far) - own).max(0.0) } else { 0.0 };
+            sums[2] += if far > 0.0 { part(near.max(0.0)) + own } else { 0.0 };
+        }
+        sums.map(|sum| sum.min(1.0))
+    }
+
+    /// What a sample adds to both sums.
+    fn sample(&self, layers: &Layers<'_>, view: &View, s: &Sample) -> [Ends; 2] {
+        let (near, d) = (view.near(), -s.at.z);
+        if d + s.e <= near * (1.0 - 8.0 * U) {
+            return [[0.0; 3]; 2];
+        }
+        let sure = d - s.e > near * (1.0 + 8.0 * U);
+        let place = view.project(s.at);
+        let e = pixels_off(view, s);
+        let inside = |at: DVec2| {
+            let within = at.cmpge(DVec2::ZERO).all() && at.cmplt(view.extent()).all();
+            within.then_some((at.x as usize, at.y as usize))
+        };
+        let length = s.unit.length();
+        let lambda = (1.0 - length).powi(2);
+        let own = U * (32.0 * (1.0 - length) + 8.0 * lambda);
+        let lambdas = [lambda, (lambda - own).max(0.0), lambda + own];
+
+        let mut hidden = [0.0, f64::INFINITY, 0.0];
+        let mut counted = [0.0, if sure { lambdas[1] } else { 0.0 }, 0.0];
+        let (low, high) = ((place - e).floor(), (place + e).floor());
+        for y in low.y as i64..=high.y as i64 {
+            for x in low.x as i64..=high.x as i64 {
+                let Some(at) = inside(DVec2::new(x as f64, y as f64)) else {
+                    hidden[1] = 0.0;
+                    counted[1] = 0.0;
+                    continue;
+                };
+                let found = self.hidden(layers, at, (d, s.e), s.radius);
+                hidden[1] = hidden[1].min(found[1] * lambdas[1]);
+                hidden[2] = hidden[2].max(found[2] * lambdas[2]);
+                counted[2] = lambdas[2];
+            }
+        }
+        if let Some(at) = inside(place).filter(|_| d > near) {
+            hidden[0] = lambda * self.hidden(layers, at, (d, 0.0), s.radius)[0];
+            counted[0] = lambda;
+        }
+        if !sure {
+            hidden[1] = 0.0;
+        }
+        [hidden, counted]
+    }
+
+    /// How much is hidden about the nearest foam of a pixel, if there is any. `points`: at least as
+    /// many of [`points`] as there may be samples.
+    pub fn omega(
+        &self,
+        layers: &Layers<'_>,
+        view: &View,
+        points: &[DVec3],
+        (x, y): (usize, usize),
+    ) -> Option<Omega> {
+        let seen = layers.front.at(x, y)?;
+        let focal = view.focal().y.abs();
+        let ray = ray_off(view, x, y);
+        let (at, at_e) = (ray.v * seen.depth, (ray.e + U * ray.v.length()) * seen.depth);
+        let (mut hidden, mut counted, mut terms) = ([0.0; 3], [0.0; 3], 0.0);
+        for pass in 1..=self.passes {
+            let h = self.search(seen.h, pass);
+            let h_px = 0.5 * h * view.extent().y;
+            let radius = h * seen.depth / focal;
+            let count = self.samples(h_px);
+            let ends = self.samples_ends(h_px);
+            for (i, unit) in points.iter().take(ends[1]).enumerate() {
+                // The radius 16u, a point u a coordinate, the product and the sum u each.
+                let moved = radius * *unit;
+                let e = at_e + U * (19.0 * moved.length() + at.length());
+                let sample = Sample { unit: *unit, radius, at: at + moved, e };
+                let [h, c] = self.sample(layers, view, &sample);
+                let here = [i < count, i < ends[0], true];
+                for j in (0..3).filter(|j| here[*j]) {
+                    hidden[j] += h[j];
+                    counted[j] += c[j];
+                }
+                terms += 1.0;
+            }
+        }
+        // Two sums of so many and a quotient.
+        let rounding = (2.0 * terms + 5.0) * U;
+        let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
+        Some(Omega {
+            value: over(hidden[0], counted[0]),
+            low: over(hidden[1], counted[2]) * (1.0 - rounding),
+            high: match counted[1] > 0.0 {
+                true => (hidden[2] / counted[1] * (1.0 + rounding)).min(1.0 + rounding),
+                false if counted[2] > 0.0 => 1.0,
+                false => 0.0,
+            },
+        })
+    }
+}
+
+/// A sample in eye space.
+struct Sample {
+    /// In the unit sphere.
+    unit: DVec3,
+    /// World radius of that.
+    radius: f64,
+    /// Where it is, and by what length that may be off.
+    at: DVec3,
+    e: f64,
+}
+
+/// How many pixels off a sample may be found: its slope a quotient, the rest 8u of its terms.
+fn pixels_off(view: &View, s: &Sample) -> DVec2 {
+    let [x, y] = [0, 1].map(|i| {
+        let slope = Rounded { v: s.at[i], e: s.e } / Rounded { v: -s.at.z, e: s.e };
+        let (focal, shift) = (view.focal()[i].abs(), view.shift()[i].abs());
+        let e = focal * slope.e + 8.0 * U * (focal * slope.v.abs() + shift + 1.0);
+        0.5 * view.extent()[i] * e
+    });
+    DVec2::new(x, y)
+}
+
+/// How much is hidden in each pixel with foam.
+pub fn occlusion(layers: &Layers<'_>, view: &View, settings: &Occlusion) -> Image<Option<Omega>> {
+    let points = points(settings.counts[1].ceil() as usize + 1);
+    Image::from_fn(view.width, view.height, |x, y| settings.omega(layers, view, &points, (x, y)))
+}
+
+/// The first points of the Halton sequence that lie in the unit sphere.
+pub fn points(count: usize) -> Vec<DVec3> {
+    (1..).map(halton).filter(|s| s.length() < 1.0).take(count).collect()
+}
+
+/// A point of the Halton sequence to the bases 2, 3, 5, in the cube from -1 to 1.
+pub fn halton(index: u32) -> DVec3 {
+    DVec3::from([2, 3, 5].map(|base| 2.0 * inverse(index, base) - 1.0))
+}
+
+/// The digits of a number mirrored at the point.
+fn inverse(mut index: u32, base: u32) -> f64 {
+    let (mut sum, mut place) = (0.0, 1.0);
+    while index > 0 {
+        place /= f64::from(base);
+        sum += place * f64::from(index % base);
+        index /= base;
+    }
+    sum
+}
