@@ -65,7 +65,7 @@ impl Files {
         Ok(longest.filter(|life| *life > 0.0))
     }
 
-    /// Most particles that a frame of the sequence may have, as far as the files' sizes say.
+    /// Those of a frame; none where there is no file of its number.
     pub fn read(&self, frame: u64) -> Outcome<Diffuse> {
         let mut all = Diffuse { identified: true, ..Diffuse::default() };
         for (path, kind) in self.frames.get(&frame).into_iter().flatten() {
@@ -121,8 +121,22 @@ pub fn named(text: &str) -> Result<Whitewater, String> {
     Ok(Whitewater { kind, files: files.into() })
 }
 
-/// A frame without diffuse particles beside others with.
-pub fn too_many(count: usize) -> Outcome<u32> {
+/// Their number, where it is one that the renderer takes.
+pub fn counted(count: usize) -> Outcome<u32> {
     u32::try_from(count)
         .map_err(|_| Failure::input("expected fewer than 2^32 diffuse particles, found more"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_named_with_their_kind() {
+        let of = |kind, files: &str| Ok(Whitewater { kind, files: files.into() });
+        assert_eq!(named("a_%d.bgeo"), of(None, "a_%d.bgeo"));
+        assert_eq!(named("bubble=b*.ply"), of(Some(2), "b*.ply"));
+        assert_eq!(named("oil=b.ply"), of(None, "oil=b.ply"));
+        assert!(named("spray=").is_err() && named("").is_err());
+    }
 }

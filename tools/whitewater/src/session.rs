@@ -206,7 +206,7 @@ impl<'a> Session<'a> {
     fn make_room_with(&mut self, count: usize, diffuse: usize) -> Outcome<()> {
         let count = u32::try_from(count)
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
-        let diffuse = diffuse::too_many(diffuse)?;
+        let diffuse = diffuse::counted(diffuse)?;
         let there = self.headless.as_ref().map(|h| *h.renderer().config());
         let most = |config: &Config| config.diffuse.map_or(0, |diffuse| diffuse.max_particles);
         if there.is_some_and(|config| config.max_particles >= count && most(&config) >= diffuse) {

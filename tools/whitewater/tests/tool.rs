@@ -6,6 +6,8 @@ mod support;
 
 #[path = "tool/bench.rs"]
 mod bench;
+#[path = "tool/diffuse.rs"]
+mod diffuse;
 #[path = "tool/failures.rs"]
 mod failures;
 #[path = "tool/info_compare.rs"]

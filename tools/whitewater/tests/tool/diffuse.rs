@@ -1,0 +1,68 @@
+//! Diffuse particles beside the fluid's.
+
+use super::support::{FRONT, Folder, SMALL, block};
+
+/// Foam before the block's middle, a bubble in it; one that is gone.
+const FOAM: &str =
+    "x,y,z,type,lifetime,id\n0,0.35,0.5,0,2,7\n0.2,0.35,0.2,2,1,8\n-0.2,0.35,0.5,1,-1,9\n";
+/// Particles as large as a few pixels.
+const LOOK: &str = "[diffuse]\nradius = 0.1\nhalf = 0.3\n";
+
+#[test]
+fn diffuse_particles_are_drawn_before_and_in_the_water() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.text("foam.csv", FOAM);
+    folder.text("look.toml", LOOK);
+    let common = format!("render a.ply {SMALL} {FRONT} --settings look.toml --validate");
+    folder.run(&format!("{common} -o without.exr")).ok();
+    folder.run(&format!("{common} -o with.exr --whitewater foam.csv")).ok();
+    let (without, with) = (folder.picture("without.exr"), folder.picture("with.exr"));
+    assert!(without.channel("foam.Z").is_none());
+    for name in ["foam.Z", "foam.normal.Y", "foam.irradiance.B", "foam.radius", "foam.shadow"] {
+        assert!(with.channel(name).is_some(), "{name}");
+    }
+    // They take the place of the water's own.
+    assert!(without.channel("water.spray").is_some() && with.channel("water.spray").is_none());
+    let at = |name: &str, x: usize| with.channel(name).unwrap()[32 * 96 + x];
+    // An id of 7 makes it a third as large.
+    assert!((1.81..1.82).contains(&at("foam.Z", 48)), "{}", at("foam.Z", 48));
+    assert!(at("foam.thickness", 48) > 0.5 && at("foam.submerged", 48) == 0.0);
+    let row = |name: &str| -> Vec<f32> { (0..96).map(|x| at(name, x)).collect() };
+    let submerged = row("foam.submerged").iter().rposition(|v| *v > 0.0).unwrap();
+    assert!(submerged > 52, "the bubble is right of the middle: {submerged}");
+    assert!(row("foam.thickness")[..40].iter().all(|v| *v == 0.0), "one is gone");
+    let light = |layers: &whitewater::io::picture::Layers, x: usize| {
+        ["R", "G", "B"].map(|c| layers.channel(c).unwrap()[32 * 96 + x])
+    };
+    assert!(light(&with, 48)[0] > 1.3 * light(&without, 48)[0], "foam is white before blue water");
+}
+
+#[test]
+fn files_of_one_kind_are_that_kind() {
+    let folder = Folder::new();
+    folder.particles("water_1.ply", block(4));
+    folder.particles("water_2.ply", block(4));
+    folder.particles("bubbles_1.ply", vec![[0.0, 0.0, 0.4]]);
+    folder.particles("bubbles_2.ply", vec![[0.0, 0.0, 0.4], [0.1, 0.1, 0.4]]);
+    folder.particles("drops_2.ply", vec![[0.0, 0.3, 0.4]]);
+    folder.text("look.toml", LOOK);
+    let common = format!("render water_%d.ply {SMALL} {FRONT} --settings look.toml --spray auto");
+    let kinds = "--whitewater bubble=bubbles_%d.ply --whitewater spray=drops_%d.ply";
+    folder.run(&format!("{common} {kinds} -o a_%d.exr --layers foam.thickness,water.spray")).ok();
+    let sum =
+        |name: &str| folder.picture(name).channel("foam.thickness").unwrap().iter().sum::<f32>();
+    assert!(sum("a_2.exr") > 1.5 * sum("a_1.exr") && sum("a_1.exr") > 0.0);
+    assert!(folder.picture("a_1.exr").channel("water.spray").is_some(), "as it was asked for");
+}
+
+#[test]
+fn mistakes_in_diffuse_files_are_named() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    folder.text("cut.csv", "x,y,z,type\n0,0,0,0\n1,1\n");
+    let run = |more: &str| folder.run(&format!("render a.ply -o a.png {SMALL} {more}"));
+    run("--whitewater none_%d.bgeo").fails(3, &["none_%d.bgeo"]);
+    run("--whitewater cut.csv").fails(3, &["cut.csv", "line 3"]);
+    assert!(!folder.exists("a.png"));
+}
