@@ -2,11 +2,13 @@
 // Pass `radiance`: how much less light comes to the foam of a pixel for what stands round it, and what of the
 // environment's it gathers (Akinci et al. 2013, Sec. 2.4; pass 6). Occlusion in as many spheres as there are
 // passes, each wider, of points that all pixels share.
-// The sun's light, which the source has not, is ours.
+// The sun's light and its shadows, which the source has not, are ours.
 // Reads: foam depth and intensity beside the depths of fluid and scene, foam normal, points, irradiance,
-// environment. Writes: foam radiance.
+// environment, what sunlight.glsl reads. Writes: foam radiance.
 
 #include "frame.glsl"
+#include "convolution.glsl"
+#include "sunlight.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: the environment is asked at the points' directions, as in the source; 0: once, filtered before.
@@ -86,7 +88,8 @@ void main() {
     }
     // The environment is without the sun. Foam is soft: it is lit beyond where it is turned away.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, with.xyz);
-    vec3 light = gathered(with.xyz, first) + frame.diffuse_sun.rgb * max((turned + 0.5) / 1.5, 0.0);
+    vec3 sun = frame.diffuse_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
+    vec3 light = gathered(with.xyz, first) + sun;
     float part = sum.y > 0.0 ? sum.x / sum.y : 0.0;
     float shadow = pow(max(part * frame.diffuse_opacity.z, 1.0e-20), frame.diffuse_opacity.w) + frame.diffuse_shadow.w;
     imageStore(radiance, pixel, vec4(light, clamp(shadow, 0.0, 1.0)));

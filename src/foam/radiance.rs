@@ -58,6 +58,7 @@ pub struct Radiance {
 impl Radiance {
     pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
         let sampled = u32::from(diffuse.irradiance == Irradiance::Sampled);
+        let constants = [&[(0, sampled)], &crate::light::constants(config)[..]].concat();
         let points = points();
         let bytes: &[u8] = bytemuck::cast_slice(&points);
         let mut buffer = Buffer::new(
@@ -69,7 +70,7 @@ impl Radiance {
         )?;
         buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
         Ok(Self {
-            gather: Pipeline::compute(gpu, shader::FOAM_RADIANCE_COMP, &[(0, sampled)])?,
+            gather: Pipeline::compute(gpu, shader::FOAM_RADIANCE_COMP, &constants)?,
             blur: Pipeline::compute(gpu, shader::FOAM_BLUR_COMP, &[])?,
             points: buffer,
             images: Self::images(gpu, config)?,
@@ -118,6 +119,7 @@ impl Radiance {
         let scope = r.begin(c"radiance");
         let before = AFTER.and(COPY_READ).discarded();
         gpu.barriers(cmd, &[access::image(image, before, COMPUTE_WRITE)], &[]);
+        let [shadow, thickness, basis, span] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, occluders),
@@ -126,6 +128,10 @@ impl Radiance {
             (4, cube(&environment.irradiance)),
             (5, cube(&environment.cube)),
             (6, Resource::storage(image)),
+            shadow,
+            thickness,
+            basis,
+            span,
         ];
         r.descriptors.bind(gpu, cmd, &self.gather, &resources)?;
         r.dispatch_over(r.extent, self.gather.local_size);

@@ -3,9 +3,10 @@
 use ash::vk;
 use glam::{DVec3, Vec3};
 use whitewater::foam::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Reach, Submerged};
-use whitewater::water::Shading;
-use whitewater::{Config, Count, DiffuseParticles, Renderer, Settings};
+use whitewater::water::{Shading, Shadows};
+use whitewater::{Config, Count, DiffuseParticles, Region, Renderer, Settings};
 
+use crate::light::even as mask;
 use crate::reference::diffuse::{
     self, Attenuation, Kind, Layers, Occlusion, Particle, Seen, foam_bounds,
 };
@@ -587,4 +588,53 @@ fn mistakes_are_named() {
         let error = unsafe { Renderer::new(&gpu.host(1), &config) }.err().expect("refused");
         assert!(error.to_string().contains(field), "{field}: {error}");
     }
+}
+
+#[test]
+fn the_sun_shines_as_far_as_it_comes() {
+    let gpu = Gpu::shared();
+    let config = Config { shadow: Some(Shadows::Mask), ..diffusing(SIZE) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut cloud = Diffuse::new(Lens::Reversed);
+    let mut draw = |part: f32| {
+        let (_image, shadow) = mask(&rig, part);
+        cloud.shot.sun.shadow = Some(shadow);
+        channel(&cloud.draw(&mut rig).diffuse.expect("diffuse particles").light, 0)
+    };
+    let [none, half, all] = [0.0, 0.5, 1.0].map(&mut draw);
+    let mean = Image::from_fn(all.width, all.height, |x, y| {
+        0.5 * (f64::from(none.at(x, y)) + f64::from(all.at(x, y)))
+    });
+    compare::close("diffuse-mask", &half, &mean, 0, |_, _, v| 4.0 * HALF * v);
+    let lit = all.data.iter().zip(&none.data).filter(|(all, none)| **all > 1.2 * **none).count();
+    assert!(lit > 500, "{lit} pixels are lighter in the sun");
+}
+
+#[test]
+fn water_takes_the_sun_from_foam() {
+    let gpu = Gpu::shared();
+    let of = |cast: Option<u32>| {
+        let mut rig = Rig::lit(&gpu, &Config { cast, ..diffusing(SIZE) }, 1);
+        // A slab of water between the sun and foam, both before the eye.
+        let mut shot = Shot::new(SIZE, Lens::Standard, 0.0656, &[]);
+        shot.settings.light.direction = [0.0, 1.0, 0.0];
+        let region =
+            Region { center: scenes::world(&shot.camera, &[[0.0, 0.5, 4.0]])[0], radius: 2.5 };
+        shot.sun.region = cast.map(|_| region);
+        let slab = scenes::block(3, 0.1, [20, 4, 20], [-1.0, 1.0, 3.0]);
+        shot.positions = scenes::world(&shot.camera, &slab);
+        let point = |i: u32| [(i % 10) as f32 * 0.1 - 0.5, (i / 10) as f32 * 0.05, 4.0];
+        let points: Vec<_> = (0..60).map(point).collect();
+        let cloud = Diffuse {
+            positions: scenes::world(&shot.camera, &points),
+            shot,
+            kinds: vec![0; 60],
+            radii: Some(vec![0.15; 60]),
+            ages: vec![0.0; 60],
+            ids: Some(vec![0; 60]),
+        };
+        channel(&cloud.draw(&mut rig).diffuse.expect("diffuse particles").light, 0).at(46, 28)
+    };
+    let (open, under) = (of(None), of(Some(64)));
+    assert!(open > 0.1 && under < 0.9 * open, "{under} under water, {open} without");
 }

@@ -290,7 +290,7 @@ unsafe extern "system" fn cmd_barrier(c: vk::CommandBuffer, i: P) {
 
 /// Made by hand: it keeps the cube.
 pub static CREATE_IMAGE: Function = Function::new(c"vkCreateImage");
-/// The image of six layers that was made last: the environment, which no layer of a frame shows.
+/// The image of six layers and mips that was made last: the environment, which no layer of a frame shows.
 static CUBE: AtomicU64 = AtomicU64::new(0);
 
 /// The environment of the renderer that was made last.
@@ -308,7 +308,8 @@ unsafe extern "system" fn create_image(d: vk::Device, i: P, a: P, o: P) -> vk::R
             std::mem::transmute(CREATE_IMAGE.real.load(SeqCst));
         let result = real(d, i, a, o);
         let info = &*i.cast::<vk::ImageCreateInfo<'_>>();
-        (result, (info.array_layers == 6).then(|| *o.cast::<u64>()))
+        let cube = info.array_layers == 6 && info.mip_levels > 1;
+        (result, cube.then(|| *o.cast::<u64>()))
     };
     if result == vk::Result::SUCCESS {
         CREATE_IMAGE.live.fetch_add(1, SeqCst);
