@@ -10,7 +10,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use crate::contract::{Config, Count, DiffuseParticles};
+use crate::contract::{Config, Count, DiffuseParticles, Stream};
 use crate::error::Error;
 use crate::foam::settings::DiffuseConfig;
 use crate::gpu::Gpu;
@@ -24,7 +24,7 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
-use crate::water::{Recording, Window, capacity};
+use crate::water::{Recording, Window, capacity, each_once};
 
 /// Bytes of a pixel's words (glsl/include/diffuse_words.glsl).
 const WORDS: u64 = 28;
@@ -92,7 +92,7 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &DiffuseConfig) -> (u32
 }
 
 /// What depends on the frame's size.
-struct Sized {
+struct Targets {
     words: Buffer,
     /// Foam depth, intensity of all, depths of fluid and scene.
     occluders: Image,
@@ -102,7 +102,7 @@ struct Sized {
     normal: Image,
 }
 
-impl Sized {
+impl Targets {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let extent = config.extent;
         let image = |name, format| {
@@ -129,7 +129,7 @@ pub struct Sprites {
     frontmost: Pipeline,
     resolve: Pipeline,
     arguments: Buffer,
-    sized: Sized,
+    targets: Targets,
     chunk_size: u32,
     chunks: u32,
     max_particles: u32,
@@ -153,7 +153,7 @@ impl Sprites {
                 usage,
                 MemoryLocation::GpuOnly,
             )?,
-            sized: Sized::new(gpu, config)?,
+            targets: Targets::new(gpu, config)?,
             chunk_size,
             chunks,
             max_particles: diffuse.max_particles,
@@ -166,28 +166,28 @@ impl Sprites {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let sized = Sized::new(gpu, config)?;
-        let old = &mut self.sized;
-        retired.replace(&mut old.words, sized.words);
-        retired.replace(&mut old.occluders, sized.occluders);
-        retired.replace(&mut old.thickness, sized.thickness);
-        retired.replace(&mut old.normal, sized.normal);
+        let new = Targets::new(gpu, config)?;
+        let old = &mut self.targets;
+        retired.replace(&mut old.words, new.words);
+        retired.replace(&mut old.occluders, new.occluders);
+        retired.replace(&mut old.thickness, new.thickness);
+        retired.replace(&mut old.normal, new.normal);
         Ok(())
     }
 
     /// Foam depth, its intensity, depths of fluid and scene.
     pub fn occluders(&self) -> &Image {
-        &self.sized.occluders
+        &self.targets.occluders
     }
 
     /// Thickness before the fluid, behind it, the second by how far behind it lies.
     pub fn thickness(&self) -> &Image {
-        &self.sized.thickness
+        &self.targets.thickness
     }
 
     /// World normal of the frontmost, and its search radius.
     pub fn normal(&self) -> &Image {
-        &self.sized.normal
+        &self.targets.normal
     }
 
     /// `water`: depth of its frontmost spheres, as its pass left it; it comes back so.
@@ -199,7 +199,7 @@ impl Sprites {
     ) -> Result<(), Error> {
         let scope = r.begin(c"splat");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let Sized { words, occluders, thickness, normal } = &self.sized;
+        let Targets { words, occluders, thickness, normal } = &self.targets;
         let (words, arguments) = (words.handle, self.arguments.handle);
         let mut before = vec![
             buffer(words, COMPUTE_READ, COMPUTE_WRITE),
@@ -235,7 +235,7 @@ impl Sprites {
         );
         let resources = [
             (0, r.uniforms),
-            (1, Resource::buffer(&self.sized.words)),
+            (1, Resource::buffer(&self.targets.words)),
             (2, Resource::storage(occluders)),
             (3, Resource::storage(thickness)),
             (4, Resource::storage(normal)),
@@ -257,7 +257,7 @@ impl Sprites {
         let most = particles.map_or(0, |p| streams(p).map(capacity).fold(u32::MAX, u32::min));
         let most = most.min(self.max_particles);
         // Where the host knows the count any buffer will do.
-        let unread = Resource::buffer(&self.sized.words);
+        let unread = Resource::buffer(&self.targets.words);
         let (count, from_gpu, host_count) = match particles.map(|p| p.count) {
             Some(Count::Gpu { buffer, offset }) => {
                 (most, true, Resource::Buffer(buffer, offset, 4))
@@ -267,7 +267,7 @@ impl Sprites {
         };
         let resources = [
             (0, r.uniforms),
-            (1, Resource::buffer(&self.sized.words)),
+            (1, Resource::buffer(&self.targets.words)),
             (2, r.scene_depth),
             (3, Resource::Sampled(water.view, gpu.samplers.nearest)),
             (4, host_count),
@@ -299,6 +299,7 @@ impl Sprites {
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
+        // Atomics alone, in any order: no barrier between chunks.
         for chunk in 0..self.chunks {
             let first = chunk * self.chunk_size;
             let bound = Window::all(gpu, &particles.positions, others, first);
@@ -311,7 +312,7 @@ impl Sprites {
                 (3, radii.resource),
                 (4, ages.resource),
                 (5, ids.resource),
-                (6, Resource::buffer(&self.sized.words)),
+                (6, Resource::buffer(&self.targets.words)),
                 (7, Resource::buffer(&self.arguments)),
             ];
             r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
@@ -333,25 +334,20 @@ impl Sprites {
             let groups = 16 * u64::from(chunk);
             // SAFETY: outside a render pass; the arguments are visible since `begin`.
             unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, groups) };
-            if chunk + 1 < self.chunks {
-                // Atomics alone, in any order: for a layer that does not know.
-                let both = COMPUTE_READ_WRITE;
-                gpu.barriers(cmd, &[], &[buffer(self.sized.words.handle, both, both)]);
-            }
         }
         Ok(())
     }
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        let Sized { words, occluders, thickness, normal } = &self.sized;
+        let Targets { words, occluders, thickness, normal } = &self.targets;
         let images = [occluders, thickness, normal].map(|image| image.size).iter().sum();
         (images, words.size + self.arguments.size)
     }
 }
 
 /// The streams that there are, with the bytes of a value.
-fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&crate::contract::Stream, u64)> {
+fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [
         (Some(&particles.positions), 12),
         (particles.kinds.as_ref(), 4),
@@ -364,13 +360,5 @@ fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&crate::contra
 
 /// The host's buffers, each once: interleaved streams share one.
 pub fn buffers_of(particles: &DiffuseParticles) -> Vec<vk::Buffer> {
-    let count = match particles.count {
-        Count::Gpu { buffer, .. } => Some(buffer),
-        Count::Cpu(_) => None,
-    };
-    let mut all: Vec<_> =
-        streams(particles).map(|(stream, _)| stream.buffer).chain(count).collect();
-    all.sort_by_key(|handle| vk::Handle::as_raw(*handle));
-    all.dedup();
-    all
+    each_once(streams(particles), particles.count, None)
 }

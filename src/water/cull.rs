@@ -452,12 +452,21 @@ pub fn capacity((stream, bytes): (&Stream, u64)) -> u32 {
 
 /// The host's buffers, each once: interleaved streams share one.
 pub fn buffers_of(particles: &Particles) -> Vec<vk::Buffer> {
-    let count = match particles.count {
+    each_once(streams(particles), particles.count, particles.packets.map(|p| p.buffer))
+}
+
+/// Those of streams (with the bytes of their values), of a count and another.
+pub fn each_once<'a>(
+    streams: impl Iterator<Item = (&'a Stream, u64)>,
+    count: Count,
+    other: Option<vk::Buffer>,
+) -> Vec<vk::Buffer> {
+    let count = match count {
         Count::Gpu { buffer, .. } => Some(buffer),
         Count::Cpu(_) => None,
     };
-    let all = streams(particles).map(|(stream, _)| stream.buffer);
-    let mut all: Vec<_> = all.chain(particles.packets.map(|p| p.buffer)).chain(count).collect();
+    let all = streams.map(|(stream, _)| stream.buffer);
+    let mut all: Vec<_> = all.chain(other).chain(count).collect();
     all.sort_by_key(|handle| vk::Handle::as_raw(*handle));
     all.dedup();
     all

@@ -37,7 +37,9 @@ use crate::gpu::timing::{Scope, Timer};
 use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::{Classify, ROW};
-pub(crate) use cull::{CAST, SphereList, Window, buffers_of, capacity, chunk_unit, chunks};
+pub(crate) use cull::{
+    CAST, SphereList, Window, buffers_of, capacity, chunk_unit, chunks, each_once,
+};
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule,

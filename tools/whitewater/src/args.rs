@@ -85,7 +85,8 @@ pub struct RenderArgs {
     pub fps: Option<f32>,
     /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
     /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
-    /// given several times. Then --foam and --spray are of the water no more unless they are given
+    /// given several times. The water's own foam and spray are drawn beside them only where --foam and --spray
+    /// ask for it
     #[arg(long, value_name = "[KIND=]FILES", value_parser = crate::diffuse::named)]
     pub whitewater: Vec<Whitewater>,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
@@ -160,13 +161,14 @@ pub struct DrawArgs {
     /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
-    /// What of the water foams: auto [default, but with --whitewater none] (the fastest twentieth of it, of a sequence three tenths at a time at
+    /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
     /// most, where there are velocities), none, or the Weber number from which on it does. In a sequence
-    /// with ids foam comes and goes in time; frames before those that are drawn are read for it
+    /// with ids foam comes and goes in time; frames before those that are drawn are read for it [default: auto;
+    /// with --whitewater none]
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub foam: Option<Foaming>,
-    /// Spray, of particles too few together to be a body of water: auto [default, but with --whitewater
-    /// none] (where densities are known or can be found) or none
+    /// Spray, of particles too few together to be a body of water: auto (where densities are known or
+    /// can be found) or none [default: auto; with --whitewater none]
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface

@@ -48,21 +48,23 @@ impl Files {
             }
         }
         let mut files = Self { frames, up, life: None };
-        files.life = files.longest_life()?;
+        files.life = files.longest_life();
         Ok(Some(files))
     }
 
     /// Of some frames of the whole sequence, so that it is the same however it is cut into jobs.
-    fn longest_life(&self) -> Outcome<Option<f32>> {
+    fn longest_life(&self) -> Option<f32> {
         let all: Vec<_> = self.frames.values().flatten().collect();
         let step = all.len().div_ceil(PROBES).max(1);
         let mut longest: Option<f32> = None;
         for (path, _) in all.into_iter().step_by(step) {
-            let lifetimes = particles::read(path)?.lifetimes.unwrap_or_default();
+            // One that can't be read is said when its frame is drawn.
+            let Ok(read) = particles::read(path) else { continue };
+            let lifetimes = read.lifetimes.unwrap_or_default();
             let most = lifetimes.into_iter().filter(|l| l.is_finite()).reduce(f32::max);
             longest = most.into_iter().chain(longest).reduce(f32::max);
         }
-        Ok(longest.filter(|life| *life > 0.0))
+        longest.filter(|life| *life > 0.0)
     }
 
     /// Those of a frame; none where there is no file of its number.

@@ -66,3 +66,16 @@ fn mistakes_in_diffuse_files_are_named() {
     run("--whitewater cut.csv").fails(3, &["cut.csv", "line 3"]);
     assert!(!folder.exists("a.png"));
 }
+
+#[test]
+fn a_bad_diffuse_file_loses_its_frame_alone() {
+    let folder = Folder::new();
+    for frame in 1..=2 {
+        folder.particles(&format!("water_{frame}.ply"), block(4));
+    }
+    folder.text("foam_1.csv", FOAM);
+    folder.text("foam_2.csv", "x,y,z,type\n0,0,0,0\n1,1\n");
+    let files = "water_%d.ply --whitewater foam_%d.csv -o a_%d.png";
+    folder.run(&format!("render {files} {SMALL}")).fails(1, &["1 of 2 frames", "foam_2.csv"]);
+    assert!(folder.exists("a_1.png") && !folder.exists("a_2.png"));
+}
