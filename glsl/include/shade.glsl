@@ -487,8 +487,9 @@ vec3 layers_at(vec2 pixel, float front) {
     if (FOAM == 1u) {
         foam = foam_of(pixel, foam_seen(pixel), front >= EMPTY);
         behind_boundary = foam.depth >= boundary;
-        // One looks between the spheres of the front sheet, if only its foam is there.
-        past = !behind_boundary && front >= boundary && front < EMPTY;
+        // One looks between the spheres of the front sheet, if only its foam is there. Told of one sheet, what
+        // follows from it is not compiled: a CPU runs what it skips.
+        past = SHEETS == 2u && !behind_boundary && front >= boundary && front < EMPTY;
         // Foam behind the air between two sheets is among the other.
         if (covers && behind_boundary) {
             back = among(foam, share.y, back);

@@ -7,7 +7,7 @@ use serde_json::json;
 use crate::Outcome;
 use crate::curves::{self, Curve};
 use crate::panels::{self, amount, depth, grid, iterations, normals};
-use crate::tool::{Tool, sequence, total};
+use crate::tool::{Times, Tool, quicker, sequence, total};
 
 type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
@@ -155,10 +155,19 @@ const WAYS: [(&str, &str); 4] = [
     ("default: constant width, two sheets, foam", "--foam auto"),
 ];
 
+/// Runs over each way, in turn, so that what else the machine does at a time is no one way's.
+const ROUNDS: usize = 4;
+
 fn measure(tool: &Tool, scene: &str, frames: &[String], camera: &Path) -> Outcome<Vec<Curve>> {
+    let mut best: [Vec<Times>; WAYS.len()] = Default::default();
+    for round in 0..ROUNDS {
+        for (best, (_, more)) in best.iter_mut().zip(WAYS) {
+            let times = tool.times(scene, frames, camera, more)?;
+            *best = if round == 0 { times } else { quicker(best, &times) };
+        }
+    }
     let mut curves: Vec<Curve> = Vec::new();
-    for (name, more) in WAYS {
-        let times = tool.times(scene, frames, camera, more)?;
+    for ((name, _), times) in WAYS.into_iter().zip(best) {
         let all: f64 = times.iter().map(total).sum();
         let mut shares: Vec<(&str, f64)> = Vec::new();
         for (pass, ms) in times.iter().flatten() {

@@ -102,8 +102,7 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
-    /// Times of a scene's frames from a moving camera, at the best of three runs each. `frames` are those
-    /// files and which of them.
+    /// Times of a scene's frames from a moving camera. `frames` are those files and which of them.
     pub fn times(
         &self,
         scene: &str,
@@ -111,33 +110,31 @@ impl Tool {
         camera: &Path,
         more: &str,
     ) -> Outcome<Vec<Times>> {
-        let mut best: Vec<Times> = Vec::new();
-        for _ in 0..3 {
-            let csv = self.temporary("times.csv");
-            let mut arguments = vec!["render".to_owned()];
-            arguments.extend_from_slice(frames);
-            arguments.extend([
-                format!("--scene={}", self.scene(scene)?.join("scene.json").display()),
-                format!("--camera={}", camera.display()),
-                "--size=1280x720".to_owned(),
-                "--supersample=1".to_owned(),
-                "--shadows=none".to_owned(),
-                "--spray=none".to_owned(),
-                "--thickness-level=2".to_owned(),
-                format!("--output={}", self.temporary("times_%04d.png").display()),
-                "--overwrite".to_owned(),
-                format!("--timings={}", csv.display()),
-            ]);
-            arguments.extend(more.split_whitespace().map(str::to_owned));
-            self.run(&arguments)?;
-            let frames = read_times(&csv)?;
-            best = match best.is_empty() {
-                true => frames,
-                false => best.into_iter().zip(frames).map(quicker).collect(),
-            };
-        }
-        Ok(best)
+        let csv = self.temporary("times.csv");
+        let mut arguments = vec!["render".to_owned()];
+        arguments.extend_from_slice(frames);
+        arguments.extend([
+            format!("--scene={}", self.scene(scene)?.join("scene.json").display()),
+            format!("--camera={}", camera.display()),
+            "--size=1280x720".to_owned(),
+            "--supersample=1".to_owned(),
+            "--shadows=none".to_owned(),
+            "--spray=none".to_owned(),
+            "--thickness-level=2".to_owned(),
+            format!("--output={}", self.temporary("times_%04d.png").display()),
+            "--overwrite".to_owned(),
+            format!("--timings={}", csv.display()),
+        ]);
+        arguments.extend(more.split_whitespace().map(str::to_owned));
+        self.run(&arguments)?;
+        read_times(&csv)
     }
+}
+
+/// Of two runs over the same frames the quicker of each frame's passes.
+pub fn quicker(best: &[Times], run: &[Times]) -> Vec<Times> {
+    let pass = |(a, b): (&(String, f64), &(String, f64))| (a.0.clone(), a.1.min(b.1));
+    best.iter().zip(run).map(|(a, b)| a.iter().zip(b).map(pass).collect()).collect()
 }
 
 /// All files of a scene.
@@ -148,10 +145,6 @@ pub fn sequence(folder: &Path, scene: &str) -> String {
 /// Milliseconds of all passes.
 pub fn total(times: &Times) -> f64 {
     times.iter().map(|(_, ms)| ms).sum()
-}
-
-fn quicker((a, b): (Times, Times)) -> Times {
-    if total(&a) <= total(&b) { a } else { b }
 }
 
 /// The rows of `--timings`: frame, pass, start, nanoseconds.
