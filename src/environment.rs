@@ -83,7 +83,9 @@ shader::assert_layout!(
     IrradiancePush { size, coarse, mip }
 );
 
-/// Edge of the irradiance's faces, and most of the environment's it is gathered from.
+/// Edge of the irradiance without its border.
+const IRRADIANCE: u32 = 32;
+/// Most of the environment's faces that it is gathered from.
 const COARSE: u32 = 16;
 
 /// The cube between its passes: read by any shader.
@@ -98,9 +100,8 @@ pub struct Environment {
     faces: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,
-    /// What a surface gathers of it, over 2π: RGBA16F, six faces.
+    /// What a surface gathers of it, over 2π: RGBA16F, octahedral with a border of a texel.
     pub irradiance: Image,
-    irradiance_faces: Owned<vk::ImageView>,
 }
 
 impl Environment {
@@ -126,23 +127,17 @@ impl Environment {
         let array = vk::ImageViewType::TYPE_2D_ARRAY;
         let faces = gpu.view(cube.handle, cube.format, array, 6, 1, "environment/faces")?;
         let faces = gpu.own(faces, Grave::View);
-        let name = "environment/irradiance";
         let irradiance = Image::new(
             gpu,
-            &ImageDesc {
-                layers: 6,
-                ..ImageDesc::new(
-                    name,
-                    vk::Extent2D { width: COARSE, height: COARSE },
-                    cube.format,
-                    vk::ImageUsageFlags::STORAGE
-                        | vk::ImageUsageFlags::SAMPLED
-                        | vk::ImageUsageFlags::TRANSFER_DST,
-                )
-            },
+            &ImageDesc::new(
+                "environment/irradiance",
+                vk::Extent2D { width: IRRADIANCE + 2, height: IRRADIANCE + 2 },
+                cube.format,
+                vk::ImageUsageFlags::STORAGE
+                    | vk::ImageUsageFlags::SAMPLED
+                    | vk::ImageUsageFlags::TRANSFER_DST,
+            ),
         )?;
-        let irradiance_faces = gpu.view(irradiance.handle, cube.format, array, 6, 1, name)?;
-        let irradiance_faces = gpu.own(irradiance_faces, Grave::View);
         Ok(Self {
             sky: Pipeline::compute(gpu, shader::ENVIRONMENT_SKY_COMP, &[])?,
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
@@ -151,7 +146,6 @@ impl Environment {
             mips,
             gather: Pipeline::compute(gpu, shader::ENVIRONMENT_IRRADIANCE_COMP, &[])?,
             irradiance,
-            irradiance_faces,
         })
     }
 
@@ -223,17 +217,17 @@ impl Environment {
         let image = &self.irradiance;
         gpu.barriers(cmd, &[access::image(image, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
         let resources = [
-            (0, Resource::Storage(self.irradiance_faces.handle)),
+            (0, Resource::storage(image)),
             (1, Resource::Sampled(self.cube.view, gpu.samplers.linear)),
         ];
         descriptors.bind(gpu, cmd, &self.gather, &resources)?;
         let size = self.cube.extent.width;
         let coarse = size.min(COARSE);
         let mip = (size / coarse).ilog2() as f32;
-        self.gather.push(gpu, cmd, &IrradiancePush { size: COARSE, coarse, mip });
-        let groups = COARSE.div_ceil(self.gather.local_size[0]);
+        self.gather.push(gpu, cmd, &IrradiancePush { size: IRRADIANCE, coarse, mip });
+        let groups = (IRRADIANCE + 2).div_ceil(self.gather.local_size[0]);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 6) };
+        unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 1) };
         gpu.barriers(cmd, &[access::image(image, COMPUTE_WRITE, SAMPLED)], &[]);
         Ok(())
     }

@@ -1,25 +1,26 @@
 #version 460
 // Pass `environment`: what a surface gathers of the environment, over 2 pi: a half of one that is 1 everywhere, as
 // the samples it stands for (Akinci et al. 2013, Sec. 2.4.2).
-// Reads: environment. Writes: irradiance (RGBA16F), all faces.
+// Reads: environment. Writes: irradiance (RGBA16F), octahedral with a border.
 
 #include "cube.glsl"
+#include "octahedral.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 0, rgba16f) uniform writeonly image2DArray irradiance;
+layout(set = 0, binding = 0, rgba16f) uniform writeonly image2D irradiance;
 layout(set = 0, binding = 1) uniform samplerCube environment;
 layout(push_constant, std430) uniform Push {
-    uint size;   // of the irradiance
+    uint size;   // of the irradiance without its border
     uint coarse; // of the environment's mip that is read
     float mip;
 } push;
 
 void main() {
-    ivec3 texel = ivec3(gl_GlobalInvocationID);
-    if (max(texel.x, texel.y) >= int(push.size)) {
+    ivec2 texel = ivec2(gl_GlobalInvocationID);
+    if (max(texel.x, texel.y) >= int(push.size) + 2) {
         return;
     }
-    vec3 normal = cube_direction(texel, int(push.size));
+    vec3 normal = octahedral_direction((vec2(texel) - 0.5) / float(push.size) * 2.0 - 1.0);
     vec4 sum = vec4(0.0);
     int n = int(push.coarse);
     for (int i = 0; i < 6 * n * n; ++i) {

@@ -9,6 +9,7 @@
 #include "frame.glsl"
 #include "convolution.glsl"
 #include "sunlight.glsl"
+#include "octahedral.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: the environment is asked at the points' directions, as in the source; 0: once, filtered before.
@@ -18,7 +19,8 @@ layout(set = 0, binding = 1) uniform sampler2D occluders;
 layout(set = 0, binding = 2) uniform sampler2D normals;
 // Points of a unit sphere, and how much each counts.
 layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
-layout(set = 0, binding = 4) uniform samplerCube irradiance;
+// Octahedral, with a border of a texel.
+layout(set = 0, binding = 4) uniform sampler2D irradiance;
 layout(set = 0, binding = 5) uniform samplerCube environment;
 // Light, shadow.
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
@@ -40,7 +42,9 @@ uint samples_of(float pixels) {
 // The environment's light over the hemisphere of a normal, 1/2 of one that is 1 everywhere.
 vec3 gathered(vec3 normal, uint count) {
     if (SAMPLED == 0u) {
-        return textureLod(irradiance, normal, 0.0).rgb;
+        vec2 texels = vec2(textureSize(irradiance, 0));
+        vec2 at = (0.5 * octahedral_place(normal) + 0.5) * (texels - 2.0) + 1.0;
+        return textureLod(irradiance, at / texels, 0.0).rgb;
     }
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < count; ++i) {

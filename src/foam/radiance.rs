@@ -114,7 +114,7 @@ impl Radiance {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [image, half] = &self.images;
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
-        let cube = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
+        let linear = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
         let (occluders, normals) = (sampled(sprites.occluders()), sampled(sprites.normal()));
         let scope = r.begin(c"radiance");
         let before = AFTER.and(COPY_READ).discarded();
@@ -125,8 +125,8 @@ impl Radiance {
             (1, occluders),
             (2, normals),
             (3, Resource::buffer(&self.points)),
-            (4, cube(&environment.irradiance)),
-            (5, cube(&environment.cube)),
+            (4, linear(&environment.irradiance)),
+            (5, linear(&environment.cube)),
             (6, Resource::storage(image)),
             shadow,
             thickness,

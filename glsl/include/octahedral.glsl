@@ -1,0 +1,22 @@
+// All directions on a square, so that they can be sampled as any image: an octahedron's upper half in the
+// middle, the lower one folded out to the corners (Meyer et al. 2010). With a border of a texel, which repeats
+// what lies across the edge: no seam, and no filter across faces is asked of a driver.
+
+vec2 octahedral_signs(vec2 p) {
+    return mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
+}
+
+// Direction at a place, -1 to 1; a little past an edge that across it.
+vec3 octahedral_direction(vec2 p) {
+    p = abs(p.x) > 1.0 ? vec2(2.0 * octahedral_signs(p).x - p.x, -p.y) : p;
+    p = abs(p.y) > 1.0 ? vec2(-p.x, 2.0 * octahedral_signs(p).y - p.y) : p;
+    vec3 d = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    d.xy = d.z < 0.0 ? (1.0 - abs(p.yx)) * octahedral_signs(p) : p;
+    return normalize(d);
+}
+
+// Place of a direction, of any length but 0.
+vec2 octahedral_place(vec3 d) {
+    vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
+    return d.z < 0.0 ? (1.0 - abs(p.yx)) * octahedral_signs(p) : p;
+}
