@@ -97,6 +97,114 @@ pub const FOAM_SPLAT_COMP: Shader = Shader {
     bindings: &[(0, vk::DescriptorType::UNIFORM_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
     members: &[("Frame", "view", 0), ("Frame", "world", 64), ("Frame", "projection", 128), ("Frame", "depth", 144), ("Frame", "planes", 160), ("Frame", "extent", 256), ("Frame", "thick_extent", 272), ("Frame", "slope", 288), ("Frame", "reduced_slope", 304), ("Frame", "thick_slope", 320), ("Frame", "texel", 336), ("Frame", "scene_depth", 352), ("Frame", "scene_color", 368), ("Frame", "scene_origin", 384), ("Frame", "target", 400), ("Frame", "particle", 416), ("Frame", "density", 432), ("Frame", "smoothing", 448), ("Frame", "medium_a", 464), ("Frame", "medium_b", 480), ("Frame", "fresnel", 496), ("Frame", "surface", 512), ("Frame", "sun_direction", 528), ("Frame", "sun_color", 544), ("Frame", "ambient", 560), ("Frame", "foam", 576), ("Frame", "foam_noise", 592), ("Frame", "foam_back", 608), ("Frame", "foam_front", 624), ("Frame", "spray", 640), ("Frame", "spray_color", 656), ("Frame", "shadow", 672), ("Frame", "to_light", 736), ("Frame", "shadow_map", 800), ("Frame", "shadow_rect", 816), ("Frame", "light_map", 832), ("Frame", "shade", 848), ("Frame", "lit_color", 864), ("Frame", "lit_origin", 880), ("Frame", "shadow_linear", 896), ("Frame", "shadow_basis", 912), ("Frame", "shadow_filter", 928), ("Frame", "shadow_weight", 944), ("Frame", "before", 1008), ("Frame", "before_lens", 1072), ("Frame", "lens_change", 1088), ("Frame", "motion", 1104), ("Frame", "noise", 1120), ("Frame", "noise_image", 1136), ("Frame", "noise_color", 1152), ("Frame", "diffuse", 1168), ("Frame", "diffuse_below", 1184), ("Frame", "diffuse_light", 1200), ("Frame", "diffuse_search", 1216), ("Frame", "diffuse_samples", 1232), ("Frame", "diffuse_opacity", 1248), ("Frame", "diffuse_shadow", 1264), ("Frame", "diffuse_color", 1280), ("Frame", "diffuse_sun", 1296), ("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "kind_word", 8), ("Push", "kind_stride", 12), ("Push", "radius_word", 16), ("Push", "radius_stride", 20), ("Push", "age_word", 24), ("Push", "age_stride", 28), ("Push", "id_word", 32), ("Push", "id_stride", 36), ("Push", "chunk_first", 40), ("Push", "chunk", 44), ("Positions", "positions", 0), ("Kinds", "kinds", 0), ("Radii", "radii", 0), ("Ages", "ages", 0), ("Ids", "ids", 0), ("Words", "words", 0), ("Arguments", "arguments", 0), ],
 };
+/// `generate/advance.comp`
+pub const GENERATE_ADVANCE_COMP: Shader = Shader {
+    name: "generate/advance.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.advance.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Diffuse", "position", 0), ("Diffuse", "age", 12), ("Particles", "particles", 0), ("Gone", "gone", 0), ("Drift", "velocity", 0), ("Drift", "id", 12), ("Drifts", "drifts", 0), ("Kinds", "kinds", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+};
+/// `generate/begin.comp`
+pub const GENERATE_BEGIN_COMP: Shader = Shader {
+    name: "generate/begin.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.begin.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [1, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("HostCount", "host_count", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ],
+};
+/// `generate/count.comp`
+pub const GENERATE_COUNT_COMP: Shader = Shader {
+    name: "generate/count.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.count.comp.spv"))); &CODE.0 },
+    push_size: 40,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "velocity_word", 8), ("Push", "velocity_stride", 12), ("Push", "id_word", 16), ("Push", "id_stride", 20), ("Push", "chunk_first", 24), ("Push", "chunk", 28), ("Push", "spacing", 32), ("Push", "buckets", 36), ("Positions", "positions", 0), ("Velocities", "velocities", 0), ("Wanted", "wanted", 0), ("Potentials", "potentials", 0), ("Buckets", "buckets", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Ids", "ids", 0), ],
+};
+/// `generate/crest.comp`
+pub const GENERATE_CREST_COMP: Shader = Shader {
+    name: "generate/crest.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.crest.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Normals", "normals", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Potentials", "potentials", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+};
+/// `generate/emit.comp`
+pub const GENERATE_EMIT_COMP: Shader = Shader {
+    name: "generate/emit.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.emit.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), (9, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Wanted", "wanted", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Free", "free_slots", 0), ("Diffuse", "position", 0), ("Diffuse", "age", 12), ("Particles", "particles", 0), ("Drift", "velocity", 0), ("Drift", "id", 12), ("Drifts", "drifts", 0), ("Kinds", "kinds", 0), ("Normals", "normals", 0), ],
+};
+/// `generate/end.comp`
+pub const GENERATE_END_COMP: Shader = Shader {
+    name: "generate/end.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.end.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [1, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ],
+};
+/// `generate/fill.comp`
+pub const GENERATE_FILL_COMP: Shader = Shader {
+    name: "generate/fill.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.fill.comp.spv"))); &CODE.0 },
+    push_size: 40,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "position_word", 0), ("Push", "position_stride", 4), ("Push", "velocity_word", 8), ("Push", "velocity_stride", 12), ("Push", "id_word", 16), ("Push", "id_stride", 20), ("Push", "chunk_first", 24), ("Push", "chunk", 28), ("Push", "spacing", 32), ("Push", "buckets", 36), ("Positions", "positions", 0), ("Velocities", "velocities", 0), ("Ids", "ids", 0), ("Buckets", "buckets", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+};
+/// `generate/free.comp`
+pub const GENERATE_FREE_COMP: Shader = Shader {
+    name: "generate/free.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.free.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Diffuse", "position", 0), ("Diffuse", "age", 12), ("Particles", "particles", 0), ("Free", "free_slots", 0), ("Gone", "gone", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ],
+};
+/// `generate/potentials.comp`
+pub const GENERATE_POTENTIALS_COMP: Shader = Shader {
+    name: "generate/potentials.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.potentials.comp.spv"))); &CODE.0 },
+    push_size: 112,
+    local_size: [64, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "spacing", 0), ("Push", "dt", 4), ("Push", "seed", 8), ("Push", "number", 12), ("Push", "gravity_x", 16), ("Push", "gravity_y", 20), ("Push", "gravity_z", 24), ("Push", "buoyancy", 28), ("Push", "drag", 32), ("Push", "trapped_least", 36), ("Push", "trapped_scale", 40), ("Push", "crest_least", 44), ("Push", "crest_scale", 48), ("Push", "energy_least", 52), ("Push", "energy_scale", 56), ("Push", "trapped_rate", 60), ("Push", "crest_rate", 64), ("Push", "life_least", 68), ("Push", "life_most", 72), ("Push", "low_x", 76), ("Push", "low_y", 80), ("Push", "low_z", 84), ("Push", "high_x", 88), ("Push", "high_y", 92), ("Push", "high_z", 96), ("Push", "buckets", 100), ("Push", "most", 104), ("Push", "capacity", 108), ("Ends", "ends", 0), ("Place", "position", 0), ("Place", "id", 12), ("Places", "places", 0), ("Motion", "velocity", 0), ("Motion", "number", 12), ("Motions", "motions", 0), ("Normals", "normals", 0), ("Potentials", "potentials", 0), ("GenerateCounts", "high", 0), ("GenerateCounts", "fluid", 4), ("GenerateCounts", "sorted", 8), ("GenerateCounts", "free", 12), ("GenerateCounts", "made", 16), ("GenerateCounts", "lost", 20), ("CountBuffer", "counts", 0), ],
+};
+/// `generate/scan_apply.comp`
+pub const GENERATE_SCAN_APPLY_COMP: Shader = Shader {
+    name: "generate/scan_apply.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.scan_apply.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [256, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "most", 0), ("Push", "count", 4), ("Push", "total", 8), ("Counts", "counts", 0), ("Values", "values", 0), ("Blocks", "blocks", 0), ],
+};
+/// `generate/scan_blocks.comp`
+pub const GENERATE_SCAN_BLOCKS_COMP: Shader = Shader {
+    name: "generate/scan_blocks.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.scan_blocks.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [256, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "most", 0), ("Push", "count", 4), ("Push", "total", 8), ("Counts", "counts", 0), ("Blocks", "blocks", 0), ],
+};
+/// `generate/scan_sum.comp`
+pub const GENERATE_SCAN_SUM_COMP: Shader = Shader {
+    name: "generate/scan_sum.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/generate.scan_sum.comp.spv"))); &CODE.0 },
+    push_size: 12,
+    local_size: [256, 1, 1],
+    bindings: &[(1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "most", 0), ("Push", "count", 4), ("Push", "total", 8), ("Counts", "counts", 0), ("Values", "values", 0), ("Blocks", "blocks", 0), ],
+};
 /// `headless/depth.vert`
 pub const HEADLESS_DEPTH_VERT: Shader = Shader {
     name: "headless/depth.vert",

@@ -14,6 +14,7 @@ use glam::{Mat4, Vec3, Vec4};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::error::Error;
+use crate::foam::generate::settings::GenerateSettings;
 use crate::foam::settings::{DiffuseConfig, DiffuseLook};
 pub use crate::gpu::access::Access;
 use crate::water::settings::{
@@ -389,6 +390,32 @@ pub struct Step<'a> {
     pub dt: f32,
     /// Uniform settings.
     pub settings: &'a FoamSettings,
+    /// Last use of all these buffers before the step (layout ignored).
+    pub before: Access,
+    /// First use of them after it (layout ignored).
+    pub after: Access,
+}
+
+/// One step of the fluid, for [`Generator::record_step`](crate::foam::Generator::record_step): its particles as they
+/// are after it, in any order. Only read.
+#[derive(Clone, Copy, Debug)]
+pub struct GenerateStep<'a> {
+    /// The slot; its earlier work is complete.
+    pub slot: Slot,
+    /// World-space centres (3×f32, scene units). Those that are not finite take no part.
+    pub positions: Stream,
+    /// World-space velocities (3×f32, scene units per second).
+    pub velocities: Stream,
+    /// Ids (u32), the same from step to step, for the random numbers; `None`: their place.
+    pub ids: Option<Stream>,
+    /// How many; at most [`GenerateConfig::max_fluid`](crate::foam::GenerateConfig).
+    pub count: Count,
+    /// Seconds since the step before, [0, ∞).
+    pub dt: f32,
+    /// The step's number in the sequence, for the random numbers.
+    pub number: u32,
+    /// Uniform settings.
+    pub settings: &'a GenerateSettings,
     /// Last use of all these buffers before the step (layout ignored).
     pub before: Access,
     /// First use of them after it (layout ignored).

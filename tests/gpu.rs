@@ -24,6 +24,8 @@ mod diffuse;
 mod environment;
 #[path = "gpu/foam/mod.rs"]
 mod foam;
+#[path = "gpu/generate.rs"]
+mod generate;
 #[path = "gpu/harness.rs"]
 mod harness;
 #[path = "gpu/headless.rs"]

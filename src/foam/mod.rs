@@ -1,6 +1,7 @@
 //! Screen-space foam of diffuse particles: spray, foam and bubbles, by the million (Akinci, Dippel, Akinci,
 //! Teschner, Screen Space Foam Rendering, 2013). A pass a file.
 
+pub(crate) mod generate;
 mod radiance;
 pub mod settings;
 pub(crate) mod splat;
@@ -12,6 +13,7 @@ use crate::gpu::Gpu;
 use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::water::Recording;
+pub use generate::{GenerateConfig, GenerateSettings, Generator, Limits};
 pub use settings::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Reach, Submerged};
 
 /// The technique: its passes in the order of the frame.

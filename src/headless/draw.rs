@@ -130,7 +130,12 @@ impl Headless {
             shadow: stage.map(|stage| stage.renderer.shadow(settings.water.spacing)),
             region: self.region,
         };
-        let diffuse = self.diffuse.as_ref().map(Diffusing::streams);
+        let made = self
+            .generating
+            .as_ref()
+            .filter(|made| made.shown && self.renderer.config().diffuse.is_some());
+        let diffuse = made.map(|made| made.generator.particles());
+        let diffuse = diffuse.or_else(|| self.diffuse.as_ref().map(Diffusing::streams));
         let frame = Frame {
             slot: Slot(0),
             output,

@@ -85,7 +85,7 @@ impl Diffusing {
 }
 
 /// Written by the CPU before the submit.
-const HOST_WRITE: Access = Access::new(
+pub(super) const HOST_WRITE: Access = Access::new(
     vk::PipelineStageFlags2::HOST,
     vk::AccessFlags2::HOST_WRITE,
     vk::ImageLayout::GENERAL,
@@ -100,7 +100,7 @@ fn input(gpu: &Arc<Gpu>, name: &str, bytes: &[u8]) -> Result<Buffer, Error> {
     Ok(buffer)
 }
 
-fn stream(buffer: &Buffer, stride: u32) -> Stream {
+pub(super) fn stream(buffer: &Buffer, stride: u32) -> Stream {
     Stream { buffer: buffer.handle, size: buffer.size, offset: 0, stride }
 }
 
@@ -164,6 +164,9 @@ impl Headless {
     /// Attributes of another length, no memory; then there are none.
     pub fn diffuse(&mut self, diffuse: Option<&Diffuse<'_>>) -> Result<(), Error> {
         self.diffuse = None;
+        if let Some(generating) = &mut self.generating {
+            generating.shown = false;
+        }
         self.gpu.bury();
         self.diffuse = diffuse.map(|diffuse| Diffusing::new(&self.gpu, diffuse)).transpose()?;
         Ok(())

@@ -9,6 +9,7 @@
 mod device;
 mod draw;
 mod environment;
+mod generate;
 mod inputs;
 mod readback;
 pub mod scene;
@@ -22,6 +23,8 @@ use ash::vk;
 
 pub use device::{Device, DeviceOptions};
 pub use draw::Background;
+pub use generate::Generated;
+use generate::Generating;
 pub use inputs::Diffuse;
 use inputs::{Diffusing, Foaming};
 pub use readback::Picture;
@@ -77,6 +80,7 @@ pub struct Headless {
     velocities: Option<Buffer>,
     ids: Option<Buffer>,
     diffuse: Option<Diffusing>,
+    generating: Option<Generating>,
     foam: Option<Foaming>,
     region: Option<Region>,
     previous: Option<Previous>,
@@ -123,6 +127,7 @@ impl Headless {
             velocities: None,
             ids: None,
             diffuse: None,
+            generating: None,
             foam: None,
             region: None,
             previous: None,
@@ -226,7 +231,11 @@ impl Headless {
     /// Device loss.
     pub fn finish(self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
-        let Self { gpu, renderer, device, foam, .. } = self;
+        let Self { gpu, renderer, device, foam, generating, .. } = self;
+        if let Some(generating) = generating {
+            // SAFETY: the device is idle, or lost.
+            unsafe { generating.generator.destroy() };
+        }
         if let Some(foam) = foam {
             // SAFETY: the device is idle, or lost.
             unsafe { foam.state.destroy() };

@@ -98,7 +98,7 @@ impl Headless {
         }
     }
 
-    fn read_buffer(&mut self, from: vk::Buffer, size: u64) -> Result<Vec<u32>, Error> {
+    pub(super) fn read_buffer(&mut self, from: vk::Buffer, size: u64) -> Result<Vec<u32>, Error> {
         let usage = vk::BufferUsageFlags::TRANSFER_DST;
         let name = "headless/readback";
         let buffer = Buffer::new(&self.gpu, name, size, usage, MemoryLocation::GpuToCpu)?;

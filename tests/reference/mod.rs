@@ -18,6 +18,7 @@ pub mod depth;
 pub mod diffuse;
 pub mod environment;
 pub mod foam;
+pub mod generate;
 pub mod light;
 pub mod motion;
 pub mod noise;

@@ -85,9 +85,10 @@ pub struct RenderArgs {
     pub fps: Option<f32>,
     /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
     /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
-    /// given several times. The water's own foam and spray are drawn beside them only where --foam and --spray
+    /// given several times; 'generate': made of the water's particles, by where it traps air, breaks and is fast
+    /// (table [generate] of --settings). The water's own foam and spray are drawn beside them only where --foam and --spray
     /// ask for it
-    #[arg(long, value_name = "[KIND=]FILES", value_parser = crate::diffuse::named)]
+    #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::diffuse::named)]
     pub whitewater: Vec<Whitewater>,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
@@ -103,12 +104,13 @@ pub struct RenderArgs {
     pub draw: DrawArgs,
 }
 
-/// Files of diffuse particles.
+/// Where diffuse particles come from.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Whitewater {
-    /// What they all are; none: as the files say.
-    pub kind: Option<u32>,
-    pub files: String,
+pub enum Whitewater {
+    /// They are made of the water's.
+    Generate,
+    /// From files. What they all are; none: as the files say.
+    Files { kind: Option<u32>, files: String },
 }
 
 #[derive(Args, Debug)]

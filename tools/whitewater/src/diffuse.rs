@@ -8,10 +8,17 @@ use whitewater::io::particles::{self, sequence};
 
 use crate::args::{Up, Whitewater};
 use crate::failure::{Failure, Outcome};
+use crate::generate::Generate;
 use crate::layers;
 
 /// Frames in which the longest life is looked for.
 const PROBES: usize = 16;
+
+/// Where the diffuse particles come from.
+pub enum Diffusing {
+    Files(Files),
+    Made(Box<Generate>),
+}
 
 /// The files of a sequence, by frame.
 pub struct Files {
@@ -39,7 +46,12 @@ impl Files {
             return Ok(None);
         }
         let mut frames: BTreeMap<u64, Vec<_>> = BTreeMap::new();
-        for Whitewater { kind, files } in named {
+        for named in named {
+            let Whitewater::Files { kind, files } = named else {
+                let why =
+                    "--whitewater: expected 'generate' or files, found both or one of it twice";
+                return Err(Failure::usage(why));
+            };
             let found = sequence::expand(std::slice::from_ref(files), None)?;
             let alone = single.filter(|_| found.len() == 1);
             for frame in found {
@@ -109,8 +121,11 @@ impl Diffuse {
     }
 }
 
-/// `[KIND=]FILES`.
+/// `generate` or `[KIND=]FILES`.
 pub fn named(text: &str) -> Result<Whitewater, String> {
+    if text == "generate" {
+        return Ok(Whitewater::Generate);
+    }
     let kinds = [("foam=", 0), ("spray=", 1), ("bubble=", 2)];
     let found = kinds.into_iter().find_map(|(name, kind)| Some((text.strip_prefix(name)?, kind)));
     let (files, kind) = match found {
@@ -120,7 +135,7 @@ pub fn named(text: &str) -> Result<Whitewater, String> {
     if files.is_empty() {
         return Err("expected files, as in whitewater_%04d.bgeo or bubble=bubbles_*.bgeo".into());
     }
-    Ok(Whitewater { kind, files: files.into() })
+    Ok(Whitewater::Files { kind, files: files.into() })
 }
 
 /// Their number, where it is one that the renderer takes.
@@ -135,10 +150,12 @@ mod tests {
 
     #[test]
     fn files_are_named_with_their_kind() {
-        let of = |kind, files: &str| Ok(Whitewater { kind, files: files.into() });
+        let of = |kind, files: &str| Ok(Whitewater::Files { kind, files: files.into() });
         assert_eq!(named("a_%d.bgeo"), of(None, "a_%d.bgeo"));
         assert_eq!(named("bubble=b*.ply"), of(Some(2), "b*.ply"));
         assert_eq!(named("oil=b.ply"), of(None, "oil=b.ply"));
+        assert_eq!(named("generate"), Ok(Whitewater::Generate));
+        assert_eq!(named("./generate"), of(None, "./generate"));
         assert!(named("spray=").is_err() && named("").is_err());
     }
 }

@@ -40,7 +40,7 @@ pub fn settings(
 }
 
 /// The number that a share of them is below.
-fn quantile(mut numbers: Vec<f32>, share: f64) -> Option<f32> {
+pub fn quantile(mut numbers: Vec<f32>, share: f64) -> Option<f32> {
     let at = (numbers.len() as f64 * share) as usize;
     (at < numbers.len()).then(|| *numbers.select_nth_unstable_by(at, f32::total_cmp).1)
 }

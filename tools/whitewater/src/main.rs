@@ -11,6 +11,7 @@ mod diffuse;
 mod environment;
 mod failure;
 mod foam;
+mod generate;
 mod info;
 mod layers;
 mod out;

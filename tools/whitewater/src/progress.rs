@@ -134,6 +134,15 @@ impl Drop for Progress {
 }
 
 impl Steps {
+    /// A line that stays.
+    pub fn say(&self, line: &str) {
+        let note = || out::note(format_args!("{line}"));
+        match &self.bar {
+            Some(bar) => bar.suspend(note),
+            None => note(),
+        }
+    }
+
     /// Does a step, which is told of where it takes long.
     pub fn during<T>(&self, name: impl Display, work: impl FnOnce() -> T) -> T {
         if let Some(bar) = &self.bar {

@@ -7,13 +7,14 @@ use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 use whitewater::water::FoamLook;
 
-use crate::args::{Foaming, RenderArgs, SprayArg, Up};
+use crate::args::{Foaming, RenderArgs, SprayArg, Up, Whitewater};
 use crate::bounds::{self, Bounds};
 use crate::camera::CameraFile;
 use crate::diffuse;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::foam;
+use crate::generate::{self, Generate};
 use crate::layers;
 use crate::output;
 use crate::progress::Progress;
@@ -59,11 +60,13 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let settings = settings.unwrap_or_default();
     let sequence = Sequence { is: all.len() > 1, motion: session::has_motion(&checked) };
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
-    let diffuse = diffuse::Files::find(&args.whitewater, args.up_axis, single)?;
+    let made = args.whitewater == [Whitewater::Generate];
+    let files = if made { &[][..] } else { &args.whitewater };
+    let files = diffuse::Files::find(files, args.up_axis, single)?.map(diffuse::Diffusing::Files);
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, camera, settings, environment, &progress)
     })?;
-    let look = Look { diffuse, ..look };
+    let look = Look { diffuse: files.or(look.diffuse), ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
@@ -306,6 +309,10 @@ fn look(
     }
     settings.foam = FoamLook::of_spacing(spacing);
     settings.diffuse = DiffuseLook::of_spacing(spacing);
+    let made = args.whitewater == [Whitewater::Generate];
+    if made {
+        settings.diffuse.radius = generate::RADIUS * spacing;
+    }
     settings.noise = session::noise(&args.draw);
     if probes.frames.iter().all(|frame| frame.densities.is_none()) {
         settings.spray.densities = GUESSED_DENSITIES;
@@ -369,7 +376,11 @@ fn look(
         ));
     }
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
-    let remembers = sequence.is && foam.is_some() && probes.frames.iter().any(moving);
+    if made && !probes.frames.iter().any(|frame| frame.velocities.is_some()) {
+        let why = "--whitewater generate: expected velocities in the files, found none";
+        return Err(Failure::input(why));
+    }
+    let remembers = sequence.is && (made || foam.is_some() && probes.frames.iter().any(moving));
     let vectors = sequence.is && sequence.motion;
     let fps = (remembers || vectors).then(|| {
         if args.fps.is_none() {
@@ -382,7 +393,11 @@ fn look(
     let shadows = file.shadows().map_err(Failure::input)?;
     let rate = fps.filter(|_| vectors);
     let fps = fps.filter(|_| remembers);
-    let diffuse = None;
+    let diffuse = made.then(|| {
+        let probes = std::mem::take(&mut probes.frames);
+        let generate = Generate::new(file.generate.clone(), spacing, &bounds, probes);
+        diffuse::Diffusing::Made(Box::new(generate))
+    });
     Ok(Look {
         camera,
         settings,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
-use whitewater::foam::DiffuseConfig;
+use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles};
@@ -13,7 +13,7 @@ use whitewater::{Config, Error, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg};
 use crate::camera::{CameraFile, Lens};
-use crate::diffuse;
+use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
@@ -31,7 +31,7 @@ pub struct Look {
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
     /// Diffuse particles beside the water.
-    pub diffuse: Option<diffuse::Files>,
+    pub diffuse: Option<Diffusing>,
     /// Particles of the water turn to spray.
     pub spray: bool,
     /// How the scene's shadow map is filtered.
@@ -49,6 +49,8 @@ pub struct Look {
 struct Memory {
     passed: Option<u64>,
     stepped: Option<u64>,
+    /// By which diffuse particles were made.
+    made: Option<u64>,
 }
 
 /// Draws frames.
@@ -65,6 +67,8 @@ pub struct Session<'a> {
     device: Option<Device>,
     headless: Option<Headless>,
     memory: Memory,
+    /// How diffuse particles are made, and how many at most.
+    making: Option<(GenerateSettings, u32)>,
     pub times: Times,
 }
 
@@ -112,6 +116,9 @@ pub fn noise(args: &DrawArgs) -> NoiseLook {
 /// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
 const WARM_UP: u32 = 8;
 const WARM_STEP: f32 = 0.1;
+/// The same of diffuse particles, that are made by a frame and move in it.
+const PRE_ROLL: u32 = 8;
+const PRE_STEP: f32 = 1.0 / 30.0;
 
 /// Of a file that has none, in the unit of the rest density, where there is to be spray.
 pub fn guessed_densities(
@@ -188,6 +195,7 @@ impl<'a> Session<'a> {
             device: Some(device),
             headless: None,
             memory: Memory::default(),
+            making: None,
             times,
         })
     }
@@ -207,6 +215,12 @@ impl<'a> Session<'a> {
         let count = u32::try_from(count)
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
         let diffuse = diffuse::counted(diffuse)?;
+        let made = match &self.look.diffuse {
+            Some(Diffusing::Made(made)) => Some(made),
+            _ => None,
+        };
+        // It is looked at in frames of the whole sequence before any is drawn.
+        let count = made.map_or(0, |made| made.probed() as u32).max(count);
         let there = self.headless.as_ref().map(|h| *h.renderer().config());
         let most = |config: &Config| config.diffuse.map_or(0, |diffuse| diffuse.max_particles);
         if there.is_some_and(|config| config.max_particles >= count && most(&config) >= diffuse) {
@@ -235,7 +249,12 @@ impl<'a> Session<'a> {
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
-        config.diffuse = self.look.diffuse.is_some().then(|| DiffuseConfig::new(diffuse));
+        config.diffuse = self.look.diffuse.as_ref().map(|source| match source {
+            Diffusing::Files(_) => DiffuseConfig::new(diffuse),
+            Diffusing::Made(made) => {
+                DiffuseConfig { max_stride: 16, ..DiffuseConfig::new(made.max_particles()) }
+            }
+        });
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
         config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
@@ -276,7 +295,10 @@ impl<'a> Session<'a> {
         particles: &Particles,
     ) -> Outcome<()> {
         self.look.scene.frame = number;
-        let files = self.look.diffuse.as_ref();
+        let files = match &self.look.diffuse {
+            Some(Diffusing::Files(files)) => Some(files),
+            _ => None,
+        };
         let diffuse = self
             .times
             .step("read", number, || files.map(|files| files.read(number)).transpose())?;
@@ -291,8 +313,10 @@ impl<'a> Session<'a> {
         };
         if let Some(headless) = &mut self.headless {
             headless.previous(previous);
-            let input = diffuse.as_ref().map(diffuse::Diffuse::input);
-            self.times.step("upload", number, || headless.diffuse(input.as_ref()))?;
+            if let Some(diffuse) = &diffuse {
+                let input = diffuse.input();
+                self.times.step("upload", number, || headless.diffuse(Some(&input)))?;
+            }
         }
         self.step(number, source, particles, true)
     }
@@ -309,7 +333,8 @@ impl<'a> Session<'a> {
 
     /// Foam goes by the frames before.
     pub fn remembers(&self) -> bool {
-        self.look.foam.is_some() && self.look.fps.is_some()
+        let made = matches!(self.look.diffuse, Some(Diffusing::Made(_)));
+        (self.look.foam.is_some() || made) && self.look.fps.is_some()
     }
 
     /// Number of the last frame that passed; none: no frame did since foam began anew.
@@ -333,6 +358,13 @@ impl<'a> Session<'a> {
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
+        if let Some(Diffusing::Made(made)) = &mut self.look.diffuse {
+            let (settings, line) = times.step("limits", number, || made.settings(headless))?;
+            if let Some(line) = line {
+                self.times.say(&line);
+            }
+            self.making = Some((settings, made.max_particles()));
+        }
         // Spray goes by density.
         let water = &self.look.settings.water;
         let guessed = times
@@ -358,6 +390,19 @@ impl<'a> Session<'a> {
                 }
             })?;
             self.memory.stepped = Some(number);
+        }
+        if let (Some((settings, most)), Some(_)) = (&self.making, &particles.velocities) {
+            times.step("generate", number, || match (self.look.fps, self.memory.made) {
+                (Some(fps), Some(last)) => {
+                    let dt = number.saturating_sub(last) as f32 / fps;
+                    headless.generate(dt, number as u32, settings, *most)
+                }
+                // It was as in the first frame for long enough.
+                _ => (0..PRE_ROLL).try_for_each(|step| {
+                    headless.generate(PRE_STEP, u32::MAX - step, settings, *most)
+                }),
+            })?;
+            self.memory.made = Some(number);
         }
         self.memory.passed = Some(number);
         if !drawn {

@@ -54,6 +54,11 @@ impl Times {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// A line that stays.
+    pub fn say(&self, line: &str) {
+        self.steps.say(line);
+    }
+
     /// Does a step and notes how long it took.
     pub fn step<T>(&self, name: &'static str, frame: u64, work: impl FnOnce() -> T) -> T {
         let start = self.now();

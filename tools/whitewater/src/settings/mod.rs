@@ -1,6 +1,7 @@
 //! Settings from TOML: a mirror of `whitewater::Settings` in which every value may be left out.
 
 mod diffuse;
+pub mod generate;
 
 use std::path::Path;
 
@@ -20,6 +21,7 @@ pub struct SettingsFile {
     pub foam: FoamTable,
     pub spray: SprayTable,
     pub diffuse: diffuse::DiffuseTable,
+    pub generate: generate::GenerateTable,
     pub shadow: ShadowTable,
     pub noise: NoiseTable,
     pub light: LightTable,

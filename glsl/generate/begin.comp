@@ -1,0 +1,17 @@
+#version 460
+// Pass `grid`, first part: how many particles the step has.
+// Reads: the host's count. Writes: counts.
+
+#include "random.glsl"
+#include "generate.glsl"
+
+layout(local_size_x = 1) in;
+layout(constant_id = 0) const uint FROM_GPU = 0;
+
+layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count; };
+layout(set = 0, binding = 2, std430) buffer CountBuffer { GenerateCounts counts; };
+
+void main() {
+    // Of a count that the host knows the capacity is it.
+    counts.fluid = FROM_GPU == 1u ? min(host_count, push.capacity) : push.capacity;
+}

@@ -1,0 +1,67 @@
+#version 460
+// Pass `crest`: how much the surface bends where it moves outwards, and with it how many diffuse particles the
+// fluid's are to make (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
+// Reads: the grid, normals, potentials. Writes: potentials, wanted.
+
+#include "random.glsl"
+#include "generate.glsl"
+#include "neighbours.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCounts counts; };
+layout(set = 0, binding = 5, std430) readonly buffer Normals { vec4 normals[]; };
+layout(set = 0, binding = 6, std430) buffer Potentials { vec4 potentials[]; };
+layout(set = 0, binding = 7, std430) writeonly buffer Wanted { uint wanted[]; };
+
+// Cosine of the angle to the normal within which a crest moves.
+const float ALONG = 0.6;
+// Of a particle in a step.
+const float MOST_MADE = 64.0;
+
+// Of convex neighbours alone: those that lie below the surface's plane here.
+uint bend(vec3 position, vec3 normal) {
+    uint sum = 0u;
+    for (int c = 0; c < 27; ++c) {
+        ivec3 cell = neighbour_cell(position, c);
+        uvec2 range = range_of(cell);
+        for (uint j = range.x; j < range.y; ++j) {
+            vec3 to = places[j].position - position;
+            float d = length(to);
+            vec3 other = normals[j].xyz;
+            if (dot(to, normal) < 0.0 && d < support() && dot(other, other) > 0.0
+                && in_cell(places[j].position, cell)) {
+                sum += uint(max(1.0 - dot(normal, other), 0.0) * (1.0 - d / support()) * STEPS + 0.5);
+            }
+        }
+    }
+    return sum;
+}
+
+float phi(float potential, float least, float scale) {
+    return clamp((potential - least) * scale, 0.0, 1.0);
+}
+
+void visit(uint i) {
+    vec3 velocity = motions[i].velocity;
+    vec3 normal = normals[i].xyz;
+    uint number = motions[i].number;
+    vec4 found = potentials[number];
+    if (dot(normal, normal) > 0.0 && dot(velocity, normal) >= ALONG * length(velocity) && found.z > 0.0) {
+        found.y = float(bend(places[i].position, normal)) / STEPS;
+        potentials[number].y = found.y;
+    }
+    float rate = push.trapped_rate * phi(found.x, push.trapped_least, push.trapped_scale)
+               + push.crest_rate * phi(found.y, push.crest_least, push.crest_scale);
+    float make = phi(found.z, push.energy_least, push.energy_scale) * rate * push.dt;
+    make = min(make, MOST_MADE);
+    float one = uniform_of(step_seed(), places[i].id, 0u) < fract(make) ? 1.0 : 0.0;
+    wanted[number] = uint(min(floor(make) + one, MOST_MADE));
+}
+
+void main() {
+    uint end = counts.sorted;
+    for (uint i = gl_GlobalInvocationID.x; i < end; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
+        visit(i);
+    }
+}

@@ -1,0 +1,28 @@
+#version 460
+// Sums of all before each: of each number.
+// Reads: counts, blocks, values. Writes: values.
+
+#include "scan.glsl"
+
+layout(local_size_x = SCAN_GROUP) in;
+
+layout(set = 0, binding = 3, std430) buffer Values { uint values[]; };
+
+void main() {
+    uint end = numbers();
+    for (uint block = gl_WorkGroupID.x; block * SCAN_BLOCK < end; block += gl_NumWorkGroups.x) {
+        uint first = block * SCAN_BLOCK + SCAN_EACH * gl_LocalInvocationIndex;
+        uint last = min(first + SCAN_EACH, end);
+        uint own = 0u;
+        for (uint i = first; i < last; ++i) {
+            own += values[i];
+        }
+        uint all;
+        uint before = blocks[block] + sum_before(own, all);
+        for (uint i = first; i < last; ++i) {
+            uint value = values[i];
+            values[i] = before;
+            before += value;
+        }
+    }
+}

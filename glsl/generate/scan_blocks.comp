@@ -1,0 +1,25 @@
+#version 460
+// Sums of all before each: of the blocks, by one group.
+// Reads: counts, blocks. Writes: blocks, the sum of all in counts.
+
+#include "scan.glsl"
+
+layout(local_size_x = SCAN_GROUP) in;
+
+void main() {
+    uint end = (numbers() + SCAN_BLOCK - 1u) / SCAN_BLOCK;
+    uint before = 0u;
+    for (uint first = 0u; first < end; first += SCAN_GROUP) {
+        uint block = first + gl_LocalInvocationIndex;
+        uint own = block < end ? blocks[block] : 0u;
+        uint all;
+        uint sum = sum_before(own, all);
+        if (block < end) {
+            blocks[block] = before + sum;
+        }
+        before += all;
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        counts[push.total] = before;
+    }
+}

@@ -1,0 +1,12 @@
+// Cells of the grid of neighbours. Needs generate.glsl, random.glsl.
+
+ivec3 cell_of(vec3 position) {
+    // One product, whoever asks: in one pass and the other the same cell.
+    precise vec3 at = position * (0.5 / push.spacing);
+    return ivec3(floor(at));
+}
+
+uint bucket_of(ivec3 cell) {
+    uvec3 c = uvec3(cell);
+    return pcg(c.x + pcg(c.y + pcg(c.z))) & (push.buckets - 1u);
+}

@@ -1,0 +1,44 @@
+// A chunk of the host's fluid particles, for the passes that make the grid of neighbours. Needs random.glsl.
+
+#include "generate_counts.glsl"
+
+struct Place {
+    vec3 position;
+    uint id;
+};
+struct Motion {
+    vec3 velocity;
+    uint number;
+};
+
+layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Velocities { float velocities[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Ids { uint ids[]; };
+layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCounts counts; };
+layout(set = 0, binding = 5, std430) buffer Buckets { uint buckets[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;   // of the chunk's first particle
+    uint position_stride; // in words
+    uint velocity_word;
+    uint velocity_stride;
+    uint id_word;
+    uint id_stride;       // 0: no ids, the number in the step instead
+    uint chunk_first;
+    uint chunk;           // most particles of it
+    float spacing;
+    uint buckets;
+} push;
+
+#include "cells.glsl"
+
+// What is not finite, or far beyond any scene, has no cell.
+bool takes_part(uint i, out vec3 position, out vec3 velocity) {
+    uint at = push.position_word + i * push.position_stride;
+    position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+    at = push.velocity_word + i * push.velocity_stride;
+    velocity = vec3(velocities[at], velocities[at + 1u], velocities[at + 2u]);
+    // Comparisons with NaN are false.
+    float far = min(1.0e18, 2147483648.0 * push.spacing);
+    return all(lessThan(abs(position), vec3(far))) && all(lessThan(abs(velocity), vec3(1.0e18)));
+}

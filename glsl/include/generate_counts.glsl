@@ -1,0 +1,10 @@
+// Counts of the passes that make diffuse particles.
+
+struct GenerateCounts {
+    uint high;   // slots of diffuse particles that were ever used: first, drawing starts from it
+    uint fluid;  // particles of the step
+    uint sorted; // of them those that take part
+    uint free;   // of the used slots those whose particle is gone
+    uint made;   // in the step
+    uint lost;   // for want of slots, in all
+};

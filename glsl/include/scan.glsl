@@ -1,0 +1,42 @@
+// Sums of all that is before each of many numbers, in place: the sums of blocks, of the blocks before
+// each, of the numbers before each (Blelloch 1990).
+
+const uint SCAN_GROUP = 256u;
+// Numbers of an invocation, and of a block.
+const uint SCAN_EACH = 4u;
+const uint SCAN_BLOCK = SCAN_GROUP * SCAN_EACH;
+
+layout(push_constant, std430) uniform Push {
+    uint most;  // numbers
+    uint count; // the word of Counts that says how many there are, or NONE: all
+    uint total; // the word of Counts that gets the sum of all
+} push;
+
+const uint NONE = 0xffffffffu;
+
+layout(set = 0, binding = 1, std430) buffer Counts { uint counts[]; };
+layout(set = 0, binding = 2, std430) buffer Blocks { uint blocks[]; };
+
+uint numbers() {
+    return push.count == NONE ? push.most : min(counts[push.count], push.most);
+}
+
+shared uint sums[2][SCAN_GROUP];
+
+// Sum of what the invocations of the group before this one hold, and of all.
+uint sum_before(uint own, out uint all) {
+    uint local = gl_LocalInvocationIndex;
+    uint at = 0u;
+    sums[0][local] = own;
+    barrier();
+    for (uint reach = 1u; reach < SCAN_GROUP; reach *= 2u) {
+        sums[1u - at][local] = sums[at][local] + (local >= reach ? sums[at][local - reach] : 0u);
+        at = 1u - at;
+        barrier();
+    }
+    uint before = sums[at][local] - own;
+    all = sums[at][SCAN_GROUP - 1u];
+    // Before they are written again.
+    barrier();
+    return before;
+}

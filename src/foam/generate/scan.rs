@@ -1,0 +1,92 @@
+//! Sums of all that is before each of many numbers, in place (Blelloch, Prefix sums and their applications, 1990):
+//! of blocks, of the blocks before each, of each number.
+//! Reads, writes: the values. Writes: their sum, into a word of the counts.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::passes::{Counts, MOST_GROUPS};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{COMPUTE_READ_WRITE, buffer};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+
+/// Numbers of a block (glsl/include/scan.glsl).
+const BLOCK: u32 = 1024;
+
+/// Sets of a scan.
+pub const SETS: u32 = 3;
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    most: u32,
+    count: u32,
+    total: u32,
+}
+shader::assert_layout!(shader::GENERATE_SCAN_SUM_COMP, "Push", Push { most, count, total });
+
+/// The three passes.
+pub struct Scan {
+    sum: Pipeline,
+    blocks: Pipeline,
+    apply: Pipeline,
+    sums: Buffer,
+}
+
+impl Scan {
+    /// For up to `most` numbers.
+    pub fn new(gpu: &Gpu, most: u32) -> Result<Self, Error> {
+        Ok(Self {
+            sum: Pipeline::compute(gpu, shader::GENERATE_SCAN_SUM_COMP, &[])?,
+            blocks: Pipeline::compute(gpu, shader::GENERATE_SCAN_BLOCKS_COMP, &[])?,
+            apply: Pipeline::compute(gpu, shader::GENERATE_SCAN_APPLY_COMP, &[])?,
+            sums: Buffer::new(
+                gpu,
+                "generate/scan",
+                4 * u64::from(most.div_ceil(BLOCK)).max(1),
+                vk::BufferUsageFlags::STORAGE_BUFFER,
+                MemoryLocation::GpuOnly,
+            )?,
+        })
+    }
+
+    /// The first `count` of `most` values become the sums of those before each; `count` is a word of the
+    /// counts, `None`: all. Values and counts were last used by compute, and are then.
+    pub fn record(
+        &self,
+        (gpu, cmd, descriptors): (&Gpu, vk::CommandBuffer, &Descriptors),
+        counts: &Buffer,
+        (values, most): (&Buffer, u32),
+        count: Option<Counts>,
+        total: Counts,
+    ) -> Result<(), Error> {
+        let push =
+            Push { most, count: count.map_or(u32::MAX, |word| word as u32), total: total as u32 };
+        let groups = most.div_ceil(BLOCK).clamp(1, MOST_GROUPS);
+        for (pipeline, groups) in [(&self.sum, groups), (&self.blocks, 1), (&self.apply, groups)] {
+            let both = COMPUTE_READ_WRITE;
+            let shared = [counts, values, &self.sums];
+            gpu.barriers(cmd, &[], &shared.map(|shared| buffer(shared.handle, both, both)));
+            let all = [
+                (1, Resource::buffer(counts)),
+                (2, Resource::buffer(&self.sums)),
+                (3, Resource::buffer(values)),
+            ];
+            let bound = if pipeline.bindings.contains_key(&3) { &all[..] } else { &all[..2] };
+            descriptors.bind(gpu, cmd, pipeline, bound)?;
+            pipeline.push(gpu, cmd, &push);
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+            unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+        }
+        Ok(())
+    }
+
+    pub fn memory(&self) -> u64 {
+        self.sums.size
+    }
+}

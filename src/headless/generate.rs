@@ -1,0 +1,137 @@
+//! Diffuse particles that are made of the fluid's, and what they are made of.
+
+use super::Headless;
+use super::inputs::{HOST_WRITE, stream};
+use crate::contract::{Count, GenerateStep, Slot};
+use crate::error::Error;
+use crate::foam::{GenerateConfig, GenerateSettings, Generator};
+
+/// What is made of the fluid.
+pub(super) struct Generating {
+    pub generator: Generator,
+    max_particles: u32,
+    /// It is what the next frame shows.
+    pub shown: bool,
+}
+
+/// Diffuse particles on the CPU, those that live.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Generated {
+    /// World-space centres.
+    pub positions: Vec<[f32; 3]>,
+    /// Scene units per second.
+    pub velocities: Vec<[f32; 3]>,
+    /// 0 foam, 1 spray, 2 bubble.
+    pub kinds: Vec<u32>,
+    /// What of their lives has passed, 0 to 1.
+    pub ages: Vec<f32>,
+    /// Numbers that follow them from frame to frame.
+    pub ids: Vec<u32>,
+    /// How many were not made for want of room, since there were none.
+    pub lost: u32,
+}
+
+impl Headless {
+    /// Makes diffuse particles of the particles uploaded last and their [`motion`](Self::motion), a step of a
+    /// [`Generator`]: with [`Config::diffuse`](crate::Config::diffuse) the next frame shows them. `dt`: seconds
+    /// since the step before; `number`: of the step in the sequence; `max_particles`: most at a time, with
+    /// another one they begin anew.
+    ///
+    /// # Errors
+    /// No motion, no memory, and as [`Generator::record_step`].
+    pub fn generate(
+        &mut self,
+        dt: f32,
+        number: u32,
+        settings: &GenerateSettings,
+        max_particles: u32,
+    ) -> Result<(), Error> {
+        let (Some(positions), Some(velocities)) = (&self.positions, &self.velocities) else {
+            return Err(Error::bad("velocities", "none uploaded"));
+        };
+        let (positions, velocities) = (stream(positions, 12), stream(velocities, 12));
+        if self.generating.as_ref().is_some_and(|g| g.max_particles != max_particles)
+            && let Some(old) = self.generating.take()
+        {
+            // SAFETY: every run waits for its end.
+            unsafe { old.generator.destroy() };
+        }
+        // The last that can fail before the generator is put back: dropped, it would leak.
+        let mut generating = match self.generating.take() {
+            Some(old) => old,
+            None => {
+                let fluid = self.renderer.config().max_particles;
+                let config = GenerateConfig::new(fluid, max_particles);
+                // SAFETY: the device is ours and outlives the generator (field order, `finish`).
+                let generator = unsafe { Generator::new(&self.device.host(1), &config) }?;
+                Generating { generator, max_particles, shown: false }
+            }
+        };
+        let step = GenerateStep {
+            slot: Slot(0),
+            positions,
+            velocities,
+            ids: self.ids.as_ref().map(|ids| stream(ids, 4)),
+            count: Count::Cpu(self.count),
+            dt,
+            number,
+            settings,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+        };
+        // SAFETY: cmd is recording outside a render pass; every run waits for its end.
+        let result = self.run(|_, cmd| unsafe { generating.generator.record_step(cmd, &step) });
+        if result.is_err() {
+            generating.generator.abandon(Slot(0));
+        }
+        generating.shown = result.is_ok();
+        self.generating = Some(generating);
+        result
+    }
+
+    /// Of each particle of the last [`generate`](Self::generate)'s fluid trapped air, wave crest and energy, as
+    /// [`GenerateSettings`] has them, and the number of its neighbours; zeros of those that take no part.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn potentials(&mut self) -> Result<Vec<[f32; 4]>, Error> {
+        let Some(generating) = &self.generating else { return Ok(Vec::new()) };
+        if self.count == 0 {
+            return Ok(Vec::new());
+        }
+        let buffer = generating.generator.potentials();
+        let words = self.read_buffer(buffer, 16 * u64::from(self.count))?;
+        Ok(bytemuck::cast_slice(&words).to_vec())
+    }
+
+    /// The diffuse particles after the last [`generate`](Self::generate).
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn generated(&mut self) -> Result<Generated, Error> {
+        let Some(generating) = &self.generating else { return Ok(Generated::default()) };
+        let particles = generating.generator.particles();
+        let counts = generating.generator.counts();
+        let [drifts, kinds] = [particles.ids, particles.kinds].map(|s| s.map(|s| s.buffer));
+        let counts = self.read_buffer(counts, 24)?;
+        let (high, lost) = (counts[0], counts[5]);
+        let mut all = Generated { lost, ..Generated::default() };
+        let (Some(drifts), Some(kinds), 1..) = (drifts, kinds, high) else { return Ok(all) };
+        let places = self.read_buffer(particles.positions.buffer, 16 * u64::from(high))?;
+        let drifts = self.read_buffer(drifts, 16 * u64::from(high))?;
+        let kinds = self.read_buffer(kinds, 4 * u64::from(high))?;
+        let vector = |words: &[u32]| [words[0], words[1], words[2]].map(f32::from_bits);
+        for ((place, drift), kind) in places.chunks_exact(4).zip(drifts.chunks_exact(4)).zip(kinds)
+        {
+            let age = f32::from_bits(place[3]);
+            if age < 1.0 {
+                all.positions.push(vector(place));
+                all.velocities.push(vector(drift));
+                all.kinds.push(kind);
+                all.ages.push(age);
+                all.ids.push(drift[3]);
+            }
+        }
+        Ok(all)
+    }
+}

@@ -1,0 +1,672 @@
+//! The generator of diffuse particles, against the twin, over steps of a torn sea.
+
+use std::collections::HashMap;
+
+use ash::vk;
+use glam::DVec3;
+use whitewater::foam::{DiffuseConfig, GenerateConfig, GenerateSettings, Generator, Limits};
+use whitewater::{Config, Count, DiffuseParticles, Error, GenerateStep, Slot, Stream};
+
+use crate::reference::generate::{self as twin, Fluid, Particle};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::{HOST_WRITE, Stub};
+use crate::support::rig::{Rig, Shot, config as rig_config, stream};
+use crate::support::scenes::{self, Lens, Random};
+
+const SLOTS: u32 = 2;
+const SPACING: f32 = 0.05;
+
+/// A generator in a host.
+struct Making {
+    stub: Stub,
+    generator: Option<Generator>,
+    steps: u32,
+}
+
+/// What there is after a step.
+#[derive(Clone, Debug, PartialEq)]
+struct Made {
+    /// Slots that were ever taken, and newborns lost, after the words of the counts.
+    counts: [u32; 6],
+    /// Trapped air, crest, energy, neighbours.
+    potentials: Vec<[f32; 4]>,
+    particles: Vec<Particle>,
+}
+
+impl Making {
+    fn new(gpu: &Gpu, config: &GenerateConfig) -> Self {
+        // SAFETY: the device outlives this.
+        let generator = unsafe { Generator::new(&gpu.host(SLOTS), config) }.expect("a generator");
+        Self { stub: Stub::new(gpu, SLOTS), generator: Some(generator), steps: 0 }
+    }
+
+    fn generator(&mut self) -> &mut Generator {
+        self.generator.as_mut().expect("only drop takes it")
+    }
+
+    /// A step of streams, in the slots' turn.
+    fn record(&mut self, step: &GenerateStep<'_>) -> Result<(), Error> {
+        let slot = self.steps % SLOTS;
+        self.steps += 1;
+        let cmd = self.stub.begin(slot);
+        let generator = self.generator.as_mut().expect("only drop takes it");
+        let step = GenerateStep { slot: Slot(slot), ..*step };
+        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+        let result = unsafe { generator.record_step(cmd, &step) };
+        self.stub.end(slot);
+        self.stub.wait(slot);
+        result
+    }
+
+    fn step(&mut self, fluid: &Fluid, settings: &GenerateSettings, dt: f32, number: u32) -> Made {
+        let mut words: Vec<u32> = (0..fluid.ids.len())
+            .flat_map(|i| {
+                let [x, y, z] = fluid.positions[i].map(f32::to_bits);
+                let [u, v, w] = fluid.velocities[i].map(f32::to_bits);
+                [x, y, z, u, v, w, fluid.ids[i]]
+            })
+            .collect();
+        // Of none there is a buffer all the same.
+        words.resize(words.len().max(7), 0);
+        let data =
+            self.stub.data(bytemuck::cast_slice(&words), vk::BufferUsageFlags::STORAGE_BUFFER);
+        let step = GenerateStep {
+            slot: Slot(0),
+            positions: stream(&data, 0, 28),
+            velocities: stream(&data, 12, 28),
+            ids: Some(stream(&data, 24, 28)),
+            count: Count::Cpu(fluid.ids.len() as u32),
+            dt,
+            number,
+            settings,
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+        };
+        self.record(&step).expect("a step");
+        self.made(fluid.ids.len())
+    }
+
+    fn read(&mut self, from: vk::Buffer, words: usize) -> Vec<u32> {
+        if words == 0 {
+            return Vec::new();
+        }
+        let back = self.stub.sized(4 * words as u64, vk::BufferUsageFlags::TRANSFER_DST);
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, from, &back));
+        bytemuck::cast_slice(&back.bytes()[..4 * words]).to_vec()
+    }
+
+    fn made(&mut self, fluid: usize) -> Made {
+        let generator = self.generator();
+        let (counts, potentials) = (generator.counts(), generator.potentials());
+        let streams = generator.particles();
+        let (ids, kinds) = (streams.ids.expect("ids"), streams.kinds.expect("kinds"));
+        assert_eq!((ids.offset, ids.stride, kinds.stride), (12, 16, 4));
+        let counts: [u32; 6] = self.read(counts, 6).try_into().expect("six");
+        let high = counts[0] as usize;
+        let potentials = self.read(potentials, 4 * fluid);
+        let places = self.read(streams.positions.buffer, 4 * high);
+        let drifts = self.read(ids.buffer, 4 * high);
+        let kinds = self.read(kinds.buffer, high);
+        let vector = |words: &[u32]| {
+            DVec3::from([words[0], words[1], words[2]].map(|word| f64::from(f32::from_bits(word))))
+        };
+        Made {
+            counts,
+            potentials: bytemuck::cast_slice(&potentials).to_vec(),
+            particles: (0..high)
+                .map(|i| Particle {
+                    position: vector(&places[4 * i..]),
+                    velocity: vector(&drifts[4 * i..]),
+                    age: f64::from(f32::from_bits(places[4 * i + 3])),
+                    kind: kinds[i],
+                    id: drifts[4 * i + 3],
+                })
+                .collect(),
+        }
+    }
+
+    fn save(&mut self) -> Vec<u8> {
+        let size = self.generator().size();
+        let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+        let generator = self.generator.as_mut().expect("only drop takes it");
+        // SAFETY: submitted at once; the buffer has the state's size.
+        self.stub.run(|cmd| unsafe { generator.record_save(cmd, back.buffer, 0) });
+        back.bytes().to_vec()
+    }
+
+    fn restore(&mut self, saved: &[u8]) {
+        let from = self.stub.data(saved, vk::BufferUsageFlags::TRANSFER_SRC);
+        let generator = self.generator.as_mut().expect("only drop takes it");
+        // SAFETY: as above.
+        self.stub.run(|cmd| unsafe { generator.record_restore(cmd, from.buffer, 0) });
+    }
+}
+
+impl Drop for Making {
+    fn drop(&mut self) {
+        for slot in 0..SLOTS {
+            self.stub.wait(slot);
+        }
+        if let Some(generator) = self.generator.take() {
+            // SAFETY: all work was waited for.
+            unsafe { generator.destroy() };
+        }
+    }
+}
+
+impl Made {
+    fn living(&self) -> Vec<Particle> {
+        self.particles.iter().filter(|particle| particle.age < 1.0).copied().collect()
+    }
+}
+
+/// Water that is torn: a block that turns about its middle, a jet through it, drops above, and what takes no part.
+fn sea(step: u32) -> Fluid {
+    let mut random = Random(77 + u64::from(step));
+    let mut fluid = Fluid::default();
+    for i in 0..1400_u32 {
+        let (x, y, z) = (i % 12, i / 12 % 9, i / 108);
+        let mut jitter = || SPACING * random.between(-0.17, 0.17);
+        let at = [x, y, z].map(|n| SPACING * n as f32);
+        let at = [at[0] + jitter(), at[1] + jitter(), at[2] + jitter()];
+        let turn = 6.0 * ((0.5 * step as f32).sin() + 0.3);
+        let mut velocity = [turn * (0.2 - at[1]), turn * (at[0] - 0.3), 0.4 * jitter() / SPACING];
+        if (4..7).contains(&x) && z > 8 {
+            velocity = [0.5, 4.0, -1.0];
+        }
+        fluid.positions.push(at);
+        fluid.velocities.push(velocity);
+        fluid.ids.push(i * 7 + 3);
+    }
+    for i in 0..40_u32 {
+        let at = [0.02 * i as f32, 0.9, 0.3 + random.between(0.0, 0.1)];
+        fluid.positions.push(at);
+        fluid.velocities.push([1.0, 2.0 - 0.1 * i as f32, 0.0]);
+        fluid.ids.push(100_000 + i);
+    }
+    for (position, velocity) in [
+        ([f32::NAN, 0.0, 0.0], [1.0; 3]),
+        ([0.1, f32::INFINITY, 0.0], [1.0; 3]),
+        ([0.2; 3], [f32::NAN, 0.0, 0.0]),
+        ([0.2; 3], [0.0, 0.0, 2.0e18]),
+        ([0.0, 0.0, -3.0e15], [5.0; 3]),
+    ] {
+        fluid.positions.push(position);
+        fluid.velocities.push(velocity);
+        fluid.ids.push(200_000 + fluid.ids.len() as u32);
+    }
+    fluid
+}
+
+fn settings() -> GenerateSettings {
+    let limits = |least, most| Limits { least, most };
+    GenerateSettings {
+        trapped_air_rate: 60.0,
+        wave_crest_rate: 40.0,
+        lifetime: [0.2, 0.5],
+        bounds: Some([[-0.5, -0.3, -0.5], [1.2, 1.4, 1.2]]),
+        seed: 5,
+        ..GenerateSettings::new(
+            SPACING,
+            [limits(0.5, 8.0), limits(0.3, 4.0), limits(0.2, 6.0)],
+            1.0,
+        )
+    }
+}
+
+fn twins(settings: &GenerateSettings) -> twin::Settings {
+    let limits = |limits: Limits| [limits.least, limits.most];
+    twin::Settings {
+        spacing: settings.spacing,
+        gravity: settings.gravity,
+        trapped_air: limits(settings.trapped_air),
+        wave_crest: limits(settings.wave_crest),
+        energy: limits(settings.energy),
+        trapped_air_rate: settings.trapped_air_rate,
+        wave_crest_rate: settings.wave_crest_rate,
+        lifetime: settings.lifetime,
+        buoyancy: settings.buoyancy,
+        drag: settings.drag,
+        seed: settings.seed,
+        bounds: settings.bounds,
+    }
+}
+
+/// What sums of so many single-precision terms may be off, beside steps.
+const FLOAT: f64 = 4.0e-6;
+
+#[test]
+fn potentials_are_the_twins() {
+    let gpu = Gpu::shared();
+    let mut making = Making::new(&gpu, &config());
+    let (mut surface, mut crests, mut trapped, mut sure, mut all) = (0, 0, 0, 0, 0);
+    for number in 0..4 {
+        let fluid = sea(number);
+        let made = making.step(&fluid, &settings(), 0.02, number);
+        let expected = twin::potentials(&fluid, SPACING);
+        assert_eq!(made.counts[1] as usize, fluid.ids.len());
+        assert_eq!(made.counts[2] as usize, expected.iter().flatten().count());
+        for (i, (found, expected)) in made.potentials.iter().zip(&expected).enumerate() {
+            let Some(expected) = expected else {
+                assert_eq!(*found, [0.0; 4], "{i} takes no part");
+                continue;
+            };
+            all += 1;
+            if expected.loose {
+                continue;
+            }
+            sure += 1;
+            let [air, crest, energy, neighbours] = found.map(f64::from);
+            assert_eq!(neighbours, f64::from(expected.neighbours), "neighbours of {i}");
+            let off = 0.5 * neighbours * twin::unit(SPACING) + FLOAT * (1.0 + expected.trapped_air);
+            assert!((air - expected.trapped_air).abs() <= off, "{i}: {air}, {expected:?}");
+            assert!((energy - expected.energy).abs() <= FLOAT * expected.energy, "energy of {i}");
+            let off = 0.5 * f64::from(expected.crest_terms) * twin::STEP + expected.crest_off;
+            let off = off + FLOAT * (1.0 + expected.wave_crest);
+            assert!((crest - expected.wave_crest).abs() <= off, "{i}: {crest}, {expected:?}");
+            surface += usize::from(expected.normal.is_some());
+            crests += usize::from(expected.wave_crest > 0.3);
+            trapped += usize::from(expected.trapped_air > 1.0);
+        }
+    }
+    assert!(10 * sure > 8 * all, "{sure} of {all} are told by more than rounding");
+    assert!(surface > 300 && crests > 60 && trapped > 300, "{surface} {crests} {trapped}");
+}
+
+fn config() -> GenerateConfig {
+    GenerateConfig { max_stride: 28, ..GenerateConfig::new(2000, 4000) }
+}
+
+/// Whether two particles are the same but for rounding and what the water's velocity may be off.
+fn assert_same(name: &str, found: &Particle, expected: &Particle, off: f64, dt: f64) {
+    assert_eq!((found.kind, found.id), (expected.kind, expected.id), "{name}");
+    let velocity = (found.velocity - expected.velocity).abs().max_element();
+    let speed = expected.velocity.length();
+    assert!(velocity <= off + FLOAT * (1.0 + speed), "{name}: {found:?}, {expected:?}");
+    let position = (found.position - expected.position).abs().max_element();
+    let most = off * dt + FLOAT * (1.0 + speed * dt);
+    assert!(position <= most, "{name}: {found:?}, {expected:?}");
+    assert!((found.age - expected.age).abs() <= 1.0e-6, "{name}: {found:?}, {expected:?}");
+}
+
+#[test]
+fn every_step_is_the_twins() {
+    let gpu = Gpu::shared();
+    let mut making = Making::new(&gpu, &GenerateConfig { max_particles: 20_000, ..config() });
+    let (settings, dt) = (settings(), 0.03_f32);
+    let mut before: Vec<Particle> = Vec::new();
+    let mut seen = [0_usize; 3];
+    let (mut gone, mut born, mut reused) = (0, 0, 0);
+    for number in 0..40 {
+        let fluid = sea(number);
+        let made = making.step(&fluid, &settings, dt, number);
+        let sure = twins(&settings);
+        // What was there, in its place; where it may have ended something else may be.
+        let mut taken = vec![false; made.particles.len()];
+        for (slot, particle) in before.iter().enumerate() {
+            let (after, loose) = twin::moved(particle, &fluid, &sure, dt);
+            if particle.age >= 1.0 || loose || after.age >= 1.0 {
+                gone += usize::from(after.age >= 1.0 && particle.age < 1.0);
+                taken[slot] = loose && made.particles[slot].id == particle.id;
+                continue;
+            }
+            let water = twin::carried(particle.position, &fluid, SPACING);
+            // Of spray nothing is the water's.
+            let off = if after.kind == twin::SPRAY { 0.0 } else { water.off };
+            assert_same(&format!("{number}/{slot}"), &made.particles[slot], &after, off, dt.into());
+            seen[after.kind as usize] += 1;
+            taken[slot] = true;
+        }
+        // What is new, by its id.
+        let new: HashMap<u32, usize> = (0..taken.len())
+            .filter(|slot| !taken[*slot] && made.particles[*slot].age < 1.0)
+            .map(|slot| (made.particles[slot].id, slot))
+            .collect();
+        let mut places = Vec::new();
+        let mut explained = 0;
+        for (i, p) in twin::potentials(&fluid, SPACING).iter().enumerate() {
+            let Some(p) = p else { continue };
+            let wanted = twin::wanted(p, &sure, dt);
+            let count = |wanted: f64| twin::count(wanted.max(0.0), &sure, fluid.ids[i], number);
+            // By the most that the potentials may be off.
+            let off = 2.0e-2 * (1.0 + wanted) + if p.loose { 64.0 } else { 0.0 };
+            let (least, most) = (count(wanted - off), count((wanted + off).min(64.0)));
+            let of = |k| twin::newborn(&fluid, i, p, k, &sure, dt, number);
+            let found = (0..64).take_while(|k| new.contains_key(&of(*k).id)).count() as u32;
+            assert!(
+                (least..=most).contains(&found),
+                "{number}: {i} made {found}, {wanted} of {p:?}"
+            );
+            for k in 0..found {
+                let expected = of(k);
+                let slot = new[&expected.id];
+                let kind = if p.loose { made.particles[slot].kind } else { expected.kind };
+                // Sines are told to 2^-11.
+                let off = f64::from(SPACING) / 2048.0;
+                let expected = Particle { kind, ..expected };
+                assert_same(
+                    &format!("{number}: {k} of {i}"),
+                    &made.particles[slot],
+                    &expected,
+                    off,
+                    1.0,
+                );
+                places.push(slot);
+                explained += 1;
+            }
+        }
+        assert_eq!(explained, new.len(), "{number}: particles of nothing");
+        assert_eq!(made.counts[4] as usize, explained);
+        // Free places first, both in order.
+        let high = before.len();
+        let first_new = places.iter().position(|slot| *slot >= high).unwrap_or(places.len());
+        assert!(places[..first_new].is_sorted() && places[first_new..].is_sorted());
+        assert!(first_new == places.len() || places[first_new] == high);
+        let free = before.iter().zip(&made.particles).filter(|(_, after)| after.age >= 1.0).count();
+        assert!(free == 0 || first_new == places.len(), "{number}: {free} are free");
+        born += explained;
+        reused += first_new;
+        before = made.particles;
+    }
+    assert!(seen.iter().all(|n| *n > 300), "foam, spray, bubbles: {seen:?}");
+    assert!(born > 1000 && reused > 300 && gone > 300, "{born} {reused} {gone}");
+}
+
+#[test]
+fn it_is_the_same_in_every_run_and_however_it_is_cut() {
+    let gpu = Gpu::shared();
+    let settings = settings();
+    let [mut whole, mut part] = [(); 2].map(|()| Making::new(&gpu, &config()));
+    for number in 0..16 {
+        let fluid = sea(number);
+        let expected = whole.step(&fluid, &settings, 0.03, number);
+        if number % 5 == 3 {
+            let saved = part.save();
+            part = Making::new(&gpu, &config());
+            part.restore(&saved);
+        }
+        assert_eq!(part.step(&fluid, &settings, 0.03, number), expected, "step {number}");
+    }
+    assert!(whole.made(0).living().len() > 200);
+}
+
+#[test]
+fn the_order_of_the_fluid_is_no_matter() {
+    let gpu = Gpu::shared();
+    let settings = settings();
+    let [mut straight, mut turned] = [(); 2].map(|()| Making::new(&gpu, &config()));
+    let sorted = |made: &Made| {
+        let mut living = made.living();
+        living.sort_by_key(|particle| particle.id);
+        living
+    };
+    for number in 0..8 {
+        let fluid = sea(number);
+        let mut other = fluid.clone();
+        other.positions.reverse();
+        other.velocities.reverse();
+        other.ids.reverse();
+        let (a, b) = (
+            straight.step(&fluid, &settings, 0.03, number),
+            turned.step(&other, &settings, 0.03, number),
+        );
+        assert_eq!(sorted(&a), sorted(&b), "step {number}");
+    }
+}
+
+#[test]
+fn no_more_than_there_is_room_for() {
+    let gpu = Gpu::shared();
+    let mut making = Making::new(&gpu, &GenerateConfig { max_particles: 150, ..config() });
+    let mut lost = 0;
+    for number in 0..10 {
+        let made = making.step(&sea(number), &settings(), 0.03, number);
+        let [high, _, _, free, new, all_lost] = made.counts;
+        assert!(high <= 150);
+        assert_eq!(made.particles.len(), high as usize);
+        assert!(all_lost >= lost && new >= free.min(new));
+        lost = all_lost;
+    }
+    assert!(lost > 100, "{lost}");
+}
+
+/// Counts from the GPU, streams of their own, chunks, without ids, no particles, all on one spot.
+#[test]
+fn every_kind_of_input() {
+    let gpu = Gpu::shared();
+    let settings = settings();
+    let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let fluid = sea(1);
+    let count = fluid.ids.len();
+    let mut plain = Making::new(&gpu, &config());
+    let place = Fluid { ids: (0..count as u32).collect(), ..fluid.clone() };
+    let expected = plain.step(&place, &settings, 0.03, 1);
+
+    // Without ids particles are told by their place.
+    let mut making = Making::new(&gpu, &GenerateConfig::new(2000, 4000));
+    let positions = making.stub.data(bytemuck::cast_slice(&fluid.positions), storage);
+    let velocities = making.stub.data(bytemuck::cast_slice(&fluid.velocities), storage);
+    let counter = making.stub.data(&(count as u32).to_ne_bytes(), storage);
+    let step = GenerateStep {
+        slot: Slot(0),
+        positions: stream(&positions, 0, 12),
+        velocities: stream(&velocities, 0, 12),
+        ids: None,
+        count: Count::Gpu { buffer: counter.buffer, offset: 0 },
+        dt: 0.03,
+        number: 1,
+        settings: &settings,
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    };
+    making.record(&step).expect("a step");
+    assert_eq!(making.made(count), expected, "a count on the GPU");
+
+    // A chunk holds a part of them.
+    let range = u64::from(gpu.limits().max_storage_buffer_range);
+    let stride = (range / 900).next_multiple_of(4).min(1 << 17) as u32;
+    let mut chunked = Making::new(
+        &gpu,
+        &GenerateConfig { max_stride: stride, ..GenerateConfig::new(2000, 4000) },
+    );
+    let wide: Vec<u8> = (0..count)
+        .flat_map(|i| {
+            let mut record = vec![0_u8; stride as usize];
+            record[..12].copy_from_slice(bytemuck::cast_slice(&fluid.positions[i]));
+            record[12..24].copy_from_slice(bytemuck::cast_slice(&fluid.velocities[i]));
+            record
+        })
+        .collect();
+    let wide = chunked.stub.data(&wide, storage);
+    let of = |offset| Stream { stride, ..stream(&wide, offset, stride) };
+    let step = GenerateStep {
+        positions: of(0),
+        velocities: of(12),
+        count: Count::Cpu(count as u32),
+        ..step
+    };
+    chunked.record(&step).expect("a step");
+    assert_eq!(chunked.made(count), expected, "chunks");
+
+    let mut making =
+        Making::new(&gpu, &GenerateConfig { max_stride: 28, ..GenerateConfig::new(9000, 50) });
+    let none = making.step(&Fluid::default(), &settings, 0.03, 0);
+    assert_eq!(none.counts, [0; 6]);
+    // On one spot all are neighbours, as far as they are looked at.
+    let heap = Fluid {
+        positions: vec![[0.1, 0.2, 0.3]; 9000],
+        velocities: vec![[1.0, 0.0, 0.0]; 9000],
+        ids: (0..9000).collect(),
+    };
+    let heaped = making.step(&heap, &settings, 0.03, 0);
+    assert_eq!(heaped.counts[2], 9000);
+    assert!(heaped.potentials.iter().all(|all| all[3] > 200.0), "{:?}", heaped.potentials[0]);
+}
+
+#[test]
+fn an_abandoned_first_step_leaves_nothing() {
+    let gpu = Gpu::shared();
+    let mut making = Making::new(&gpu, &config());
+    let fluid = sea(0);
+    let data = making
+        .stub
+        .data(bytemuck::cast_slice(&fluid.positions), vk::BufferUsageFlags::STORAGE_BUFFER);
+    let settings = settings();
+    making.stub.wait(0);
+    let cmd = making.stub.begin(0);
+    let generator = making.generator.as_mut().expect("only drop takes it");
+    let step = GenerateStep {
+        slot: Slot(0),
+        positions: stream(&data, 0, 12),
+        velocities: stream(&data, 0, 12),
+        ids: None,
+        count: Count::Cpu(fluid.ids.len() as u32),
+        dt: 0.1,
+        number: 0,
+        settings: &settings,
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    };
+    // SAFETY: cmd is recording and never submitted.
+    unsafe { generator.record_step(cmd, &step) }.expect("a step");
+    generator.abandon(Slot(0));
+    making.steps = 1;
+    assert_eq!(making.step(&Fluid::default(), &settings, 0.1, 1).counts, [0; 6]);
+}
+
+#[test]
+fn mistakes_are_named() {
+    let gpu = Gpu::shared();
+    let bad_config = |config: GenerateConfig| {
+        // SAFETY: nothing is made.
+        match unsafe { Generator::new(&gpu.host(SLOTS), &config) } {
+            Err(Error::BadInput { field, .. }) => field,
+            other => panic!("expected bad input, found {:?}", other.map(|_| ())),
+        }
+    };
+    let good = GenerateConfig::new(100, 100);
+    for (field, config) in [
+        ("GenerateConfig.max_fluid", GenerateConfig { max_fluid: 0, ..good }),
+        ("GenerateConfig.max_particles", GenerateConfig { max_particles: 0, ..good }),
+        ("GenerateConfig.max_particles", GenerateConfig { max_particles: u32::MAX, ..good }),
+        ("GenerateConfig.max_stride", GenerateConfig { max_stride: 8, ..good }),
+        ("GenerateConfig.max_stride", GenerateConfig { max_stride: 14, ..good }),
+    ] {
+        assert_eq!(bad_config(config), field);
+    }
+
+    let mut making = Making::new(&gpu, &GenerateConfig::new(100, 100));
+    let data = making.stub.data(&[0; 1200], vk::BufferUsageFlags::STORAGE_BUFFER);
+    let settings = settings();
+    let step = GenerateStep {
+        slot: Slot(0),
+        positions: stream(&data, 0, 12),
+        velocities: stream(&data, 0, 12),
+        ids: None,
+        count: Count::Cpu(100),
+        dt: 0.1,
+        number: 0,
+        settings: &settings,
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    };
+    let generator = making.generator.as_mut().expect("only drop takes it");
+    let mut bad = |field: &str, step: GenerateStep<'_>| {
+        // SAFETY: nothing is recorded.
+        match unsafe { generator.record_step(vk::CommandBuffer::null(), &step) } {
+            Err(Error::BadInput { field: named, .. }) => assert_eq!(named, field),
+            other => panic!("{field}: {other:?}"),
+        }
+    };
+    bad("GenerateStep.slot", GenerateStep { slot: Slot(9), ..step });
+    bad("GenerateStep.dt", GenerateStep { dt: -1.0, ..step });
+    bad("GenerateStep.dt", GenerateStep { dt: f32::NAN, ..step });
+    bad("GenerateStep.count", GenerateStep { count: Count::Cpu(101), ..step });
+    let counter = Count::Gpu { buffer: data.buffer, offset: 2 };
+    bad("GenerateStep.count.offset", GenerateStep { count: counter, ..step });
+    bad("GenerateStep.positions", GenerateStep { positions: stream(&data, 4, 12), ..step });
+    bad("GenerateStep.velocities", GenerateStep { velocities: stream(&data, 0, 20), ..step });
+    bad("GenerateStep.ids", GenerateStep { ids: Some(stream(&data, 1000, 4)), ..step });
+    let limits = |least, most| Limits { least, most };
+    for (field, settings) in [
+        ("GenerateSettings.spacing", GenerateSettings { spacing: 0.0, ..settings }),
+        (
+            "GenerateSettings.trapped_air",
+            GenerateSettings { trapped_air: limits(2.0, 1.0), ..settings },
+        ),
+        (
+            "GenerateSettings.wave_crest",
+            GenerateSettings { wave_crest: limits(-1.0, 1.0), ..settings },
+        ),
+        ("GenerateSettings.energy", GenerateSettings { energy: limits(0.0, f32::NAN), ..settings }),
+        (
+            "GenerateSettings.trapped_air_rate",
+            GenerateSettings { trapped_air_rate: -1.0, ..settings },
+        ),
+        (
+            "GenerateSettings.wave_crest_rate",
+            GenerateSettings { wave_crest_rate: f32::NAN, ..settings },
+        ),
+        ("GenerateSettings.lifetime", GenerateSettings { lifetime: [0.0, 1.0], ..settings }),
+        ("GenerateSettings.buoyancy", GenerateSettings { buoyancy: 65.0, ..settings }),
+        ("GenerateSettings.drag", GenerateSettings { drag: 1.5, ..settings }),
+        ("GenerateSettings.gravity", GenerateSettings { gravity: [f32::NAN; 3], ..settings }),
+        (
+            "GenerateSettings.bounds",
+            GenerateSettings { bounds: Some([[1.0; 3], [0.0; 3]]), ..settings },
+        ),
+    ] {
+        bad(field, GenerateStep { settings: &settings, ..step });
+    }
+}
+
+/// A renderer draws what was made, without a copy.
+#[test]
+fn what_is_made_is_drawn() {
+    let gpu = Gpu::shared();
+    let size = vk::Extent2D { width: 64, height: 48 };
+    let diffuse = DiffuseConfig { max_stride: 16, ..DiffuseConfig::new(4000) };
+    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..rig_config(size) }, 1);
+    let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 10, 6.0, 9.0));
+    shot.settings.diffuse.radius = 0.05;
+    let mut fluid = sea(0);
+    // Before the eye.
+    let eye: Vec<_> =
+        fluid.positions.iter().map(|p| [p[0] - 0.3, p[1] - 0.3, 1.5 + p[2]]).collect();
+    fluid.positions = scenes::world(&shot.camera, &eye);
+    let settings = GenerateSettings { bounds: None, ..settings() };
+    let mut making = Making::new(&gpu, &config());
+    for number in 0..4 {
+        making.step(&fluid, &settings, 0.03, number);
+    }
+    let made = making.made(0);
+    assert!(made.living().len() > 100, "{}", made.living().len());
+    let water = rig.particles(&shot);
+    let streams = making.generator().particles();
+    let found = rig.draw_diffuse(&shot, &water.particles(), Some(streams));
+
+    let positions: Vec<[f32; 3]> =
+        made.particles.iter().map(|p| p.position.as_vec3().to_array()).collect();
+    let ages: Vec<f32> = made.particles.iter().map(|p| p.age as f32).collect();
+    let kinds: Vec<u32> = made.particles.iter().map(|p| p.kind).collect();
+    let ids: Vec<u32> = made.particles.iter().map(|p| p.id).collect();
+    let data = |bytes: &[u8]| rig.stub.data(bytes, vk::BufferUsageFlags::STORAGE_BUFFER);
+    let positions = data(bytemuck::cast_slice(&positions));
+    let [ages, kinds, ids] =
+        [bytemuck::cast_slice(&ages), bytemuck::cast_slice(&kinds), bytemuck::cast_slice(&ids)]
+            .map(data);
+    let count = Count::Cpu(made.particles.len() as u32);
+    let copied = DiffuseParticles {
+        kinds: Some(stream(&kinds, 0, 4)),
+        ages: Some(stream(&ages, 0, 4)),
+        ids: Some(stream(&ids, 0, 4)),
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+        ..DiffuseParticles::new(stream(&positions, 0, 12), count)
+    };
+    let expected = rig.draw_diffuse(&shot, &water.particles(), Some(copied));
+    compare::same_color("generate-drawn", &found.output, &expected.output);
+    let without = rig.draw_diffuse(&shot, &water.particles(), None);
+    assert!(found.output != without.output, "nothing is drawn");
+}

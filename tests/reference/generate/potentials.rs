@@ -1,0 +1,159 @@
+//! What makes diffuse particles: trapped air, wave crests and energy.
+
+use super::water::{Fluid, Grid, Near, Part};
+use super::{MOST_STEPS, STEP, support, unit};
+use glam::DVec3;
+use std::f64::consts::SQRT_2;
+
+/// At the surface m is longer than this many w.
+const ASKEW: f64 = 0.15;
+/// A crest moves along its normal by at least this cosine.
+const ALONG: f64 = 0.6;
+/// What single precision may decide: lengths in w, cosines and, in supports, sides of a plane.
+const ROUNDING: f64 = 1e-4;
+/// A crest term of less than this may come and go.
+const SLIGHT: f64 = 1e-3;
+/// What the parts of a normal are rounded by at least.
+const FLOAT: f64 = 1e-6;
+
+/// What a fluid particle may make others by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Potentials {
+    /// Sum of `|v_ij| (1 - cos) W`, metres a second, with the angle between motion and way apart.
+    pub trapped_air: f64,
+    /// Sum of `(1 - n_i . n_j) W`.
+    pub wave_crest: f64,
+    /// `|v|^2 / 2`, metres squared a second squared.
+    pub energy: f64,
+    /// N, the number of neighbours: the terms of all sums but the crest's.
+    pub neighbours: u32,
+    /// Outward normal of unit length, if it is at the surface.
+    pub normal: Option<DVec3>,
+    /// The terms of the crest.
+    pub crest_terms: u32,
+    /// What the crest may be off beside half a [`STEP`] a term: by normals that come of whole steps,
+    /// and by slight terms that rounding decides on.
+    pub crest_off: f64,
+    /// Whether rounding may decide on a neighbour, the surface, or a term of the crest.
+    pub loose: bool,
+}
+
+/// Where a particle is in the fluid.
+#[derive(Clone, Copy, Debug, Default)]
+struct Surface {
+    normal: Option<DVec3>,
+    /// How far the normal may be from one of whole steps.
+    off: f64,
+    /// Whether rounding decides if there is one.
+    loose: bool,
+}
+
+/// A wave crest.
+#[derive(Clone, Copy, Debug, Default)]
+struct Crest {
+    sum: f64,
+    terms: u32,
+    /// As in [`Potentials`].
+    off: f64,
+    /// Whether rounding may decide more than that.
+    loose: bool,
+}
+
+/// The potentials of each particle of a fluid: none of those that take no part.
+pub fn potentials(fluid: &Fluid, spacing: f32) -> Vec<Option<Potentials>> {
+    let grid = Grid::new(fluid, spacing);
+    let others = |part: Part| -> Vec<Near> {
+        grid.near(part.position).filter(|near| near.part.index != part.index).collect()
+    };
+    let mut surfaces = vec![Surface::default(); fluid.positions.len()];
+    for part in fluid.parts(spacing) {
+        surfaces[part.index] = surface(&others(part), spacing);
+    }
+    let mut potentials = vec![None; fluid.positions.len()];
+    for part in fluid.parts(spacing) {
+        potentials[part.index] = Some(of(part, &others(part), &surfaces, spacing));
+    }
+    potentials
+}
+
+fn surface(others: &[Near], spacing: f32) -> Surface {
+    let (mut m, mut w) = (DVec3::ZERO, 0.0);
+    for near in others.iter().filter(|near| near.counts()) {
+        m += near.offset / support(spacing) * near.weight();
+        w += near.weight();
+    }
+    // Each part of m and w may be off by half a step a term.
+    let half_steps = 0.5 * STEP * others.len() as f64;
+    let m_off = 3.0_f64.sqrt() * half_steps;
+    let length = m.length();
+    Surface {
+        normal: (w > 0.0 && length > ASKEW * w).then(|| m / length),
+        // The chord over the sine of an angle of up to 90 degrees.
+        off: (SQRT_2 * m_off / length + FLOAT).min(2.0),
+        // Less, not as much: alone it is surely not at the surface.
+        loose: (length - ASKEW * w).abs() < ROUNDING * w + m_off + ASKEW * half_steps,
+    }
+}
+
+/// Those of one, by the others near it and the surfaces of all.
+fn of(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Potentials {
+    let neighbours = others.iter().filter(|near| near.counts());
+    let own = surfaces[part.index];
+    let crest = crest(part, others, surfaces, spacing);
+    Potentials {
+        trapped_air: neighbours.clone().map(|near| trapped(part.velocity, near, spacing)).sum(),
+        wave_crest: crest.sum,
+        energy: 0.5 * part.velocity.length_squared(),
+        neighbours: neighbours.count() as u32,
+        normal: own.normal,
+        crest_terms: crest.terms,
+        crest_off: crest.off,
+        loose: crest.loose || own.loose || others.iter().any(Near::loose),
+    }
+}
+
+/// The air that one of a velocity traps with a neighbour. It saturates as on the GPU.
+fn trapped(velocity: DVec3, near: &Near, spacing: f32) -> f64 {
+    let apart = velocity - near.part.velocity;
+    if near.offset == DVec3::ZERO || apart == DVec3::ZERO {
+        return 0.0;
+    }
+    let cosine = apart.normalize().dot(near.offset.normalize());
+    let term = apart.length() * (1.0 - cosine) * near.weight();
+    term.min(MOST_STEPS * unit(spacing))
+}
+
+fn crest(part: Part, others: &[Near], surfaces: &[Surface], spacing: f32) -> Crest {
+    let own = surfaces[part.index];
+    let mut crest = Crest::default();
+    let Some(normal) = own.normal else { return crest };
+    if part.velocity == DVec3::ZERO {
+        return crest;
+    }
+    let along = part.velocity.normalize().dot(normal) - ALONG;
+    crest.loose = along.abs() <= ROUNDING + own.off;
+    if along < 0.0 {
+        return crest;
+    }
+    for near in others.iter().filter(|near| near.counts()) {
+        let other = surfaces[near.part.index];
+        crest.loose |= other.loose;
+        let Some(others_normal) = other.normal else { continue };
+        let term = (1.0 - normal.dot(others_normal)) * near.weight();
+        // In supports; the offset is from the other.
+        let above = -near.offset.dot(normal) / support(spacing);
+        let either = above.abs() <= ROUNDING + own.off * near.q;
+        if above < 0.0 {
+            crest.sum += term;
+            crest.terms += 1;
+        }
+        if above < 0.0 || either {
+            crest.off += near.weight() * (own.off + other.off);
+        }
+        if either {
+            crest.off += term;
+            crest.loose |= term >= SLIGHT;
+        }
+    }
+    crest
+}

@@ -1,0 +1,43 @@
+//! Where the particles are kept.
+
+use super::motion::{carried_by, moved_in};
+use super::water::{Fluid, Grid};
+use super::{Particle, Settings, count, newborn, potentials, wanted};
+
+/// All diffuse particles. One that is gone leaves a free slot.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Slots {
+    /// The slots used so far; those of age 1 or more are free.
+    pub particles: Vec<Particle>,
+    /// No more than so many.
+    pub most: usize,
+    /// Newborns there was no slot for.
+    pub lost: u64,
+}
+
+impl Slots {
+    /// A step of dt seconds: what is there moves, then the newborns take the free slots in
+    /// ascending order and new ones after them.
+    pub fn step(&mut self, fluid: &Fluid, settings: &Settings, dt: f32, number: u32) {
+        let grid = Grid::new(fluid, settings.spacing);
+        for particle in &mut self.particles {
+            let water = carried_by(grid.near(particle.position), settings.spacing);
+            (*particle, _) = moved_in(particle, &water, settings, dt);
+        }
+        let high = self.particles.len();
+        let mut free =
+            (0..high).filter(|slot| self.particles[*slot].age >= 1.0).collect::<Vec<_>>();
+        free.reverse();
+        for (i, p) in potentials(fluid, settings.spacing).iter().enumerate() {
+            let Some(p) = p else { continue };
+            for k in 0..count(wanted(p, settings, dt), settings, fluid.ids[i], number) {
+                let particle = newborn(fluid, i, p, k, settings, dt, number);
+                match free.pop() {
+                    Some(slot) => self.particles[slot] = particle,
+                    None if self.particles.len() < self.most => self.particles.push(particle),
+                    None => self.lost += 1,
+                }
+            }
+        }
+    }
+}

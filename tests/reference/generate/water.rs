@@ -1,0 +1,123 @@
+//! The fluid's particles that take part, and which of them are near a place.
+
+use super::support;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// Numbers from here on are no positions and no velocities: in single precision, a little below 1e18.
+const NOWHERE: f64 = 1e18_f32 as f64;
+/// Nor is a position so many supports away.
+const FARTHEST: f64 = (1_u64 << 30) as f64;
+/// By so many supports rounding decides whether a particle is within one.
+const EDGE: f64 = 1e-5;
+
+/// A fluid, all of a length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fluid {
+    /// Where its particles are, metres.
+    pub positions: Vec<[f32; 3]>,
+    /// Their velocities, metres a second.
+    pub velocities: Vec<[f32; 3]>,
+    /// What they are known by.
+    pub ids: Vec<u32>,
+}
+
+/// A fluid particle that takes part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    /// Which one it is.
+    pub index: usize,
+    /// Where it is, metres.
+    pub position: DVec3,
+    /// Its velocity, metres a second.
+    pub velocity: DVec3,
+}
+
+/// A neighbour, or what may be one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Near {
+    /// Which it is.
+    pub part: Part,
+    /// From it to the place, metres.
+    pub offset: DVec3,
+    /// q, how far that is in supports.
+    pub q: f64,
+}
+
+impl Near {
+    /// Whether it is a neighbour.
+    pub fn counts(&self) -> bool {
+        self.q < 1.0
+    }
+
+    /// Whether rounding decides that.
+    pub fn loose(&self) -> bool {
+        (self.q - 1.0).abs() <= EDGE
+    }
+
+    /// W.
+    pub fn weight(&self) -> f64 {
+        1.0 - self.q
+    }
+}
+
+impl Fluid {
+    /// The particles that take part.
+    pub(super) fn parts(&self, spacing: f32) -> impl Iterator<Item = Part> + '_ {
+        (0..self.positions.len()).filter_map(move |index| self.part(index, spacing))
+    }
+
+    /// A particle, if it takes part.
+    pub(super) fn part(&self, index: usize, spacing: f32) -> Option<Part> {
+        let position = DVec3::from(self.positions[index].map(f64::from));
+        let velocity = DVec3::from(self.velocities[index].map(f64::from));
+        let is = |v: DVec3| v.is_finite() && v.abs().max_element() < NOWHERE;
+        let here = (position / support(spacing)).abs().max_element() < FARTHEST;
+        (is(position) && is(velocity) && here).then_some(Part { index, position, velocity })
+    }
+}
+
+/// Those of some parts that are or may be the neighbours of a place.
+pub(super) fn near(
+    place: DVec3,
+    spacing: f32,
+    parts: impl Iterator<Item = Part>,
+) -> impl Iterator<Item = Near> {
+    let all = parts.map(move |part| {
+        let offset = place - part.position;
+        Near { part, offset, q: offset.length() / support(spacing) }
+    });
+    all.filter(|one| one.counts() || one.loose())
+}
+
+/// The parts by the cell of a grid that they lie in.
+pub(super) struct Grid {
+    spacing: f32,
+    cells: HashMap<[i64; 3], Vec<Part>>,
+}
+
+impl Grid {
+    /// The grid of a fluid.
+    pub fn new(fluid: &Fluid, spacing: f32) -> Self {
+        let mut grid = Self { spacing, cells: HashMap::new() };
+        for part in fluid.parts(spacing) {
+            grid.cells.entry(grid.cell(part.position)).or_default().push(part);
+        }
+        grid
+    }
+
+    /// The cell of a place, a little wider than a support. What is too far saturates.
+    fn cell(&self, place: DVec3) -> [i64; 3] {
+        (place / (1.001 * support(self.spacing))).floor().to_array().map(|x| x as i64)
+    }
+
+    /// As [`near`], of all.
+    pub fn near(&self, place: DVec3) -> impl Iterator<Item = Near> {
+        let middle = self.cell(place);
+        let around = (0..27).filter_map(move |n| {
+            let step = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
+            self.cells.get(&[0, 1, 2].map(|axis| middle[axis].saturating_add(step[axis])))
+        });
+        near(place, self.spacing, around.flatten().copied())
+    }
+}

@@ -1,0 +1,141 @@
+//! `--whitewater generate`: spray, foam and bubbles that are made of the water's particles.
+
+use glam::Vec3;
+use whitewater::foam::{GenerateSettings, Limits};
+use whitewater::headless::Headless;
+use whitewater::io::particles::Particles;
+
+use crate::bounds::Bounds;
+use crate::failure::Outcome;
+use crate::foam::quantile;
+use crate::settings::generate::GenerateTable;
+
+/// Most diffuse particles at a time, where nothing is said.
+const MOST: u32 = 500_000;
+/// The part of them that there are when as much is made as goes.
+const FULL: f64 = 0.5;
+/// Share of the particles, of those of all frames that are looked at, whose potentials are less than the most.
+const NEARLY_ALL: f64 = 0.999;
+/// Of the most, the least.
+const LEAST: f32 = 0.1;
+/// No limit is less, so that water at rest makes nothing: trapped air and speed in falls through a
+/// spacing, and crests.
+const FLOORS: [f32; 3] = [5.0, 1.0, 2.0];
+
+/// How far beyond the water spray may fly, of its width.
+const ASIDE: f32 = 0.05;
+/// Radius of the largest, in spacings: they are fewer than in the source's scenes.
+pub const RADIUS: f32 = 0.3;
+
+/// What is made, and the frames from which it is found how much.
+pub struct Generate {
+    table: GenerateTable,
+    spacing: f32,
+    bounds: [[f32; 3]; 2],
+    probes: Vec<Particles>,
+    found: Option<GenerateSettings>,
+}
+
+impl Generate {
+    /// `bounds`: of the water in all frames.
+    pub fn new(
+        table: GenerateTable,
+        spacing: f32,
+        bounds: &Bounds,
+        probes: Vec<Particles>,
+    ) -> Self {
+        // Nothing else keeps spray in: as far as the water itself ever comes, and a little farther; up as it may.
+        let size = bounds.max - bounds.min;
+        let aside = Vec3::new(ASIDE * size.x, 0.0, ASIDE * size.z) + spacing;
+        let up = Vec3::Y * size.max_element();
+        let bounds = [bounds.min - aside, bounds.max + aside + up].map(|corner| corner.to_array());
+        let moving = |frame: &Particles| frame.velocities.is_some();
+        let probes = probes.into_iter().filter(moving).collect();
+        Self { table, spacing, bounds, probes, found: None }
+    }
+
+    /// Most diffuse particles at a time.
+    pub fn max_particles(&self) -> u32 {
+        self.table.max_particles.unwrap_or(MOST)
+    }
+
+    /// Most particles of the water that are looked at in a frame.
+    pub fn probed(&self) -> usize {
+        if self.found.is_some() {
+            return 0;
+        }
+        self.probes.iter().map(|frame| frame.positions.len()).max().unwrap_or(0)
+    }
+
+    /// The settings, found by the frames the first time; a line then that says so.
+    pub fn settings(
+        &mut self,
+        headless: &mut Headless,
+    ) -> Outcome<(GenerateSettings, Option<String>)> {
+        if let Some(found) = self.found {
+            return Ok((found, None));
+        }
+        let found = self.find(headless)?;
+        self.found = Some(found);
+        self.probes = Vec::new();
+        let limits = |limits: Limits| format!("{:.3} to {:.3}", limits.least, limits.most);
+        let line = format!(
+            "whitewater: trapped air {}, wave crest {}, energy {}, {:.0} and {:.0} a second \
+             (found; table [generate] sets them)",
+            limits(found.trapped_air),
+            limits(found.wave_crest),
+            limits(found.energy),
+            found.trapped_air_rate,
+            found.wave_crest_rate,
+        );
+        Ok((found, Some(line)))
+    }
+
+    fn find(&self, headless: &mut Headless) -> Outcome<GenerateSettings> {
+        let any = Limits { least: 0.0, most: 1.0 };
+        let mut settings = GenerateSettings::new(self.spacing, [any; 3], 0.0);
+        settings.bounds = Some(self.bounds);
+        self.table.apply(&mut settings);
+        let mut potentials: Vec<[f32; 4]> = Vec::new();
+        let mut frames = 0_u32;
+        for frame in &self.probes {
+            let Some(velocities) = &frame.velocities else { continue };
+            headless.particles(&frame.positions, None)?;
+            headless.motion(velocities, frame.ids.as_deref())?;
+            headless.generate(0.0, 0, &settings, self.max_particles())?;
+            potentials.extend(headless.potentials()?);
+            frames += 1;
+        }
+        let fall = (9.81 * self.spacing).sqrt();
+        let floors = [FLOORS[0] * fall, FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall * fall];
+        let [trapped_air, wave_crest, energy] = [0, 1, 2].map(|which| {
+            let values = potentials.iter().map(|all| all[which]).filter(|v| v.is_finite());
+            let most = quantile(values.collect(), NEARLY_ALL).unwrap_or(0.0);
+            let most = most.max(floors[which] / LEAST);
+            Limits { least: LEAST * most, most }
+        });
+        settings.trapped_air = trapped_air;
+        settings.wave_crest = wave_crest;
+        settings.energy = energy;
+        self.table.apply(&mut settings);
+        if self.table.rates.is_none() {
+            let phi = |limits: Limits, v: f32| {
+                f64::from(((v - limits.least) / (limits.most - limits.least)).clamp(0.0, 1.0))
+            };
+            let each = potentials.iter().map(|&[air, crest, energy, _]| {
+                phi(settings.energy, energy)
+                    * (phi(settings.trapped_air, air) + phi(settings.wave_crest, crest))
+            });
+            let a_frame = each.sum::<f64>() / f64::from(frames.max(1));
+            let life = f64::from(0.5 * (settings.lifetime[0] + settings.lifetime[1]));
+            let rate = FULL * f64::from(self.max_particles()) / (life * a_frame);
+            let rate = if rate.is_finite() { rate.min(f64::from(MOST_RATE)) as f32 } else { 0.0 };
+            settings.trapped_air_rate = rate;
+            settings.wave_crest_rate = rate;
+        }
+        Ok(settings)
+    }
+}
+
+/// Particles a second of one at most: more are a cloud round it.
+const MOST_RATE: f32 = 2000.0;
