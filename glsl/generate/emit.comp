@@ -54,7 +54,8 @@ void visit(uint i) {
         float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + 3u) - 0.5);
         vec3 off = -radius * (cos(turn) * x + sin(turn) * y);
         particles[slot] = Diffuse(places[i].position + off + along * ahead, 0.0);
-        drifts[slot] = Drift(velocity + off, pcg(id + pcg(4u * k + 4u + pcg(seed))));
+        // Files hold numbers of 31 bits.
+        drifts[slot] = Drift(velocity + off, pcg(id + pcg(4u * k + 4u + pcg(seed))) >> 1);
         kinds[slot] = kind_of(uint(normals[i].w));
     }
 }

@@ -104,6 +104,18 @@ impl Headless {
         Ok(bytemuck::cast_slice(&words).to_vec())
     }
 
+    /// How many diffuse particles there are after the last [`generate`](Self::generate).
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn generated_count(&mut self) -> Result<u32, Error> {
+        let Some(generating) = &self.generating else { return Ok(0) };
+        let counts = generating.generator.counts();
+        let counts = self.read_buffer(counts, 24)?;
+        let [high, free, made] = [counts[0], counts[3], counts[4]];
+        Ok(high - free.saturating_sub(made))
+    }
+
     /// The diffuse particles after the last [`generate`](Self::generate).
     ///
     /// # Errors

@@ -167,7 +167,7 @@ pub fn newborn(
         velocity: velocity + aside,
         age: 0.0,
         kind: kind_of(p.neighbours),
-        id: hash(seed, id, 4 * k + 4),
+        id: hash(seed, id, 4 * k + 4) >> 1,
     }
 }
 

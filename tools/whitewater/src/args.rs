@@ -90,6 +90,10 @@ pub struct RenderArgs {
     /// ask for it
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::diffuse::named)]
     pub whitewater: Vec<Whitewater>,
+    /// Where the diffuse particles that are made go, a file a frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz. They are
+    /// read again as any others
+    #[arg(long, value_name = "FILE")]
+    pub write_whitewater: Option<PathBuf>,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
     #[arg(long, value_enum, default_value = "y")]
     pub up_axis: Up,

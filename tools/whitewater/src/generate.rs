@@ -11,21 +11,20 @@ use crate::foam::quantile;
 use crate::settings::generate::GenerateTable;
 
 /// Most diffuse particles at a time, where nothing is said.
-const MOST: u32 = 500_000;
+const MOST: u32 = 1_000_000;
 /// The part of them that there are when as much is made as goes.
 const FULL: f64 = 0.5;
-/// Share of the particles, of those of all frames that are looked at, whose potentials are less than the most.
-const NEARLY_ALL: f64 = 0.999;
+/// Share of the particles that have some, of those of all frames that are looked at, whose potential is less
+/// than the most.
+const NEARLY_ALL: f64 = 0.97;
 /// Of the most, the least.
 const LEAST: f32 = 0.1;
-/// No limit is less, so that water at rest makes nothing: trapped air and speed in falls through a
-/// spacing, and crests.
-const FLOORS: [f32; 3] = [5.0, 1.0, 2.0];
+/// The most is no less, so that water at rest makes nothing: trapped air and speed in falls through a
+/// spacing, and crests. Of limits that artists chose the middle.
+const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
 
 /// How far beyond the water spray may fly, of its width.
 const ASIDE: f32 = 0.05;
-/// Radius of the largest, in spacings: they are fewer than in the source's scenes.
-pub const RADIUS: f32 = 0.3;
 
 /// What is made, and the frames from which it is found how much.
 pub struct Generate {
@@ -111,7 +110,7 @@ impl Generate {
         let [trapped_air, wave_crest, energy] = [0, 1, 2].map(|which| {
             let values = potentials.iter().map(|all| all[which]).filter(|v| v.is_finite());
             let most = quantile(values.collect(), NEARLY_ALL).unwrap_or(0.0);
-            let most = most.max(floors[which] / LEAST);
+            let most = most.max(floors[which]);
             Limits { least: LEAST * most, most }
         });
         settings.trapped_air = trapped_air;

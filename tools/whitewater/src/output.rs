@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use fs4::{FileExt, TryLockError};
+use whitewater::io::particles::WriteFormat;
 
 use crate::failure::{Failure, Kind, Outcome};
 use crate::out;
@@ -193,12 +194,25 @@ pub enum PictureFormat {
     Png,
 }
 
-/// Where pictures go.
+/// Where pictures go, or other files of each frame.
 #[derive(Clone, Debug)]
-pub struct Target {
+pub struct Target<F = PictureFormat> {
     pattern: PathBuf,
-    pub format: PictureFormat,
+    pub format: F,
     sequence: bool,
+}
+
+impl Target<WriteFormat> {
+    /// The same of particles.
+    pub fn of_particles(pattern: &Path, sequence: bool) -> Outcome<Self> {
+        let Some(format) = WriteFormat::from_path(pattern) else {
+            let pattern = pattern.display();
+            return Err(Failure::usage(format!(
+                "expected particles in .bgeo, .bgeo.gz, .vtu, .ply or .npz, found {pattern}; rename it"
+            )));
+        };
+        Self::named(pattern, format, sequence)
+    }
 }
 
 impl Target {
@@ -215,6 +229,12 @@ impl Target {
                 )));
             }
         };
+        Self::named(pattern, format, sequence)
+    }
+}
+
+impl<F> Target<F> {
+    fn named(pattern: &Path, format: F, sequence: bool) -> Outcome<Self> {
         let target = Self { pattern: pattern.to_path_buf(), format, sequence };
         let name = target.name();
         if name.contains('%') && number_field(&name).is_none() {

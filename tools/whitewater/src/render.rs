@@ -14,7 +14,7 @@ use crate::diffuse;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::foam;
-use crate::generate::{self, Generate};
+use crate::generate::Generate;
 use crate::layers;
 use crate::output;
 use crate::progress::Progress;
@@ -32,14 +32,21 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
     let checked = session::check(&args.draw, all.len() > 1)?;
     let numbered = checked.0.iter().all(output::Target::is_numbered);
+    let keep = args.write_whitewater.as_deref();
+    let keep = keep.map(|file| output::Target::of_particles(file, all.len() > 1)).transpose()?;
+    if keep.is_some() && args.whitewater != [Whitewater::Generate] {
+        let why = "--write-whitewater: expected --whitewater generate as well, found none made";
+        return Err(Failure::usage(why));
+    }
     let settings = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
     let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
     if let Some(camera) = &camera {
         camera.check(frames.iter().map(|f| f.number), args.draw.size)?;
     }
-    for target in &checked.0 {
-        output::probe(&target.path(frames.first().map_or(0, |f| f.number)))?;
+    let first = frames.first().map_or(0, |f| f.number);
+    for path in checked.0.iter().map(|t| t.path(first)).chain(keep.iter().map(|t| t.path(first))) {
+        output::probe(&path)?;
     }
     let finished = |frame: &Frame| {
         let there = |path: std::path::PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
@@ -68,6 +75,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     })?;
     let look = Look { diffuse: files.or(look.diffuse), ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
+    session.keep = keep;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
         match draw(args, &mut session, &all, frame, &progress) {
@@ -109,8 +117,9 @@ fn draw(
     let before = all.iter().map(|f| f.number).filter(|n| *n < number).max();
     session.frame(number, before, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
+    let made = session.made()?.map_or(String::new(), |made| format!(", {made} diffuse particles"));
     Ok(format!(
-        "frame {number}: {} particles, {:.2} s, {}",
+        "frame {number}: {} particles{made}, {:.2} s, {}",
         particles.positions.len(),
         began.elapsed().as_secs_f32(),
         paths.join(" and ")
@@ -309,10 +318,6 @@ fn look(
     }
     settings.foam = FoamLook::of_spacing(spacing);
     settings.diffuse = DiffuseLook::of_spacing(spacing);
-    let made = args.whitewater == [Whitewater::Generate];
-    if made {
-        settings.diffuse.radius = generate::RADIUS * spacing;
-    }
     settings.noise = session::noise(&args.draw);
     if probes.frames.iter().all(|frame| frame.densities.is_none()) {
         settings.spray.densities = GUESSED_DENSITIES;
@@ -376,6 +381,7 @@ fn look(
         ));
     }
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
+    let made = args.whitewater == [Whitewater::Generate];
     if made && !probes.frames.iter().any(|frame| frame.velocities.is_some()) {
         let why = "--whitewater generate: expected velocities in the files, found none";
         return Err(Failure::input(why));

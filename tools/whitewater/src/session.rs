@@ -6,7 +6,7 @@ use whitewater::ash::vk;
 use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
-use whitewater::io::particles::{self, Particles};
+use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, NoiseLook, Shadows, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
@@ -69,6 +69,8 @@ pub struct Session<'a> {
     memory: Memory,
     /// How diffuse particles are made, and how many at most.
     making: Option<(GenerateSettings, u32)>,
+    /// Where what is made goes.
+    pub keep: Option<Target<WriteFormat>>,
     pub times: Times,
 }
 
@@ -196,6 +198,7 @@ impl<'a> Session<'a> {
             headless: None,
             memory: Memory::default(),
             making: None,
+            keep: None,
             times,
         })
     }
@@ -326,6 +329,14 @@ impl<'a> Session<'a> {
         self.step(number, "", particles, false)
     }
 
+    /// How many diffuse particles were made that are in the frame drawn last; none where none are made.
+    pub fn made(&mut self) -> Outcome<Option<u32>> {
+        match (&self.making, &mut self.headless) {
+            (Some(_), Some(headless)) => Ok(Some(headless.generated_count()?)),
+            _ => Ok(None),
+        }
+    }
+
     /// Goes past a frame that can't be read.
     pub fn skip(&mut self, number: u64) {
         self.memory.passed = Some(number);
@@ -439,7 +450,32 @@ impl<'a> Session<'a> {
             let path = target.path(number);
             times.step("write", number, || self.write(target.format, &path, &layers))?;
         }
-        Ok(())
+        self.write_made(number)
+    }
+
+    /// Writes the diffuse particles that were made; seconds left, as the longest life has them, so that they have
+    /// the same ages where they are read.
+    fn write_made(&mut self, number: u64) -> Outcome<()> {
+        let times = self.times.clone();
+        let (Some(keep), Some((settings, _)), Some(headless)) =
+            (&self.keep, &self.making, &mut self.headless)
+        else {
+            return Ok(());
+        };
+        let made = times.step("read back", number, || headless.generated())?;
+        let particles = Particles {
+            velocities: Some(made.velocities),
+            ids: Some(made.ids),
+            kinds: Some(made.kinds),
+            lifetimes: Some(
+                made.ages.iter().map(|age| (1.0 - age) * settings.lifetime[1]).collect(),
+            ),
+            ..Particles::from_positions(made.positions)
+        };
+        let path = keep.path(number);
+        times
+            .step("write", number, || particles::write(&path, &particles, keep.format))
+            .map_err(|error| Failure::new(Kind::Output, format!("{}: {error}", path.display())))
     }
 
     fn write(&self, format: PictureFormat, path: &std::path::Path, layers: &Layers) -> Outcome<()> {

@@ -79,3 +79,64 @@ fn a_bad_diffuse_file_loses_its_frame_alone() {
     folder.run(&format!("render {files} {SMALL}")).fails(1, &["1 of 2 frames", "foam_2.csv"]);
     assert!(folder.exists("a_1.png") && !folder.exists("a_2.png"));
 }
+
+/// A block of water whose upper half goes over the lower one; frames of a thirtieth of a second.
+fn torn(folder: &Folder, frames: u32) {
+    for frame in 1..=frames {
+        let rows = block(8).into_iter().enumerate().map(|(id, [x, y, z])| {
+            let sign = if y > 0.0 { 1.0 } else { -1.0 };
+            let way = 4.0 * sign * (frame - 1) as f32 / 30.0;
+            format!("{},{y},{z},{},{},0,{id}\n", x + way, 4.0 * sign, 2.0 * f32::from(y > 0.2))
+        });
+        let text = format!("x,y,z,vx,vy,vz,id\n{}", rows.collect::<String>());
+        folder.text(&format!("torn_{frame}.csv"), &text);
+    }
+}
+
+#[test]
+fn diffuse_particles_are_made_of_the_water() {
+    let folder = Folder::new();
+    torn(&folder, 4);
+    folder.text(
+        "look.toml",
+        "[diffuse]\nradius = 0.1\nhalf = 0.3\n[generate]\nmax_particles = 3000\n",
+    );
+    let common =
+        format!("render torn_%d.csv {SMALL} {FRONT} --settings look.toml --fps 30 --overwrite");
+    let made = "--whitewater generate --write-whitewater made_%d.bgeo.gz";
+    let run = folder.run(&format!("{common} {made} -o a_%d.exr -o a_%d.png --validate")).ok();
+    assert!(run.stderr().contains("trapped air") && run.stderr().contains("diffuse particles"));
+    let amount =
+        |name: &str| folder.picture(name).channel("foam.thickness").unwrap().iter().sum::<f32>();
+    let amounts = [1, 2, 3, 4].map(|frame| amount(&format!("a_{frame}.exr")));
+    assert!(amounts.iter().all(|amount| *amount > 0.0), "{amounts:?} {}", run.stderr());
+    // However the sequence is cut it is the same, and so it is read again.
+    folder.run(&format!("{common} {made} --frames 4 -o b_%d.png")).ok();
+    let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
+    assert_eq!(file("a_4.png"), file("b_4.png"));
+    folder.run(&format!("{common} --whitewater made_%d.bgeo.gz --frames 4 -o c_%d.exr")).ok();
+    let (made, read) = (amount("a_4.exr"), amount("c_4.exr"));
+    assert!((made / read - 1.0).abs() < 1.0e-3, "{made} {read}");
+    // A frame by itself.
+    folder.run(&format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate -o d.exr")).ok();
+    assert!(amount("d.exr") > 0.0);
+}
+
+#[test]
+fn mistakes_in_making_diffuse_particles_are_named() {
+    let folder = Folder::new();
+    torn(&folder, 1);
+    folder.particles("still.ply", block(4));
+    folder.text("foam.csv", FOAM);
+    folder.text("bad.toml", "[generate]\nrate = 3\n");
+    folder.text("limits.toml", "[generate]\nenergy = [3.0, 1.0]\n");
+    let run = |more: &str| folder.run(&format!("render {more} {SMALL} -o a.png"));
+    run("still.ply --whitewater generate").fails(3, &["velocities"]);
+    run("torn_1.csv --whitewater generate --whitewater foam.csv").fails(2, &["generate", "both"]);
+    run("torn_1.csv --write-whitewater a.ply").fails(2, &["--whitewater generate"]);
+    run("torn_1.csv --whitewater generate --write-whitewater a.obj").fails(2, &[".bgeo", "a.obj"]);
+    run("torn_1.csv --whitewater generate --write-whitewater no/a.ply").fails(5, &["no/a.ply"]);
+    run("torn_1.csv --whitewater generate --settings bad.toml").fails(3, &["rate"]);
+    run("torn_1.csv --whitewater generate --settings limits.toml").fails(3, &["energy"]);
+    assert!(!folder.exists("a.png"));
+}
