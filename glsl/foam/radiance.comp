@@ -14,6 +14,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: the environment is asked at the points' directions, as in the source; 0: once, filtered before.
 layout(constant_id = 0) const uint SAMPLED = 0;
+// 1: each pixel of a block has a sixteenth of all points, and `blur` puts them together. All of them whatever the
+// spheres' size, so that foam does not change with the distance: the first few points lie to one side.
+layout(constant_id = 1) const uint FAST = 0;
 
 layout(set = 0, binding = 1) uniform sampler2D occluders;
 layout(set = 0, binding = 2) uniform sampler2D normals;
@@ -33,27 +36,35 @@ float hidden(vec4 there, float depth, float reach) {
     return min(dot(mix(vec3(0.0), near * near * opacity, greaterThan(before, vec3(0.0))), vec3(1.0)), 1.0);
 }
 
-// Points of a sphere so many pixels wide.
-uint samples_of(float pixels) {
+// Points of a sphere so many pixels wide: the first of them, and after the last.
+uvec2 samples_of(float pixels, ivec2 pixel) {
+    if (FAST == 1u) {
+        uint count = max(uint(frame.diffuse_samples.y) / 16u, 1u);
+        // Runs of the sequence, each of which fills the sphere; those of neighbours lie far from each other in it.
+        uvec2 p = uvec2(pixel);
+        uint x = p.x ^ p.y;
+        uint run = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
+        return uvec2(run, run + 1u) * count;
+    }
     float count = 4.0 / 3.0 * 3.14159265 * pixels * pixels * pixels * frame.diffuse_search.w;
-    return uint(clamp(count, frame.diffuse_samples.x, frame.diffuse_samples.y) + 0.5);
+    return uvec2(0u, uint(clamp(count, frame.diffuse_samples.x, frame.diffuse_samples.y) + 0.5));
 }
 
 // The environment's light over the hemisphere of a normal, 1/2 of one that is 1 everywhere.
-vec3 gathered(vec3 normal, uint count) {
+vec3 gathered(vec3 normal, uvec2 run) {
     if (SAMPLED == 0u) {
         vec2 texels = vec2(textureSize(irradiance, 0));
         vec2 at = (0.5 * octahedral_place(normal) + 0.5) * (texels - 2.0) + 1.0;
         return textureLod(irradiance, at / texels, 0.0).rgb;
     }
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < count; ++i) {
+    for (uint i = run.x; i < run.y; ++i) {
         vec3 direction = mat3(frame.world) * normalize(points[i].xyz);
         float cosine = dot(direction, normal);
         direction -= 2.0 * min(cosine, 0.0) * normal;
         sum += abs(cosine) * textureLod(environment, direction, 0.0).rgb;
     }
-    return sum / float(count);
+    return sum / float(run.y - run.x);
 }
 
 void main() {
@@ -71,14 +82,14 @@ void main() {
     float metres = depth / abs(frame.projection.y); // of half the picture's height
     uint passes = uint(frame.diffuse_search.z);
     vec2 sum = vec2(0.0);
-    uint first = 1u;
+    uvec2 first = uvec2(0u, 1u);
     for (uint pass = 1u; pass <= passes; ++pass) {
         float search = with.w * (frame.diffuse_search.x + frame.diffuse_search.y * float(pass));
         float radius = search * metres;
         float reach = frame.diffuse_samples.z > 0.0 ? frame.diffuse_samples.z * radius : -frame.diffuse_samples.z;
-        uint count = samples_of(0.5 * search * frame.extent.y);
-        first = pass == 1u ? count : first;
-        for (uint i = 0u; i < count; ++i) {
+        uvec2 run = samples_of(0.5 * search * frame.extent.y, pixel);
+        first = pass == 1u ? run : first;
+        for (uint i = run.x; i < run.y; ++i) {
             vec4 point = points[i];
             vec3 s = position + radius * point.xyz;
             vec2 at = (s.xy / -s.z - frame.slope.zw) / frame.slope.xy;

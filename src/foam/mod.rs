@@ -14,7 +14,7 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::water::Recording;
 pub use generate::{GenerateConfig, GenerateSettings, Generator, Limits};
-pub use settings::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Reach, Submerged};
+pub use settings::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion, Reach, Submerged};
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Foam {

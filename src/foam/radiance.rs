@@ -1,13 +1,14 @@
 //! Passes `radiance` and `blur`: how much light foam gets of its surroundings (Akinci et al. 2013, Sec. 2.4 and
 //! 2.5; passes 6 and 7).
 //!
-//! The samples are the source's: the same points of a sphere for every pixel, of the Halton sequence, in spheres
-//! of growing radius.
+//! The samples are the source's, points of a sphere of the Halton sequence, in spheres of growing radius: the same for
+//! every pixel in the reference mode, shared out among the pixels of a block in the fast one, whose blur puts them
+//! together.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use super::settings::{DiffuseConfig, Irradiance};
+use super::settings::{DiffuseConfig, Irradiance, Occlusion};
 use super::splat::{AFTER, Sprites};
 use crate::contract::Config;
 use crate::environment::Environment;
@@ -58,7 +59,9 @@ pub struct Radiance {
 impl Radiance {
     pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
         let sampled = u32::from(diffuse.irradiance == Irradiance::Sampled);
-        let constants = [&[(0, sampled)], &crate::light::constants(config)[..]].concat();
+        let fast = u32::from(diffuse.occlusion == Occlusion::Fast);
+        let own = [(0, sampled), (1, fast)];
+        let constants = [&own[..], &crate::light::constants(config)].concat();
         let points = points();
         let bytes: &[u8] = bytemuck::cast_slice(&points);
         let mut buffer = Buffer::new(

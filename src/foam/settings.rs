@@ -12,12 +12,19 @@ pub struct DiffuseConfig {
     pub max_stride: u32,
     /// Where the light of the environment is looked up.
     pub irradiance: Irradiance,
+    /// How foam's own shadow is sampled.
+    pub occlusion: Occlusion,
 }
 
 impl DiffuseConfig {
     /// The defaults for so many particles.
     pub fn new(max_particles: u32) -> Self {
-        Self { max_particles, max_stride: 12, irradiance: Irradiance::Prefiltered }
+        Self {
+            max_particles,
+            max_stride: 12,
+            irradiance: Irradiance::Prefiltered,
+            occlusion: Occlusion::Fast,
+        }
     }
 
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -30,6 +37,16 @@ impl DiffuseConfig {
         }
         Ok(())
     }
+}
+
+/// How the shadow is sampled that foam lies in among foam, water and scene (Sec. 2.4.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Occlusion {
+    /// As printed: as many points as the spheres hold pixels, the same in every pixel.
+    Reference,
+    /// A sixteenth of the most points ([`DiffuseLook::samples`]) in each pixel of a block of sixteen, which the blur
+    /// puts together, in spheres of any size. Default.
+    Fast,
 }
 
 /// How the light of the environment comes to foam.

@@ -2,7 +2,9 @@
 
 use ash::vk;
 use glam::{DVec3, Vec3};
-use whitewater::foam::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Reach, Submerged};
+use whitewater::foam::{
+    DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion as Occluding, Reach, Submerged,
+};
 use whitewater::water::{Shading, Shadows};
 use whitewater::{Config, Count, DiffuseParticles, Region, Renderer, Settings};
 
@@ -23,7 +25,8 @@ const SIZE: vk::Extent2D = vk::Extent2D { width: 93, height: 61 };
 const HALF: f64 = 1.0 / 1024.0;
 
 fn diffusing(size: vk::Extent2D) -> Config {
-    Config { diffuse: Some(DiffuseConfig::new(4096)), ..config(size) }
+    let diffuse = DiffuseConfig { occlusion: Occluding::Reference, ..DiffuseConfig::new(4096) };
+    Config { diffuse: Some(diffuse), ..config(size) }
 }
 
 /// A shot with diffuse particles.
@@ -221,12 +224,15 @@ fn intensity_is_the_formula() {
 #[test]
 fn shadow_is_the_twins() {
     let gpu = Gpu::shared();
-    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
-    for (lens, reach) in [
-        (Lens::Standard, Reach::Radii(1.0)),
-        (Lens::ReversedInfinite, Reach::Radii(3.0)),
-        (Lens::OffAxis, Reach::Metres(5.0)),
+    for (lens, reach, occlusion) in [
+        (Lens::Standard, Reach::Radii(1.0), Occluding::Reference),
+        (Lens::ReversedInfinite, Reach::Radii(3.0), Occluding::Reference),
+        (Lens::OffAxis, Reach::Metres(5.0), Occluding::Reference),
+        (Lens::Standard, Reach::Radii(2.0), Occluding::Fast),
+        (Lens::OffAxis, Reach::Metres(5.0), Occluding::Fast),
     ] {
+        let diffuse = DiffuseConfig { occlusion, ..DiffuseConfig::new(4096) };
+        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
         let mut cloud = Diffuse::new(lens);
         let look = &mut cloud.shot.settings.diffuse;
         look.reach = reach;
@@ -238,7 +244,10 @@ fn shadow_is_the_twins() {
         let of = |i| doubles(&channel(&foam.occluders, i));
         let (opacity, fluid, solid) = (of(1), of(2), of(3));
         let layers = Layers { front: &front, opacity: &opacity, fluid: &fluid, solid: &solid };
-        let omega = diffuse::occlusion(&layers, &view, &by);
+        let omega = match occlusion {
+            Occluding::Reference => diffuse::occlusion(&layers, &view, &by),
+            Occluding::Fast => diffuse::shared_occlusion(&layers, &view, &by, 96),
+        };
         let shadowed = omega.data.iter().flatten().filter(|o| by.zeta(o.low) > 0.05).count();
         assert!(shadowed > 200, "{lens:?}: {shadowed} pixels in shadow");
         // A mean of positive weights: of lower ends it is lower. Three roundings to halves.
@@ -255,6 +264,56 @@ fn shadow_is_the_twins() {
     }
 }
 
+/// Foam of a size in pixels on an endless wall: half of each sphere lies behind that, whatever the foam's size and
+/// so the number of samples of the reference (of whose first sixteen it is less than a third).
+#[test]
+fn fast_shadow_does_not_change_with_the_distance() {
+    let gpu = Gpu::shared();
+    let mut rig =
+        Rig::lit(&gpu, &Config { diffuse: Some(DiffuseConfig::new(8000)), ..diffusing(SIZE) }, 1);
+    // Larger ones have spheres that leave the picture.
+    for pixels in [0.02_f32, 0.1, 0.5, 1.5] {
+        let mut cloud = Diffuse::new(Lens::Standard);
+        cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &scenes::cloud(31, 1, 30.0, 31.0));
+        let depth = 6.0_f32;
+        cloud.shot.scene_depth(|_, _| Some(depth.into()));
+        let view = cloud.shot.view(SIZE);
+        let radius = pixels * depth / (0.5 * SIZE.height as f32) / view.focal().y.abs() as f32;
+        let look = &mut cloud.shot.settings.diffuse;
+        look.reach = Reach::Metres(1.0e9);
+        // The share itself.
+        look.shadow = [1.0, 1.0, 0.0];
+        // Of foam itself nothing hides.
+        look.half = 1.0e6;
+        // One in the middle of each pixel, its front at the wall.
+        let (depth, scale) = (depth + 0.95 * radius, cloud.shot.camera.projection);
+        let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
+        let points: Vec<_> = (0..SIZE.width * SIZE.height)
+            .map(|i| (i % SIZE.width, i / SIZE.width))
+            .map(|(x, y)| {
+                let x = middle(x, SIZE.width, scale.x_axis.x);
+                [x * depth, middle(y, SIZE.height, scale.y_axis.y) * depth, depth]
+            })
+            .collect();
+        let count = points.len();
+        cloud.positions = scenes::world(&cloud.shot.camera, &points);
+        cloud.kinds = vec![0; count];
+        cloud.radii = Some(vec![radius; count]);
+        cloud.ages = vec![0.0; count];
+        cloud.ids = Some(vec![5; count]);
+        let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+        let middle: Vec<f32> = (0..SIZE.width * SIZE.height)
+            .map(|i| ((i % SIZE.width) as usize, (i / SIZE.width) as usize))
+            .filter(|(x, y)| (30..62).contains(x) && (18..42).contains(y))
+            .filter(|(x, y)| foam.occluders.at(*x, *y)[0] < 1.0e9)
+            .map(|(x, y)| foam.light.at(x, y)[3])
+            .collect();
+        let mean = middle.iter().sum::<f32>() / middle.len() as f32;
+        assert!(middle.len() > 50, "{pixels}: {}", middle.len());
+        assert!((mean - 0.5).abs() < 0.02, "{pixels}: {mean}");
+    }
+}
+
 /// An environment of one colour, and no sun.
 fn even(rig: &mut Rig<'_>, shot: &mut Shot, color: [f32; 4]) {
     rig.environment(extent(16, 8), &[color; 128]);
@@ -265,7 +324,8 @@ fn even(rig: &mut Rig<'_>, shot: &mut Shot, color: [f32; 4]) {
 fn light_of_an_even_environment_is_half_of_it() {
     let gpu = Gpu::shared();
     for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
-        let diffuse = DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) };
+        let occlusion = Occluding::Reference;
+        let diffuse = DiffuseConfig { irradiance, occlusion, ..DiffuseConfig::new(4096) };
         let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
         let mut cloud = Diffuse::new(Lens::Standard);
         even(&mut rig, &mut cloud.shot, [1.0, 2.0, 0.25, 1.0]);
@@ -294,7 +354,8 @@ fn light_of_an_even_environment_is_half_of_it() {
 fn both_ways_to_gather_light_agree() {
     let gpu = Gpu::shared();
     let draw = |irradiance| {
-        let diffuse = DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) };
+        let occlusion = Occluding::Reference;
+        let diffuse = DiffuseConfig { irradiance, occlusion, ..DiffuseConfig::new(4096) };
         let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
         let mut cloud = Diffuse::new(Lens::Standard);
         // Bright above, dark below.
@@ -469,7 +530,8 @@ fn streams_of_any_shape_are_the_same() {
     for (stride, counted, named) in
         [(whole, false, true), (whole, true, true), (chunked, true, true), (chunked, false, false)]
     {
-        let diffuse = DiffuseConfig { max_stride: stride, ..DiffuseConfig::new(500) };
+        let occlusion = Occluding::Reference;
+        let diffuse = DiffuseConfig { max_stride: stride, occlusion, ..DiffuseConfig::new(500) };
         let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
         let count = cloud.positions.len();
         let mut bytes = vec![0xa5_u8; 20 + stride as usize * count];

@@ -260,6 +260,24 @@ pub fn occlusion(layers: &Layers<'_>, view: &View, settings: &Occlusion) -> Imag
     Image::from_fn(view.width, view.height, |x, y| settings.omega(layers, view, &points, (x, y)))
 }
 
+/// The same by a part of the points in each pixel of a block of sixteen: of `most`, in runs.
+pub fn shared_occlusion(
+    layers: &Layers<'_>,
+    view: &View,
+    settings: &Occlusion,
+    most: usize,
+) -> Image<Option<Omega>> {
+    let (points, length) = (points(most), most / 16);
+    let settings = Occlusion { counts: [length as f64; 2], ..*settings };
+    Image::from_fn(view.width, view.height, |x, y| {
+        // The digits of the place in a Bayer matrix.
+        let digit = |i: usize| [(x ^ y) >> i & 1, y >> i & 1];
+        let [[a, b], [c, d]] = [digit(0), digit(1)];
+        let run = 8 * a + 4 * b + 2 * c + d;
+        settings.omega(layers, view, &points[run * length..], (x, y))
+    })
+}
+
 /// The first points of the Halton sequence that lie in the unit sphere.
 pub fn points(count: usize) -> Vec<DVec3> {
     (1..).map(halton).filter(|s| s.length() < 1.0).take(count).collect()
