@@ -176,7 +176,8 @@
 //! Against Ihmsen et al. (2012), whose diffuse particles [`foam::Generator`] makes:
 //!
 //! - Sums over neighbours are of whole steps and random numbers belong to ids: the same particles in every run. Of
-//!   each bucket of the grid 256 are looked at, thirty times what water has there.
+//!   each bucket of the grid 256 are looked at, thirty times what water has in a cell; which, where there are more,
+//!   is the device's.
 //! - A particle is at the surface where the middle of its neighbours, weighted, is 0.15 of their reach away.
 //! - The class of a particle is told anew in each step; solids are not known, a box bounds where one may be.
 //! - Energy is per mass, and the tool finds limits and rates by the data.

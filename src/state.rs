@@ -104,9 +104,9 @@ impl State {
         cmd: vk::CommandBuffer,
         step: &Step<'_>,
     ) -> Result<(), Error> {
-        self.check(step)?;
         // A step that fails below leaves nothing to take back.
         self.last = None;
+        self.check(step)?;
         let slot = &mut self.slots[step.slot.0 as usize];
         slot.descriptors.reset(&self.gpu)?;
         self.gpu.begin_label(cmd, c"whitewater/step");

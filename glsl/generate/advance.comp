@@ -68,6 +68,8 @@ void visit(uint i) {
     // Comparisons with NaN are false.
     bool inside = all(greaterThanEqual(particle.position, vec3(push.low_x, push.low_y, push.low_z)))
                && all(lessThanEqual(particle.position, vec3(push.high_x, push.high_y, push.high_z)));
+    // What has no cell is gone, as it is in the fluid.
+    inside = inside && all(lessThan(abs(particle.position), vec3(min(1.0e18, 2147483648.0 * push.spacing))));
     bool stays = inside && particle.age < 1.0;
     particle.age = stays ? particle.age : 1.0;
     particles[i] = particle;

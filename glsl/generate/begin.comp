@@ -13,5 +13,7 @@ layout(set = 0, binding = 2, std430) buffer CountBuffer { GenerateCounts counts;
 
 void main() {
     // Of a count that the host knows the capacity is it.
+    // Of a state of another's, which is the host's mistake, no more than there is room for.
+    counts.high = min(counts.high, push.most);
     counts.fluid = FROM_GPU == 1u ? min(host_count, push.capacity) : push.capacity;
 }

@@ -1,6 +1,6 @@
 #version 460
 // Pass `emit`, last part: what there is now.
-// Reads, writes: counts.
+// Reads: counts. Writes: counts.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -13,5 +13,5 @@ void main() {
     uint beyond = counts.made - min(counts.made, counts.free);
     uint fits = min(beyond, push.most - counts.high);
     counts.high += fits;
-    counts.lost += beyond - fits;
+    counts.lost += min(beyond - fits, 0xffffffffu - counts.lost);
 }

@@ -1,5 +1,5 @@
 #version 460
-// Sums of all before each: of each number.
+// Passes `grid`, `advance` and `emit`, sums of all before each: of each number.
 // Reads: counts, blocks, values. Writes: values.
 
 #include "scan.glsl"

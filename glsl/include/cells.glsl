@@ -1,8 +1,9 @@
-// Cells of the grid of neighbours. Needs generate.glsl, random.glsl.
+// Cells of the grid of neighbours. Needs random.glsl and a push constant with `cells`, how many there are along a
+// unit of length, and `buckets`.
 
 ivec3 cell_of(vec3 position) {
     // One product, whoever asks: in one pass and the other the same cell.
-    precise vec3 at = position * (0.5 / push.spacing);
+    precise vec3 at = position * push.cells;
     return ivec3(floor(at));
 }
 

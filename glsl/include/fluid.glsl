@@ -1,4 +1,5 @@
 // A chunk of the host's fluid particles, for the passes that make the grid of neighbours. Needs random.glsl.
+// Reads: positions, velocities, ids, counts. Writes: buckets.
 
 #include "generate_counts.glsl"
 
@@ -27,6 +28,7 @@ layout(push_constant, std430) uniform Push {
     uint chunk_first;
     uint chunk;           // most particles of it
     float spacing;
+    float cells;
     uint buckets;
 } push;
 

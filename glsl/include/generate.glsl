@@ -31,6 +31,7 @@ layout(push_constant, std430) uniform Push {
     uint buckets;        // a power of two
     uint most;           // slots of diffuse particles
     uint capacity;       // of fluid particles
+    float cells;         // of the grid along a unit of length
 } push;
 
 #include "generate_counts.glsl"

@@ -1,5 +1,6 @@
 // The fluid's particles by the cells of a grid as wide as their support, in a hash table (Teschner et al. 2003):
 // those of a bucket lie next to each other, behind those of the bucket before. Needs generate.glsl, random.glsl.
+// Reads: the grid (where buckets end, places, motions).
 //
 //     for (int c = 0; c < 27; ++c) {
 //         ivec3 cell = neighbour_cell(position, c);

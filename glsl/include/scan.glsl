@@ -1,5 +1,6 @@
 // Sums of all that is before each of many numbers, in place: the sums of blocks, of the blocks before
 // each, of the numbers before each (Blelloch 1990).
+// Reads: counts, blocks. Writes: counts, blocks.
 
 const uint SCAN_GROUP = 256u;
 // Numbers of an invocation, and of a block.

@@ -12,6 +12,8 @@ pub(super) struct Generating {
     max_particles: u32,
     /// It is what the next frame shows.
     pub shown: bool,
+    /// Particles of the last step's fluid.
+    count: u32,
 }
 
 /// Diffuse particles on the CPU, those that live.
@@ -33,7 +35,8 @@ pub struct Generated {
 
 impl Headless {
     /// Makes diffuse particles of the particles uploaded last and their [`motion`](Self::motion), a step of a
-    /// [`Generator`]: with [`Config::diffuse`](crate::Config::diffuse) the next frame shows them. `dt`: seconds
+    /// [`Generator`]: with a [`Config::diffuse`](crate::Config::diffuse) of as many particles and of strides of 16 the
+    /// next frame shows them. `dt`: seconds
     /// since the step before; `number`: of the step in the sequence; `max_particles`: most at a time, with
     /// another one they begin anew.
     ///
@@ -64,7 +67,7 @@ impl Headless {
                 let config = GenerateConfig::new(fluid, max_particles);
                 // SAFETY: the device is ours and outlives the generator (field order, `finish`).
                 let generator = unsafe { Generator::new(&self.device.host(1), &config) }?;
-                Generating { generator, max_particles, shown: false }
+                Generating { generator, max_particles, shown: false, count: 0 }
             }
         };
         let step = GenerateStep {
@@ -85,8 +88,16 @@ impl Headless {
             generating.generator.abandon(Slot(0));
         }
         generating.shown = result.is_ok();
+        generating.count = if result.is_ok() { self.count } else { 0 };
         self.generating = Some(generating);
         result
+    }
+
+    /// What was made is not shown, until the next [`generate`](Self::generate).
+    pub fn hide_generated(&mut self) {
+        if let Some(generating) = &mut self.generating {
+            generating.shown = false;
+        }
     }
 
     /// Of each particle of the last [`generate`](Self::generate)'s fluid trapped air, wave crest and energy, as
@@ -96,32 +107,36 @@ impl Headless {
     /// No memory, and what Vulkan reports.
     pub fn potentials(&mut self) -> Result<Vec<[f32; 4]>, Error> {
         let Some(generating) = &self.generating else { return Ok(Vec::new()) };
-        if self.count == 0 {
+        if generating.count == 0 {
             return Ok(Vec::new());
         }
-        let buffer = generating.generator.potentials();
-        let words = self.read_buffer(buffer, 16 * u64::from(self.count))?;
+        let (buffer, count) = (generating.generator.potentials(), generating.count);
+        let words = self.read_buffer(buffer, 16 * u64::from(count))?;
         Ok(bytemuck::cast_slice(&words).to_vec())
     }
 
-    /// How many diffuse particles there are after the last [`generate`](Self::generate).
+    /// How many diffuse particles are shown, after the last [`generate`](Self::generate).
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
     pub fn generated_count(&mut self) -> Result<u32, Error> {
-        let Some(generating) = &self.generating else { return Ok(0) };
+        let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
+            return Ok(0);
+        };
         let counts = generating.generator.counts();
         let counts = self.read_buffer(counts, 24)?;
         let [high, free, made] = [counts[0], counts[3], counts[4]];
         Ok(high - free.saturating_sub(made))
     }
 
-    /// The diffuse particles after the last [`generate`](Self::generate).
+    /// The diffuse particles that are shown, after the last [`generate`](Self::generate).
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
     pub fn generated(&mut self) -> Result<Generated, Error> {
-        let Some(generating) = &self.generating else { return Ok(Generated::default()) };
+        let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
+            return Ok(Generated::default());
+        };
         let particles = generating.generator.particles();
         let counts = generating.generator.counts();
         let [drifts, kinds] = [particles.ids, particles.kinds].map(|s| s.map(|s| s.buffer));

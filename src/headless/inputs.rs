@@ -164,9 +164,7 @@ impl Headless {
     /// Attributes of another length, no memory; then there are none.
     pub fn diffuse(&mut self, diffuse: Option<&Diffuse<'_>>) -> Result<(), Error> {
         self.diffuse = None;
-        if let Some(generating) = &mut self.generating {
-            generating.shown = false;
-        }
+        self.hide_generated();
         self.gpu.bury();
         self.diffuse = diffuse.map(|diffuse| Diffusing::new(&self.gpu, diffuse)).transpose()?;
         Ok(())

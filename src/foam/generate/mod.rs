@@ -5,7 +5,8 @@
 //! A step finds the fluid's neighbours by a hashed grid, moves the diffuse particles on, and adds new ones. What they
 //! are made of is summed in whole steps, places are given by prefix sums and random numbers belong to ids: a
 //! sequence gives the same particles in every run, and however it is cut into jobs
-//! ([`Generator::record_save`]).
+//! ([`Generator::record_save`]). Only where more than 256 of the fluid share a bucket of the grid, thirty times what
+//! water has in a cell, does it depend on the device which of them are looked at.
 //! Reads: the fluid's positions, velocities and ids. Writes: diffuse particles, potentials.
 
 mod passes;
@@ -20,9 +21,10 @@ use crate::contract::{Count, DiffuseParticles, GenerateStep, Host, Slot, Stream}
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::COMPUTE_READ;
+use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
-use passes::Passes;
+use passes::{DRIFT, KIND, PARTICLE, Passes};
 pub use settings::{GenerateConfig, GenerateSettings, Limits};
 
 struct GeneratorSlot {
@@ -88,6 +90,8 @@ impl Generator {
         cmd: vk::CommandBuffer,
         step: &GenerateStep<'_>,
     ) -> Result<(), Error> {
+        // A step that fails below leaves nothing to take back.
+        self.last = None;
         self.check(step)?;
         self.last = Some((step.slot, self.fresh));
         let slot = &mut self.slots[step.slot.0 as usize];
@@ -118,9 +122,8 @@ impl Generator {
     pub fn particles(&self) -> DiffuseParticles {
         let buffers = &self.passes.buffers;
         let [particles, drifts, kinds] =
-            [(&buffers.particles, 16), (&buffers.drifts, 16), (&buffers.kinds, 4)].map(
-                |(own, stride)| Stream { buffer: own.handle, size: own.size, offset: 0, stride },
-            );
+            [(&buffers.particles, PARTICLE), (&buffers.drifts, DRIFT), (&buffers.kinds, KIND)]
+                .map(|(own, stride)| self.stream(own, stride));
         DiffuseParticles {
             positions: particles,
             kinds: Some(kinds),
@@ -135,8 +138,12 @@ impl Generator {
 
     /// Their velocities (3×f32, scene units per second), in the same order.
     pub fn velocities(&self) -> Stream {
-        let drifts = &self.passes.buffers.drifts;
-        Stream { buffer: drifts.handle, size: drifts.size, offset: 0, stride: 16 }
+        self.stream(&self.passes.buffers.drifts, DRIFT)
+    }
+
+    fn stream(&self, own: &Buffer, stride: u64) -> Stream {
+        let size = stride * u64::from(self.config.max_particles);
+        Stream { buffer: own.handle, size, offset: 0, stride: stride as u32 }
     }
 
     /// Of each particle of the last step's fluid, in its order, four `f32`: trapped air, wave crest, energy, number
@@ -146,8 +153,9 @@ impl Generator {
     }
 
     /// Six `u32`: places in the streams of [`particles`](Self::particles) that were ever taken; particles of the last
-    /// step's fluid; of them those that take part; free places before the step's new particles; new particles; all
-    /// that were lost for want of room. Transfer source.
+    /// step's fluid; of them those that take part; free places before the step's new particles; new particles, those
+    /// among them that were lost for want of room; all that ever were. Transfer source; as the potentials last
+    /// written by a compute shader, then free to be read.
     pub fn counts(&self) -> vk::Buffer {
         self.passes.buffers.counts.handle
     }
@@ -188,7 +196,8 @@ impl Generator {
         }
     }
 
-    /// Says that the step recorded last, with this slot, was thrown away: the state is that before it.
+    /// Says that the step recorded last, with this slot, was thrown away: the state is that before it. Earlier steps
+    /// cannot be taken back; [`record_restore`](Self::record_restore) can.
     pub fn abandon(&mut self, slot: Slot) {
         if let Some(own) = self.slots.get_mut(slot.0 as usize) {
             own.timer.abandon();

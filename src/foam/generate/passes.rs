@@ -37,9 +37,9 @@ pub enum Counts {
 /// Bytes of the counts.
 const COUNTS: u64 = 24;
 /// Bytes of a diffuse particle: position and age, velocity and id, kind.
-const PARTICLE: u64 = 16;
-const DRIFT: u64 = 16;
-const KIND: u64 = 4;
+pub const PARTICLE: u64 = 16;
+pub const DRIFT: u64 = 16;
+pub const KIND: u64 = 4;
 
 /// How diffuse particles and potentials are used after a step.
 pub const AFTER: Access = COMPUTE_READ.and(COPY_READ);
@@ -56,6 +56,7 @@ struct FluidPush {
     chunk_first: u32,
     chunk: u32,
     spacing: f32,
+    cells: f32,
     buckets: u32,
 }
 shader::assert_layout!(
@@ -71,6 +72,7 @@ shader::assert_layout!(
         chunk_first,
         chunk,
         spacing,
+        cells,
         buckets,
     }
 );
@@ -106,6 +108,7 @@ struct Push {
     buckets: u32,
     most: u32,
     capacity: u32,
+    cells: f32,
 }
 shader::assert_layout!(
     shader::GENERATE_CREST_COMP,
@@ -139,6 +142,7 @@ shader::assert_layout!(
         buckets,
         most,
         capacity,
+        cells,
     }
 );
 
@@ -177,6 +181,7 @@ impl Push {
             buckets,
             most,
             capacity: fluid,
+            cells: 0.5 / s.spacing,
         }
     }
 }
@@ -255,9 +260,15 @@ impl Buffers {
         ]
     }
 
-    /// What lives from step to step.
-    pub fn state(&self) -> [&Buffer; 4] {
-        [&self.counts, &self.particles, &self.drifts, &self.kinds]
+    /// What lives from step to step, with its bytes for so many: a buffer may be larger.
+    fn state(&self, most: u32) -> [(&Buffer, u64); 4] {
+        let most = u64::from(most);
+        [
+            (&self.counts, COUNTS),
+            (&self.particles, PARTICLE * most),
+            (&self.drifts, DRIFT * most),
+            (&self.kinds, KIND * most),
+        ]
     }
 }
 
@@ -348,7 +359,7 @@ impl Passes {
 
     /// Sets of a step: one each, three scans, two a chunk.
     pub fn sets(&self) -> u32 {
-        6 + 3 * scan::SETS + 2 * self.config.max_fluid.div_ceil(self.chunk)
+        7 + 3 * scan::SETS + 2 * self.config.max_fluid.div_ceil(self.chunk)
     }
 
     /// None of any diffuse particle.
@@ -362,7 +373,7 @@ impl Passes {
 
     /// Bytes of a saved state.
     pub fn size(&self) -> u64 {
-        self.buffers.state().iter().map(|part| part.size).sum()
+        self.buffers.state(self.config.max_particles).iter().map(|(_, size)| size).sum()
     }
 
     /// Copies the state out, or in.
@@ -373,11 +384,10 @@ impl Passes {
         (host, mut offset): (vk::Buffer, u64),
         out: bool,
     ) {
-        let state = self.buffers.state();
+        let state = self.buffers.state(self.config.max_particles);
         let used = if out { COPY_READ } else { COPY_WRITE };
-        gpu.barriers(cmd, &[], &state.map(|part| buffer(part.handle, AFTER, used)));
-        for part in state {
-            let size = part.size;
+        gpu.barriers(cmd, &[], &state.map(|(part, _)| buffer(part.handle, AFTER, used)));
+        for (part, size) in state {
             let [from, to] = if out { [part.handle, host] } else { [host, part.handle] };
             let [src_offset, dst_offset] = if out { [0, offset] } else { [offset, 0] };
             let region = vk::BufferCopy { src_offset, dst_offset, size };
@@ -385,7 +395,7 @@ impl Passes {
             unsafe { gpu.device.cmd_copy_buffer(cmd, from, to, &[region]) };
             offset += size;
         }
-        gpu.barriers(cmd, &[], &state.map(|part| buffer(part.handle, used, AFTER)));
+        gpu.barriers(cmd, &[], &state.map(|(part, _)| buffer(part.handle, used, AFTER)));
     }
 
     pub fn record(
@@ -507,6 +517,7 @@ impl Passes {
                     chunk_first: first,
                     chunk,
                     spacing: step.settings.spacing,
+                    cells: 0.5 / step.settings.spacing,
                     buckets: self.buckets,
                 };
                 r.dispatch(pipeline, &resources, &push, chunk)?;

@@ -38,8 +38,8 @@ impl GenerateConfig {
 }
 
 /// From where on a potential makes diffuse particles, and where it does so fully (`τmin`, `τmax` of Eq. 1): they
-/// do not transfer between simulations. The source's limits are an artist's; the 99.9th percentile of a
-/// sequence's potentials ([`Generator::potentials`](super::Generator::potentials)) and a tenth of it do.
+/// do not transfer between simulations. The source's limits are an artist's; the 97th percentile of a sequence's
+/// potentials that are not 0 ([`Generator::potentials`](super::Generator::potentials)) and a tenth of it do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// None is made up to it, [0, most).
@@ -59,7 +59,8 @@ pub struct GenerateSettings {
     pub wave_crest: Limits,
     /// Limits of half the squared speed (Sec. 3.1.3 per mass), squared scene units per second.
     pub energy: Limits,
-    /// Diffuse particles a second that a particle of the fluid makes of trapped air at most, [0, ∞).
+    /// Diffuse particles a second that a particle of the fluid makes of trapped air at most, [0, 1e18]; of all it
+    /// makes 64 a step at most.
     pub trapped_air_rate: f32,
     /// The same of wave crests.
     pub wave_crest_rate: f32,
@@ -71,7 +72,8 @@ pub struct GenerateSettings {
     pub buoyancy: f32,
     /// What share of the water's velocity a bubble takes on in a step, [0, 1], default 0.8 (k_d of Eq. 7).
     pub drag: f32,
-    /// Box outside of which none lives, least and most corner; default `None`.
+    /// Box outside of which none lives, least and most corner; default `None`: spray, which does not age, falls for
+    /// ever then, and its room is not free.
     pub bounds: Option<[[f32; 3]; 2]>,
     /// Of the random numbers.
     pub seed: u32,
@@ -99,7 +101,7 @@ impl GenerateSettings {
 
     /// Checks the ranges; the message names the field.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let most = f32::MAX;
+        let most = 1.0e18;
         range("GenerateSettings.spacing", self.spacing, 1.0e-18, 1.0e18)?;
         for (field, limits) in [
             ("GenerateSettings.trapped_air", self.trapped_air),
@@ -107,7 +109,7 @@ impl GenerateSettings {
             ("GenerateSettings.energy", self.energy),
         ] {
             let Limits { least, most } = limits;
-            if !(least >= 0.0 && most > least && most.is_finite()) {
+            if !(least >= 0.0 && most > least && most.is_finite() && (most - least) > 1.0e-30) {
                 let why = format!("{least} to {most}: from 0 on, the second more than the first");
                 return Err(Error::bad(field, why));
             }

@@ -72,6 +72,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         scene,
         foam,
         diffuse,
+        occlusion: file.diffuse.occlusion(),
         spray,
         shadows,
         region,

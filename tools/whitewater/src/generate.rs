@@ -8,6 +8,7 @@ use whitewater::io::particles::Particles;
 use crate::bounds::Bounds;
 use crate::failure::Outcome;
 use crate::foam::quantile;
+use crate::render::round;
 use crate::settings::generate::GenerateTable;
 
 /// Most diffuse particles at a time, where nothing is said.
@@ -24,7 +25,7 @@ const LEAST: f32 = 0.1;
 const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
 
 /// How far beyond the water spray may fly, of its width.
-const ASIDE: f32 = 0.05;
+const ASIDE: f32 = 0.1;
 
 /// What is made, and the frames from which it is found how much.
 pub struct Generate {
@@ -36,7 +37,7 @@ pub struct Generate {
 }
 
 impl Generate {
-    /// `bounds`: of the water in all frames.
+    /// `bounds`: of the water, as far as it is looked at.
     pub fn new(
         table: GenerateTable,
         spacing: f32,
@@ -77,7 +78,7 @@ impl Generate {
         let found = self.find(headless)?;
         self.found = Some(found);
         self.probes = Vec::new();
-        let limits = |limits: Limits| format!("{:.3} to {:.3}", limits.least, limits.most);
+        let limits = |limits: Limits| format!("{} to {}", round(limits.least), round(limits.most));
         let line = format!(
             "whitewater: trapped air {}, wave crest {}, energy {}, {:.0} and {:.0} a second \
              (found; table [generate] sets them)",
@@ -105,10 +106,11 @@ impl Generate {
             potentials.extend(headless.potentials()?);
             frames += 1;
         }
-        let fall = (9.81 * self.spacing).sqrt();
+        let gravity = Vec3::from(settings.gravity).length();
+        let fall = (gravity * self.spacing).sqrt();
         let floors = [FLOORS[0] * fall, FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall * fall];
         let [trapped_air, wave_crest, energy] = [0, 1, 2].map(|which| {
-            let values = potentials.iter().map(|all| all[which]).filter(|v| v.is_finite());
+            let values = potentials.iter().map(|all| all[which]).filter(|v| *v > 0.0);
             let most = quantile(values.collect(), NEARLY_ALL).unwrap_or(0.0);
             let most = most.max(floors[which]);
             Limits { least: LEAST * most, most }
@@ -128,7 +130,8 @@ impl Generate {
             let a_frame = each.sum::<f64>() / f64::from(frames.max(1));
             let life = f64::from(0.5 * (settings.lifetime[0] + settings.lifetime[1]));
             let rate = FULL * f64::from(self.max_particles()) / (life * a_frame);
-            let rate = if rate.is_finite() { rate.min(f64::from(MOST_RATE)) as f32 } else { 0.0 };
+            // Of no potentials, as of little ones, as much as there may be.
+            let rate = rate.min(f64::from(MOST_RATE)) as f32;
             settings.trapped_air_rate = rate;
             settings.wave_crest_rate = rate;
         }

@@ -254,6 +254,14 @@ pub fn turn_up<'a>(vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
     }
 }
 
+/// The same back.
+pub fn turn_back<'a>(vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
+    for p in vectors {
+        let [x, y, z] = *p;
+        *p = [x, -z, y];
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -260,9 +260,11 @@ impl<F> Target<F> {
         if let Some((before, width, after)) = number_field(&name) {
             return self.pattern.with_file_name(format!("{before}{frame:0width$}{after}"));
         }
+        let packed = name.to_lowercase().ends_with(".gz");
+        let (name, gz) = if packed { name.split_at(name.len() - 3) } else { (&name[..], "") };
         match (self.sequence, name.rsplit_once('.')) {
             (true, Some((stem, extension))) => {
-                self.pattern.with_file_name(format!("{stem}.{frame:04}.{extension}"))
+                self.pattern.with_file_name(format!("{stem}.{frame:04}.{extension}{gz}"))
             }
             _ => self.pattern.clone(),
         }
@@ -291,6 +293,8 @@ mod tests {
         };
         assert_eq!(path("a/out.exr", false), "a/out.exr");
         assert_eq!(path("a/out.exr", true), "a/out.0007.exr");
+        let made = Target::of_particles(Path::new("made.bgeo.gz"), true).unwrap().path(7);
+        assert_eq!(made.display().to_string(), "made.0007.bgeo.gz");
         assert_eq!(path("a/out_%06d.png", true), "a/out_000007.png");
         assert_eq!(path("a/out_%d.png", false), "a/out_7.png");
         for bad in ["out.jpg", "out", "o%x.png", "%04d_%04d.png", "%4d.png"] {

@@ -38,6 +38,12 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         let why = "--write-whitewater: expected --whitewater generate as well, found none made";
         return Err(Failure::usage(why));
     }
+    if let Some(file) =
+        keep.iter().flat_map(|keep| all.iter().find(|f| keep.path(f.number) == f.path)).next()
+    {
+        let why = format!("--write-whitewater: {} is read; name another", file.path.display());
+        return Err(Failure::usage(why));
+    }
     let settings = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
     let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
@@ -50,7 +56,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let finished = |frame: &Frame| {
         let there = |path: std::path::PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
-        numbered && !args.draw.overwrite && checked.0.iter().all(|t| there(t.path(frame.number)))
+        numbered
+            && !args.draw.overwrite
+            && checked.0.iter().all(|t| there(t.path(frame.number)))
+            && keep.iter().all(|t| there(t.path(frame.number)))
     };
     let (done, left): (Vec<Frame>, Vec<Frame>) = frames.into_iter().partition(finished);
     let mut progress = Progress::new(left.len(), "frames");
@@ -76,6 +85,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let look = Look { diffuse: files.or(look.diffuse), ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
+    session.up = args.up_axis;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
         match draw(args, &mut session, &all, frame, &progress) {
@@ -386,6 +396,10 @@ fn look(
         let why = "--whitewater generate: expected velocities in the files, found none";
         return Err(Failure::input(why));
     }
+    if made && file.generate.max_particles == Some(0) {
+        let why = "[generate] max_particles: expected 1 or more, found 0";
+        return Err(Failure::input(why));
+    }
     let remembers = sequence.is && (made || foam.is_some() && probes.frames.iter().any(moving));
     let vectors = sequence.is && sequence.motion;
     let fps = (remembers || vectors).then(|| {
@@ -411,6 +425,7 @@ fn look(
         scene,
         foam,
         diffuse,
+        occlusion: file.diffuse.occlusion(),
         spray,
         shadows,
         region,
@@ -420,6 +435,6 @@ fn look(
 }
 
 /// Four digits are enough to read.
-fn round(value: f32) -> f32 {
+pub fn round(value: f32) -> f32 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

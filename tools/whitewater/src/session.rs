@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
-use whitewater::foam::{DiffuseConfig, GenerateSettings};
+use whitewater::foam::{DiffuseConfig, GenerateSettings, Occlusion};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles, WriteFormat};
@@ -11,7 +11,7 @@ use whitewater::io::picture::{self, Layers};
 use whitewater::water::{FoamSettings, NoiseLook, Shadows, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
-use crate::args::{DrawArgs, NoiseArg, ShadowArg};
+use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
 use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Source};
@@ -32,6 +32,8 @@ pub struct Look {
     pub foam: Option<FoamSettings>,
     /// Diffuse particles beside the water.
     pub diffuse: Option<Diffusing>,
+    /// How the shadow on them is sampled.
+    pub occlusion: Occlusion,
     /// Particles of the water turn to spray.
     pub spray: bool,
     /// How the scene's shadow map is filtered.
@@ -71,6 +73,8 @@ pub struct Session<'a> {
     making: Option<(GenerateSettings, u32)>,
     /// Where what is made goes.
     pub keep: Option<Target<WriteFormat>>,
+    /// In which axes.
+    pub up: Up,
     pub times: Times,
 }
 
@@ -118,7 +122,8 @@ pub fn noise(args: &DrawArgs) -> NoiseLook {
 /// Steps by the first frame of a sequence before it, and their seconds: longer than foam takes to come.
 const WARM_UP: u32 = 8;
 const WARM_STEP: f32 = 0.1;
-/// The same of diffuse particles, that are made by a frame and move in it.
+/// The same of diffuse particles that are made by a frame and move in it: a moment, for spray would fly out of a wave
+/// that stands still.
 const PRE_ROLL: u32 = 8;
 const PRE_STEP: f32 = 1.0 / 30.0;
 
@@ -199,6 +204,7 @@ impl<'a> Session<'a> {
             memory: Memory::default(),
             making: None,
             keep: None,
+            up: Up::Y,
             times,
         })
     }
@@ -252,11 +258,13 @@ impl<'a> Session<'a> {
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
-        config.diffuse = self.look.diffuse.as_ref().map(|source| match source {
-            Diffusing::Files(_) => DiffuseConfig::new(diffuse),
-            Diffusing::Made(made) => {
-                DiffuseConfig { max_stride: 16, ..DiffuseConfig::new(made.max_particles()) }
-            }
+        config.diffuse = self.look.diffuse.as_ref().map(|source| {
+            let (most, max_stride) = match source {
+                Diffusing::Files(_) => (diffuse, 12),
+                Diffusing::Made(made) => (made.max_particles(), 16),
+            };
+            let occlusion = self.look.occlusion;
+            DiffuseConfig { max_stride, occlusion, ..DiffuseConfig::new(most) }
         });
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
@@ -414,6 +422,9 @@ impl<'a> Session<'a> {
                 }),
             })?;
             self.memory.made = Some(number);
+        } else {
+            // Without velocities none are made, and those of the frame before are not this one's.
+            headless.hide_generated();
         }
         self.memory.passed = Some(number);
         if !drawn {
@@ -446,11 +457,13 @@ impl<'a> Session<'a> {
             ));
         }
         let layers = self.with_attributes(layers, source, &camera_file);
+        // Before the pictures, by which a frame counts as finished.
+        self.write_made(number)?;
         for target in &self.targets {
             let path = target.path(number);
             times.step("write", number, || self.write(target.format, &path, &layers))?;
         }
-        self.write_made(number)
+        Ok(())
     }
 
     /// Writes the diffuse particles that were made; seconds left, as the longest life has them, so that they have
@@ -463,6 +476,10 @@ impl<'a> Session<'a> {
             return Ok(());
         };
         let made = times.step("read back", number, || headless.generated())?;
+        let mut made = made;
+        if self.up == Up::Z {
+            layers::turn_back(made.positions.iter_mut().chain(&mut made.velocities));
+        }
         let particles = Particles {
             velocities: Some(made.velocities),
             ids: Some(made.ids),

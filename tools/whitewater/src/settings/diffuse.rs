@@ -1,7 +1,7 @@
 //! Table `[diffuse]`.
 
 use serde::Deserialize;
-use whitewater::foam::{DiffuseLook, Mixing, Reach, Submerged};
+use whitewater::foam::{DiffuseLook, Mixing, Occlusion, Reach, Submerged};
 
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -20,6 +20,8 @@ pub struct DiffuseTable {
     shadow_color: Option<[f32; 3]>,
     albedo: Option<[f32; 3]>,
     mixing: Option<MixingTable>,
+    /// Not of the look: it chooses the pass.
+    occlusion: Option<OcclusionTable>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -43,7 +45,22 @@ enum MixingTable {
     Source,
 }
 
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum OcclusionTable {
+    Reference,
+    Fast,
+}
+
 impl DiffuseTable {
+    /// How the shadow is sampled.
+    pub fn occlusion(&self) -> Occlusion {
+        match self.occlusion {
+            Some(OcclusionTable::Reference) => Occlusion::Reference,
+            Some(OcclusionTable::Fast) | None => Occlusion::Fast,
+        }
+    }
+
     /// Puts what the table says over a look.
     pub fn apply(&self, look: &mut DiffuseLook) {
         look.radius = self.radius.unwrap_or(look.radius);

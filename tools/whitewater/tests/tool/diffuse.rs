@@ -117,6 +117,11 @@ fn diffuse_particles_are_made_of_the_water() {
     folder.run(&format!("{common} --whitewater made_%d.bgeo.gz --frames 4 -o c_%d.exr")).ok();
     let (made, read) = (amount("a_4.exr"), amount("c_4.exr"));
     assert!((made / read - 1.0).abs() < 1.0e-3, "{made} {read}");
+    // Pictures that are there are not all that was asked for.
+    let keep = "--whitewater generate --write-whitewater kept_%d.ply -o b_%d.png --frames 4";
+    let again = common.replace("--overwrite", "");
+    folder.run(&format!("{again} {keep}")).ok();
+    assert!(folder.exists("kept_4.ply"));
     // A frame by itself.
     folder.run(&format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate -o d.exr")).ok();
     assert!(amount("d.exr") > 0.0);
@@ -137,6 +142,10 @@ fn mistakes_in_making_diffuse_particles_are_named() {
     run("torn_1.csv --whitewater generate --write-whitewater a.obj").fails(2, &[".bgeo", "a.obj"]);
     run("torn_1.csv --whitewater generate --write-whitewater no/a.ply").fails(5, &["no/a.ply"]);
     run("torn_1.csv --whitewater generate --settings bad.toml").fails(3, &["rate"]);
+    folder.text("none.toml", "[generate]\nmax_particles = 0\n");
+    run("torn_1.csv --whitewater generate --settings none.toml").fails(3, &["max_particles"]);
+    let over = "still.ply --whitewater generate --write-whitewater still.ply";
+    run(over).fails(2, &["still.ply is read"]);
     run("torn_1.csv --whitewater generate --settings limits.toml").fails(3, &["energy"]);
     assert!(!folder.exists("a.png"));
 }
