@@ -35,32 +35,59 @@ impl Resource {
     }
 }
 
+/// Descriptors of each type that a set has in the mean.
+const EACH: [(vk::DescriptorType, u32); 4] = [
+    (vk::DescriptorType::UNIFORM_BUFFER, 2),
+    (vk::DescriptorType::STORAGE_BUFFER, 7),
+    (vk::DescriptorType::STORAGE_IMAGE, 4),
+    (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, 7),
+];
+
 /// One slot's pool.
 pub struct Descriptors {
     pool: Owned<vk::DescriptorPool>,
+    /// Sets it is for, and what of them and of the types is taken: drivers may give more than there is room for, and
+    /// layers say nothing.
+    #[cfg(debug_assertions)]
+    taken: (u32, [std::sync::atomic::AtomicU32; 1 + EACH.len()]),
 }
 
 impl Descriptors {
     /// Room for `sets` sets of up to eight bindings each.
     pub fn new(gpu: &Gpu, sets: u32) -> Result<Self, Error> {
-        let size =
-            |ty, per_set: u32| vk::DescriptorPoolSize { ty, descriptor_count: sets * per_set };
-        let sizes = [
-            size(vk::DescriptorType::UNIFORM_BUFFER, 2),
-            size(vk::DescriptorType::STORAGE_BUFFER, 7),
-            size(vk::DescriptorType::STORAGE_IMAGE, 4),
-            size(vk::DescriptorType::COMBINED_IMAGE_SAMPLER, 7),
-        ];
+        let sizes =
+            EACH.map(|(ty, each)| vk::DescriptorPoolSize { ty, descriptor_count: sets * each });
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(sets).pool_sizes(&sizes);
         // SAFETY: valid create info.
         let pool = unsafe { gpu.device.create_descriptor_pool(&info, None) }
             .context(|| "vkCreateDescriptorPool".into())?;
         gpu.name(pool, "slot/descriptors");
-        Ok(Self { pool: gpu.own(pool, Grave::DescriptorPool) })
+        Ok(Self {
+            pool: gpu.own(pool, Grave::DescriptorPool),
+            #[cfg(debug_assertions)]
+            taken: (sets, Default::default()),
+        })
+    }
+
+    /// Fails where a set takes more than there is room for.
+    #[cfg(debug_assertions)]
+    fn take(&self, pipeline: &Pipeline) {
+        use std::sync::atomic::Ordering::Relaxed;
+        let (sets, [taken, of_types @ ..]) = &self.taken;
+        assert!(taken.fetch_add(1, Relaxed) < *sets, "{}: one set more than {sets}", pipeline.name);
+        for ((ty, each), taken) in EACH.iter().zip(of_types) {
+            let count = pipeline.bindings.values().filter(|bound| *bound == ty).count() as u32;
+            let taken = taken.fetch_add(count, Relaxed) + count;
+            assert!(taken <= sets * each, "{}: {taken} of {ty:?} in {sets} sets", pipeline.name);
+        }
     }
 
     /// Gives all sets back. The slot's earlier work must be done.
     pub fn reset(&self, gpu: &Gpu) -> Result<(), Error> {
+        #[cfg(debug_assertions)]
+        for taken in &self.taken.1 {
+            taken.store(0, std::sync::atomic::Ordering::Relaxed);
+        }
         // SAFETY: the contract says that the slot's earlier work is done.
         unsafe {
             gpu.device
@@ -82,6 +109,8 @@ impl Descriptors {
             pipeline.name,
             pipeline.bindings
         );
+        #[cfg(debug_assertions)]
+        self.take(pipeline);
         let layouts = [pipeline.set_layout];
         let info = vk::DescriptorSetAllocateInfo::default()
             .descriptor_pool(self.pool.handle)
