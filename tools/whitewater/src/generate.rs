@@ -9,6 +9,7 @@ use crate::bounds::Bounds;
 use crate::failure::Outcome;
 use crate::foam::quantile;
 use crate::render::round;
+use crate::session::PRE_ROLLED;
 use crate::settings::generate::GenerateTable;
 
 /// Most diffuse particles at a time, where nothing is said.
@@ -32,16 +33,19 @@ pub struct Generate {
     table: GenerateTable,
     spacing: f32,
     bounds: [[f32; 3]; 2],
+    /// How long the sequence is.
+    seconds: f32,
     probes: Vec<Particles>,
     found: Option<GenerateSettings>,
 }
 
 impl Generate {
-    /// `bounds`: of the water, as far as it is looked at.
+    /// `bounds`: of the water, as far as it is looked at. `seconds`: of the sequence, in which they are made.
     pub fn new(
         table: GenerateTable,
         spacing: f32,
         bounds: &Bounds,
+        seconds: f32,
         probes: Vec<Particles>,
     ) -> Self {
         // Nothing else keeps spray in: as far as the water itself ever comes, and a little farther; up as it may.
@@ -51,7 +55,7 @@ impl Generate {
         let bounds = [bounds.min - aside, bounds.max + aside + up].map(|corner| corner.to_array());
         let moving = |frame: &Particles| frame.velocities.is_some();
         let probes = probes.into_iter().filter(moving).collect();
-        Self { table, spacing, bounds, probes, found: None }
+        Self { table, spacing, bounds, seconds, probes, found: None }
     }
 
     /// Most diffuse particles at a time.
@@ -128,7 +132,9 @@ impl Generate {
                     * (phi(settings.trapped_air, air) + phi(settings.wave_crest, crest))
             });
             let a_frame = each.sum::<f64>() / f64::from(frames.max(1));
-            let life = f64::from(0.5 * (settings.lifetime[0] + settings.lifetime[1]));
+            // A short sequence ends before as many go as come.
+            let life = 0.5 * (settings.lifetime[0] + settings.lifetime[1]);
+            let life = f64::from(life.min(self.seconds + PRE_ROLLED));
             let rate = FULL * f64::from(self.max_particles()) / (life * a_frame);
             // Of no potentials, as of little ones, as much as there may be.
             let rate = rate.min(f64::from(MOST_RATE)) as f32;
@@ -140,4 +146,4 @@ impl Generate {
 }
 
 /// Particles a second of one at most: more are a cloud round it.
-const MOST_RATE: f32 = 2000.0;
+const MOST_RATE: f32 = 4000.0;

@@ -415,7 +415,8 @@ fn look(
     let fps = fps.filter(|_| remembers);
     let diffuse = made.then(|| {
         let probes = std::mem::take(&mut probes.frames);
-        let generate = Generate::new(file.generate.clone(), spacing, &bounds, probes);
+        let seconds = seconds.last().copied().unwrap_or(0.0);
+        let generate = Generate::new(file.generate.clone(), spacing, &bounds, seconds, probes);
         diffuse::Diffusing::Made(Box::new(generate))
     });
     Ok(Look {

@@ -126,6 +126,7 @@ const WARM_STEP: f32 = 0.1;
 /// that stands still.
 const PRE_ROLL: u32 = 8;
 const PRE_STEP: f32 = 1.0 / 30.0;
+pub const PRE_ROLLED: f32 = PRE_ROLL as f32 * PRE_STEP;
 
 /// Of a file that has none, in the unit of the rest density, where there is to be spray.
 pub fn guessed_densities(
