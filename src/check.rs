@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::contract::{Config, Count, DiffuseParticles, Frame, Particles, Stream};
+use crate::contract::{Config, Count, DiffuseParticles, Frame, Particles, Slot, Stream};
 use crate::error::Error;
 use crate::frame::{Lens, check_settings};
 use crate::water::MOST_COARSENING;
@@ -93,16 +93,9 @@ fn particles(
     config: &Config,
     limits: &vk::PhysicalDeviceLimits,
 ) -> Result<(), Error> {
-    let count = match particles.count {
-        Count::Cpu(count) if count > config.max_particles => {
-            return Err(Error::bad(
-                "Frame.particles.count",
-                format!("{count} is more than Config.max_particles, {}", config.max_particles),
-            ));
-        }
-        Count::Cpu(count) => count,
-        Count::Gpu { .. } => 0,
-    };
+    let fields = ["Frame.particles.count", "Frame.particles.count.offset"];
+    let most = ("Config.max_particles", config.max_particles);
+    let count = count(fields, particles.count, most, limits)?;
     let stream = |field, stream: &Stream, bytes: u64| {
         stream.check(field, bytes, count, ("Config.max_stride", config.max_stride))
     };
@@ -122,9 +115,6 @@ fn particles(
             let why = "given, but Config.foam is false";
             return Err(Error::bad("Frame.particles.foam", why));
         }
-    }
-    if let Count::Gpu { offset, .. } = particles.count {
-        aligned("Frame.particles.count.offset", offset, limits)?;
     }
     if let Some(packets) = &particles.packets {
         aligned("Frame.particles.packets.offset", packets.offset, limits)?;
@@ -146,18 +136,9 @@ fn diffuse(
     let Some(config) = &config.diffuse else {
         return Err(Error::bad("Frame.diffuse", "given, but Config.diffuse is None"));
     };
-    let count = match particles.count {
-        Count::Cpu(count) if count > config.max_particles => {
-            let most = config.max_particles;
-            let why = format!("{count} is more than Config.diffuse.max_particles, {most}");
-            return Err(Error::bad("Frame.diffuse.count", why));
-        }
-        Count::Cpu(count) => count,
-        Count::Gpu { offset, .. } => {
-            aligned("Frame.diffuse.count.offset", offset, limits)?;
-            0
-        }
-    };
+    let fields = ["Frame.diffuse.count", "Frame.diffuse.count.offset"];
+    let most = ("Config.diffuse.max_particles", config.max_particles);
+    let count = count(fields, particles.count, most, limits)?;
     let most = ("Config.diffuse.max_stride", config.max_stride);
     particles.positions.check("Frame.diffuse.positions", 12, count, most)?;
     let others = [
@@ -170,6 +151,40 @@ fn diffuse(
         if let Some(stream) = stream {
             stream.check(field, 4, count, most)?;
         }
+    }
+    Ok(())
+}
+
+/// How many the host says there are, 0 where only the GPU knows. The fields are the count and its offset's;
+/// `most`: as a configuration has it, by its name.
+pub fn count(
+    [field, offset_field]: [&'static str; 2],
+    count: Count,
+    (name, most): (&str, u32),
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<u32, Error> {
+    match count {
+        Count::Cpu(count) if count > most => {
+            Err(Error::bad(field, format!("{count} is more than {name}, {most}")))
+        }
+        Count::Cpu(count) => Ok(count),
+        Count::Gpu { offset, .. } => aligned(offset_field, offset, limits).map(|()| 0),
+    }
+}
+
+/// The slot of a step, of so many, and its seconds.
+pub fn step(
+    [slot_field, dt_field]: [&'static str; 2],
+    slot: Slot,
+    slots: usize,
+    dt: f32,
+) -> Result<(), Error> {
+    if slot.0 as usize >= slots {
+        let why = format!("{} of {slots} frames in flight", slot.0);
+        return Err(Error::bad(slot_field, why));
+    }
+    if !dt.is_finite() || dt < 0.0 {
+        return Err(Error::bad(dt_field, format!("{dt}: seconds expected")));
     }
     Ok(())
 }

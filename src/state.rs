@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::contract::{Count, Host, Slot, Step, Stream};
+use crate::check;
+use crate::contract::{Host, Slot, Step, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::Descriptors;
@@ -202,30 +203,11 @@ impl State {
 
     /// Everything that can be wrong with a step.
     fn check(&self, step: &Step<'_>) -> Result<(), Error> {
-        if step.slot.0 as usize >= self.slots.len() {
-            let why = format!("{} of {} frames in flight", step.slot.0, self.slots.len());
-            return Err(Error::bad("Step.slot", why));
-        }
-        if !step.dt.is_finite() || step.dt < 0.0 {
-            return Err(Error::bad("Step.dt", format!("{}: seconds expected", step.dt)));
-        }
+        check::step(["Step.slot", "Step.dt"], step.slot, self.slots.len(), step.dt)?;
         step.settings.check()?;
-        let count = match step.count {
-            Count::Cpu(count) if count > self.config.max_particles => {
-                let most = self.config.max_particles;
-                let why = format!("{count} is more than StateConfig.max_particles, {most}");
-                return Err(Error::bad("Step.count", why));
-            }
-            Count::Cpu(count) => count,
-            Count::Gpu { offset, .. } => {
-                let to = self.gpu.limits.min_storage_buffer_offset_alignment.max(4);
-                if !offset.is_multiple_of(to) {
-                    let why = format!("{offset} is no multiple of the device's {to}");
-                    return Err(Error::bad("Step.count.offset", why));
-                }
-                0
-            }
-        };
+        let fields = ["Step.count", "Step.count.offset"];
+        let most = ("StateConfig.max_particles", self.config.max_particles);
+        let count = check::count(fields, step.count, most, &self.gpu.limits)?;
         let stream = |field, stream: &Stream, bytes| {
             stream.check(field, bytes, count, ("StateConfig.max_stride", self.config.max_stride))
         };

@@ -1,16 +1,7 @@
 // A chunk of the host's fluid particles, for the passes that make the grid of neighbours. Needs random.glsl.
 // Reads: positions, velocities, ids, counts. Writes: buckets.
 
-#include "generate_counts.glsl"
-
-struct Place {
-    vec3 position;
-    uint id;
-};
-struct Motion {
-    vec3 velocity;
-    uint number;
-};
+#include "generate_types.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Velocities { float velocities[]; };

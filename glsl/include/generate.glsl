@@ -34,17 +34,7 @@ layout(push_constant, std430) uniform Push {
     float cells;         // of the grid along a unit of length
 } push;
 
-#include "generate_counts.glsl"
-
-// A particle of the fluid, as the grid has it: what is of it, and its number in the step.
-struct Place {
-    vec3 position;
-    uint id;
-};
-struct Motion {
-    vec3 velocity;
-    uint number;
-};
+#include "generate_types.glsl"
 
 // A diffuse particle: its age is the share of its life that has passed, 1 of what is gone.
 struct Diffuse {

@@ -9,7 +9,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::cull::{Window, capacity};
+use super::cull::{Window, capacity, each_once};
 use crate::contract::{Count, Step};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -171,21 +171,12 @@ impl Classify {
     ) -> Result<(), Error> {
         let scope = timer.begin(gpu, cmd, c"classify");
         let (old, new) = (self.table(odd), self.table(!odd));
-        let streams = [Some(step.velocities), step.densities, step.ids];
-        let mut buffers: Vec<_> = streams
-            .iter()
-            .flatten()
-            .map(|s| s.buffer)
-            .chain(match step.count {
-                Count::Gpu { buffer, .. } => Some(buffer),
-                Count::Cpu(_) => None,
-            })
-            .map(|handle| buffer(handle, step.before, COMPUTE_READ))
-            .collect();
-        // Interleaved streams share a buffer: one barrier is enough.
-        buffers.sort_by_key(|barrier| vk::Handle::as_raw(barrier.buffer));
-        buffers.dedup_by_key(|barrier| barrier.buffer);
-        let host = buffers.len();
+        let streams = [Some(&step.velocities), step.densities.as_ref(), step.ids.as_ref()];
+        // With the bytes of their values.
+        let streams = || streams.into_iter().zip([12, 4, 4]).filter_map(|(s, n)| Some((s?, n)));
+        let host = each_once(streams(), step.count, None);
+        let mut buffers: Vec<_> =
+            host.iter().map(|handle| buffer(*handle, step.before, COMPUTE_READ)).collect();
         buffers.push(buffer(new.handle, COMPUTE_READ_WRITE.and(COPY_READ), CLEAR));
         buffers.push(buffer(self.foam.handle, FOAM_USE, COMPUTE_WRITE));
         gpu.barriers(cmd, &[], &buffers);
@@ -200,8 +191,7 @@ impl Classify {
             ],
         );
 
-        let values = streams.iter().flatten().zip([12, 4, 4]);
-        let most = values.map(capacity).fold(self.max_particles, u32::min);
+        let most = streams().map(capacity).fold(self.max_particles, u32::min);
         let (count, from_gpu) = match step.count {
             Count::Cpu(count) => (count.min(most), None),
             Count::Gpu { buffer, offset } => (most, Some(Resource::Buffer(buffer, offset, 4))),
@@ -261,9 +251,7 @@ impl Classify {
         }
 
         let mut after = vec![buffer(self.foam.handle, COMPUTE_WRITE, FOAM_USE)];
-        for barrier in &buffers[..host] {
-            after.push(buffer(barrier.buffer, COMPUTE_READ, step.after));
-        }
+        after.extend(host.iter().map(|handle| buffer(*handle, COMPUTE_READ, step.after)));
         gpu.barriers(cmd, &[], &after);
         timer.end(gpu, cmd, scope);
         Ok(())

@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use crate::check;
 use crate::contract::{Count, DiffuseParticles, GenerateStep, Host, Slot, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -224,30 +225,16 @@ impl Generator {
 
     /// Everything that can be wrong with a step.
     fn check(&self, step: &GenerateStep<'_>) -> Result<(), Error> {
-        if step.slot.0 as usize >= self.slots.len() {
-            let why = format!("{} of {} frames in flight", step.slot.0, self.slots.len());
-            return Err(Error::bad("GenerateStep.slot", why));
-        }
-        if !step.dt.is_finite() || step.dt < 0.0 {
-            return Err(Error::bad("GenerateStep.dt", format!("{}: seconds expected", step.dt)));
-        }
+        check::step(
+            ["GenerateStep.slot", "GenerateStep.dt"],
+            step.slot,
+            self.slots.len(),
+            step.dt,
+        )?;
         step.settings.check()?;
-        let count = match step.count {
-            Count::Cpu(count) if count > self.config.max_fluid => {
-                let most = self.config.max_fluid;
-                let why = format!("{count} is more than GenerateConfig.max_fluid, {most}");
-                return Err(Error::bad("GenerateStep.count", why));
-            }
-            Count::Cpu(count) => count,
-            Count::Gpu { offset, .. } => {
-                let to = self.gpu.limits.min_storage_buffer_offset_alignment.max(4);
-                if !offset.is_multiple_of(to) {
-                    let why = format!("{offset} is no multiple of the device's {to}");
-                    return Err(Error::bad("GenerateStep.count.offset", why));
-                }
-                0
-            }
-        };
+        let fields = ["GenerateStep.count", "GenerateStep.count.offset"];
+        let most = ("GenerateConfig.max_fluid", self.config.max_fluid);
+        let count = check::count(fields, step.count, most, &self.gpu.limits)?;
         let most = ("GenerateConfig.max_stride", self.config.max_stride);
         step.positions.check("GenerateStep.positions", 12, count, most)?;
         step.velocities.check("GenerateStep.velocities", 12, count, most)?;

@@ -24,7 +24,7 @@ pub const MOST_GROUPS: u32 = 4096;
 /// Particles of a chunk at most, as many as the device binds of a stride.
 const MOST_CHUNK: u32 = 1 << 24;
 
-/// Words of the counts (glsl/include/generate_counts.glsl).
+/// Words of the counts (glsl/include/generate_types.glsl).
 #[derive(Clone, Copy)]
 pub enum Counts {
     High,
@@ -497,16 +497,14 @@ impl Passes {
                 // A stream that ends before the chunk has no particles in it: the count was clamped.
                 let Some((positions, [velocities, ids])) = bound else { break };
                 let chunk = self.chunk.min(fluid - first);
-                let mut resources = vec![
+                let own = [
                     (1, positions.resource),
                     (2, velocities.resource),
+                    (3, ids.resource),
                     (4, counts),
                     (5, Resource::buffer(&b.buckets)),
                 ];
-                resources.extend_from_slice(more);
-                if pipeline.bindings.contains_key(&3) {
-                    resources.push((3, ids.resource));
-                }
+                let resources = [&own[..], more].concat();
                 let push = FluidPush {
                     position_word: positions.word,
                     position_stride: positions.stride,
@@ -523,7 +521,6 @@ impl Passes {
                 r.dispatch(pipeline, &resources, &push, chunk)?;
                 first += chunk;
             }
-            r.wait();
             Ok::<_, Error>(())
         };
         let none = [(6, Resource::buffer(&b.wanted)), (7, Resource::buffer(&b.potentials))];
@@ -532,7 +529,9 @@ impl Passes {
         self.scan.record((gpu, cmd, r.descriptors), &b.counts, values, None, Counts::Sorted)?;
         r.wait();
         let sorted = [(6, Resource::buffer(&b.places)), (7, Resource::buffer(&b.motions))];
-        chunked(&self.pipelines.fill, &sorted)
+        chunked(&self.pipelines.fill, &sorted)?;
+        r.wait();
+        Ok(())
     }
 
     /// The diffuse particles that there are, and the slots that are free then.

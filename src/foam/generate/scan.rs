@@ -77,8 +77,7 @@ impl Scan {
                 (2, Resource::buffer(&self.sums)),
                 (3, Resource::buffer(values)),
             ];
-            let bound = if pipeline.bindings.contains_key(&3) { &all[..] } else { &all[..2] };
-            descriptors.bind(gpu, cmd, pipeline, bound)?;
+            descriptors.bind(gpu, cmd, pipeline, &all)?;
             pipeline.push(gpu, cmd, &push);
             // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
             unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };

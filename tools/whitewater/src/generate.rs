@@ -24,7 +24,8 @@ const LEAST: f32 = 0.1;
 /// The most is no less, so that water at rest makes nothing: trapped air and speed in falls through a
 /// spacing, and crests. Of limits that artists chose the middle.
 const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
-
+/// Particles a second of one at most: more are a cloud round it.
+const MOST_RATE: f64 = 4000.0;
 /// How far beyond the water spray may fly, of its width.
 const ASIDE: f32 = 0.1;
 
@@ -84,7 +85,7 @@ impl Generate {
         self.probes = Vec::new();
         let limits = |limits: Limits| format!("{} to {}", round(limits.least), round(limits.most));
         let line = format!(
-            "whitewater: trapped air {}, wave crest {}, energy {}, {:.0} and {:.0} a second \
+            "diffuse particles from trapped air {}, wave crest {}, energy {}, {:.0} and {:.0} a second \
              (found; table [generate] sets them)",
             limits(found.trapped_air),
             limits(found.wave_crest),
@@ -137,13 +138,10 @@ impl Generate {
             let life = f64::from(life.min(self.seconds + PRE_ROLLED));
             let rate = FULL * f64::from(self.max_particles()) / (life * a_frame);
             // Of no potentials, as of little ones, as much as there may be.
-            let rate = rate.min(f64::from(MOST_RATE)) as f32;
+            let rate = rate.min(MOST_RATE) as f32;
             settings.trapped_air_rate = rate;
             settings.wave_crest_rate = rate;
         }
         Ok(settings)
     }
 }
-
-/// Particles a second of one at most: more are a cloud round it.
-const MOST_RATE: f32 = 4000.0;

@@ -417,7 +417,7 @@ impl<'a> Session<'a> {
                     let dt = number.saturating_sub(last) as f32 / fps;
                     headless.generate(dt, number as u32, settings, *most)
                 }
-                // It was as in the first frame for long enough.
+                // Nothing is known of before: it was as now for a moment.
                 _ => (0..PRE_ROLL).try_for_each(|step| {
                     headless.generate(PRE_STEP, u32::MAX - step, settings, *most)
                 }),
@@ -476,8 +476,7 @@ impl<'a> Session<'a> {
         else {
             return Ok(());
         };
-        let made = times.step("read back", number, || headless.generated())?;
-        let mut made = made;
+        let mut made = times.step("read back", number, || headless.generated())?;
         if self.up == Up::Z {
             layers::turn_back(made.positions.iter_mut().chain(&mut made.velocities));
         }

@@ -1,4 +1,4 @@
-// Counts of the passes that make diffuse particles.
+// What the passes share that make diffuse particles.
 
 struct GenerateCounts {
     uint high;   // slots of diffuse particles that were ever used: first, drawing starts from it
@@ -7,4 +7,14 @@ struct GenerateCounts {
     uint free;   // of the used slots those whose particle is gone
     uint made;   // in the step
     uint lost;   // for want of slots, in all
+};
+
+// A particle of the fluid, as the grid has it: what is of it, and its number in the step.
+struct Place {
+    vec3 position;
+    uint id;
+};
+struct Motion {
+    vec3 velocity;
+    uint number;
 };
