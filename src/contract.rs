@@ -58,6 +58,9 @@ pub struct Enabled {
     /// `occlusionQueryPrecise`: without it a query only tells zero from non-zero, which is all
     /// the termination needs.
     pub precise_occlusion_queries: bool,
+    /// Vulkan 1.2 `shaderBufferInt64Atomics`, with `shaderInt64`: without them diffuse particles are gone
+    /// through twice ([`foam::Splat`](crate::foam::Splat)).
+    pub buffer_int64_atomics: bool,
 }
 
 /// What fixes memory and pipelines. Changed between records by
@@ -115,7 +118,7 @@ pub struct Config {
     /// which count for water and foam too. 32 bytes a particle more.
     pub spray: bool,
     /// Diffuse particles are drawn (spray, foam and bubbles of their own, [`Frame::diffuse`]): the passes
-    /// `splat`, `radiance`, `blur`. `None` (default): they are not. 84 bytes a pixel more.
+    /// `splat`, `radiance`, `blur`. `None` (default): they are not. 88 bytes a pixel more.
     pub diffuse: Option<DiffuseConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
     /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4

@@ -109,7 +109,7 @@
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |
 //! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
-//! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 84 w h | 73.8 MiB | 166.1 MiB |
+//! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 88 w h | 77.3 MiB | 174.0 MiB |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |

@@ -251,8 +251,8 @@ impl Renderer {
         let given_back = |handle| buffer(handle, COMPUTE_READ, frame.particles.after);
         let mut buffers: Vec<_> =
             buffers_of(&frame.particles).into_iter().map(given_back).collect();
-        if let Some(diffuse) = &frame.diffuse {
-            let back = |handle| buffer(handle, COMPUTE_READ, diffuse.after);
+        if let (Some(diffuse), Some(foam)) = (&frame.diffuse, &self.foam) {
+            let back = |handle| buffer(handle, foam.reading(), diffuse.after);
             buffers.extend(splat::buffers_of(diffuse).into_iter().map(back));
         }
         gpu.barriers(cmd, &release(frame, &uses), &buffers);

@@ -18,7 +18,7 @@ mod contract;
 mod convolution;
 #[path = "gpu/depth.rs"]
 mod depth;
-#[path = "gpu/diffuse.rs"]
+#[path = "gpu/diffuse/mod.rs"]
 mod diffuse;
 #[path = "gpu/environment.rs"]
 mod environment;

@@ -11,7 +11,7 @@ layout(set = 0, binding = 1, std430) writeonly buffer Words { uint words[]; };
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
-// Groups of each chunk, and its particles.
+// Of each chunk its groups, or the corners and instances of its quads; and its particles.
 layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -19,7 +19,7 @@ layout(push_constant, std430) uniform Push {
     uint from_gpu;
     uint chunks;
     uint chunk_size;
-    uint group_size;
+    uint group_size; // 0: quads
 } push;
 
 void main() {
@@ -28,7 +28,9 @@ void main() {
         uint chunk = gl_GlobalInvocationID.x;
         uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;
         uint own = min(all - min(all, chunk * push.chunk_size), push.chunk_size);
-        arguments[chunk] = uvec4((own + push.group_size - 1u) / push.group_size, 1u, 1u, own);
+        bool quads = push.group_size == 0u;
+        uvec2 groups = uvec2((own + push.group_size - 1u) / max(push.group_size, 1u), 1u);
+        arguments[chunk] = quads ? uvec4(4u, own, 0u, 0u) : uvec4(groups, 1u, own);
     }
     if (all(lessThan(pixel, ivec2(frame.extent.xy)))) {
         float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);

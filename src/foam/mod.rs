@@ -2,11 +2,12 @@
 //! Teschner, Screen Space Foam Rendering, 2013). A pass a file.
 
 pub(crate) mod generate;
+mod quads;
 mod radiance;
 pub mod settings;
 pub(crate) mod splat;
 
-use crate::contract::{Config, DiffuseParticles, Layer};
+use crate::contract::{Access, Config, DiffuseParticles, Layer};
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -14,7 +15,9 @@ use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::water::Recording;
 pub use generate::{GenerateConfig, GenerateSettings, Generator, Limits};
-pub use settings::{DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion, Reach, Submerged};
+pub use settings::{
+    DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion, Reach, Splat, Submerged,
+};
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Foam {
@@ -58,6 +61,11 @@ impl Foam {
         environment: &Environment,
     ) -> Result<(), Error> {
         self.radiance.record(r, &self.sprites, environment)
+    }
+
+    /// How the host's streams are read.
+    pub fn reading(&self) -> Access {
+        self.sprites.reading()
     }
 
     /// What `composite` reads: depth and intensity, thickness, light and shadow.

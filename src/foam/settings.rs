@@ -10,6 +10,9 @@ pub struct DiffuseConfig {
     pub max_particles: u32,
     /// Longest stride of their streams in bytes, a multiple of 4, default 12.
     pub max_stride: u32,
+    /// How they become pixels; `None`: what was measured to be the fastest, [`Splat::Compute64`] where the device has
+    /// been made for it, else [`Splat::Compute`] (on lavapipe; GPUs are still to be).
+    pub splat: Option<Splat>,
     /// Where the light of the environment is looked up.
     pub irradiance: Irradiance,
     /// How foam's own shadow is sampled.
@@ -22,6 +25,7 @@ impl DiffuseConfig {
         Self {
             max_particles,
             max_stride: 12,
+            splat: None,
             irradiance: Irradiance::Prefiltered,
             occlusion: Occlusion::Fast,
         }
@@ -37,6 +41,18 @@ impl DiffuseConfig {
         }
         Ok(())
     }
+}
+
+/// How diffuse particles become pixels. All ways give the same picture, the two by compute to the last bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Splat {
+    /// A quad a particle, a depth test and blending. 12 bytes a pixel more.
+    Raster,
+    /// An invocation a particle with atomics of 32 bits, twice: the second for what goes with the frontmost.
+    Compute,
+    /// An invocation a particle with atomics of 64 bits, once. Needs
+    /// [`buffer_int64_atomics`](crate::Enabled::buffer_int64_atomics).
+    Compute64,
 }
 
 /// How the shadow is sampled that foam lies in among foam, water and scene (Sec. 2.4.1).

@@ -3,7 +3,8 @@
 //!
 //! An invocation a particle, with integer atomics: a depth by its bits, sums of whole steps, which no order of the
 //! particles changes. Depth and thickness in one go, so that a particle is read once for both; what goes with the
-//! frontmost by a second. No list of sprites between: of millions it would be most of the memory.
+//! frontmost lies below its depth in a word of 64 bits, or takes a second go. No list of sprites between: of millions
+//! it would be most of the memory. By quads in place of it: `quads`.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
 use ash::vk;
@@ -12,11 +13,12 @@ use gpu_allocator::MemoryLocation;
 
 use crate::contract::{Config, Count, DiffuseParticles, Stream};
 use crate::error::Error;
-use crate::foam::settings::DiffuseConfig;
+use crate::foam::quads::Quads;
+use crate::foam::settings::{DiffuseConfig, Splat};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-    FRAGMENT_SAMPLED, INDIRECT, buffer,
+    self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
+    COMPUTE_WRITE, COPY_READ, FRAGMENT_READ, FRAGMENT_SAMPLED, INDIRECT, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -27,7 +29,7 @@ use crate::gpu::shader;
 use crate::water::{Recording, Window, capacity, each_once};
 
 /// Bytes of a pixel's words (glsl/include/diffuse_words.glsl).
-const WORDS: u64 = 28;
+const WORDS: u64 = 32;
 /// Groups of a dispatch at most.
 const MOST_GROUPS: u32 = 65_535;
 
@@ -103,30 +105,38 @@ struct Targets {
 }
 
 impl Targets {
-    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+    fn new(gpu: &Gpu, config: &Config, way: Splat) -> Result<Self, Error> {
+        use vk::ImageUsageFlags as Usage;
         let extent = config.extent;
-        let image = |name, format| {
-            let usage = vk::ImageUsageFlags::STORAGE
-                | vk::ImageUsageFlags::SAMPLED
-                | vk::ImageUsageFlags::TRANSFER_SRC;
+        let image = |name, format, usage| {
+            let usage = usage | Usage::SAMPLED | Usage::TRANSFER_SRC;
             Image::new(gpu, &ImageDesc::new(name, extent, format, usage))
         };
+        let blended = way == Splat::Raster;
+        let sums = if blended { Usage::COLOR_ATTACHMENT } else { Usage::STORAGE };
         let bytes = WORDS * u64::from(extent.width) * u64::from(extent.height);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let (full, half) = (vk::Format::R32G32B32A32_SFLOAT, vk::Format::R16G16B16A16_SFLOAT);
         Ok(Self {
             words: Buffer::new(gpu, "foam/splat/words", bytes, usage, MemoryLocation::GpuOnly)?,
-            occluders: image("foam/splat/occluders", vk::Format::R32G32B32A32_SFLOAT)?,
-            thickness: image("foam/splat/thickness", vk::Format::R32G32B32A32_SFLOAT)?,
-            normal: image("foam/splat/normal", vk::Format::R16G16B16A16_SFLOAT)?,
+            occluders: image("foam/splat/occluders", full, Usage::STORAGE)?,
+            thickness: image("foam/splat/thickness", full, sums)?,
+            normal: image("foam/splat/normal", half, Usage::STORAGE)?,
         })
     }
+}
+
+/// How the particles become words and images.
+enum Way {
+    /// One go after the other over all particles.
+    Compute(Vec<Pipeline>),
+    Quads(Box<Quads>),
 }
 
 /// The pass.
 pub struct Sprites {
     begin: Pipeline,
-    depth: Pipeline,
-    frontmost: Pipeline,
+    way: Way,
     resolve: Pipeline,
     arguments: Buffer,
     targets: Targets,
@@ -135,25 +145,41 @@ pub struct Sprites {
     max_particles: u32,
 }
 
+/// The way that a configuration takes.
+pub fn way(gpu: &Gpu, diffuse: &DiffuseConfig) -> Splat {
+    let fastest = if gpu.enabled.buffer_int64_atomics { Splat::Compute64 } else { Splat::Compute };
+    diffuse.splat.unwrap_or(fastest)
+}
+
 impl Sprites {
     pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
         let (chunk_size, chunks) = chunks(&gpu.limits, diffuse);
-        let splat = |which| Pipeline::compute(gpu, shader::FOAM_SPLAT_COMP, &[(0, which)]);
+        let chosen = way(gpu, diffuse);
+        let targets = Targets::new(gpu, config, chosen)?;
+        let compute = |shader, constants: &[(u32, u32)]| Pipeline::compute(gpu, shader, constants);
+        let (way, resolve) = match chosen {
+            Splat::Raster => {
+                let quads = Quads::new(gpu, &targets.thickness)?;
+                (Way::Quads(Box::new(quads)), shader::FOAM_RESOLVE_QUADS_COMP)
+            }
+            Splat::Compute => {
+                let [all, frontmost] =
+                    [0, 1].map(|which| compute(shader::FOAM_SPLAT_COMP, &[(0, which)]));
+                (Way::Compute(vec![all?, frontmost?]), shader::FOAM_RESOLVE_COMP)
+            }
+            Splat::Compute64 => {
+                let all = compute(shader::FOAM_SPLAT64_COMP, &[])?;
+                (Way::Compute(vec![all]), shader::FOAM_RESOLVE_COMP)
+            }
+        };
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER;
-        let bytes = 16 * u64::from(chunks);
+        let (name, bytes) = ("foam/splat/arguments", 16 * u64::from(chunks));
         Ok(Self {
-            begin: Pipeline::compute(gpu, shader::FOAM_BEGIN_COMP, &[])?,
-            depth: splat(0)?,
-            frontmost: splat(1)?,
-            resolve: Pipeline::compute(gpu, shader::FOAM_RESOLVE_COMP, &[])?,
-            arguments: Buffer::new(
-                gpu,
-                "foam/splat/arguments",
-                bytes,
-                usage,
-                MemoryLocation::GpuOnly,
-            )?,
-            targets: Targets::new(gpu, config)?,
+            begin: compute(shader::FOAM_BEGIN_COMP, &[])?,
+            way,
+            resolve: compute(resolve, &[])?,
+            arguments: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
+            targets,
             chunk_size,
             chunks,
             max_particles: diffuse.max_particles,
@@ -166,7 +192,14 @@ impl Sprites {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let new = Targets::new(gpu, config)?;
+        let way = match self.way {
+            Way::Quads(_) => Splat::Raster,
+            Way::Compute(_) => Splat::Compute,
+        };
+        let new = Targets::new(gpu, config, way)?;
+        if let Way::Quads(quads) = &mut self.way {
+            quads.resize(gpu, &new.thickness, retired)?;
+        }
         let old = &mut self.targets;
         retired.replace(&mut old.words, new.words);
         retired.replace(&mut old.occluders, new.occluders);
@@ -190,6 +223,15 @@ impl Sprites {
         &self.targets.normal
     }
 
+    /// How the host's streams are read.
+    pub fn reading(&self) -> Access {
+        match self.way {
+            Way::Compute(_) => COMPUTE_READ,
+            // The count by compute.
+            Way::Quads(_) => COMPUTE_READ.and(VERTEX_READ),
+        }
+    }
+
     /// `water`: depth of its frontmost spheres, as its pass left it; it comes back so.
     pub fn record(
         &self,
@@ -199,15 +241,19 @@ impl Sprites {
     ) -> Result<(), Error> {
         let scope = r.begin(c"splat");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let Targets { words, occluders, thickness, normal } = &self.targets;
-        let (words, arguments) = (words.handle, self.arguments.handle);
+        let (words, arguments) = (self.targets.words.handle, self.arguments.handle);
+        // Of compute the groups are what it dispatches and how many particles there are.
+        let (words_used, arguments_used) = match self.way {
+            Way::Compute(_) => (COMPUTE_READ_WRITE, INDIRECT.and(COMPUTE_READ)),
+            Way::Quads(_) => (FRAGMENT_READ.and(COMPUTE_READ), INDIRECT),
+        };
         let mut before = vec![
-            buffer(words, COMPUTE_READ, COMPUTE_WRITE),
-            buffer(arguments, INDIRECT.and(COMPUTE_READ), COMPUTE_WRITE),
+            buffer(words, words_used, COMPUTE_WRITE),
+            buffer(arguments, arguments_used, COMPUTE_WRITE),
         ];
         if let Some(particles) = particles {
             let host = buffers_of(particles).into_iter();
-            before.extend(host.map(|handle| buffer(handle, particles.before, COMPUTE_READ)));
+            before.extend(host.map(|handle| buffer(handle, particles.before, self.reading())));
         }
         let both = COMPUTE_READ_WRITE;
         gpu.barriers(cmd, &[access::image(water, both, COMPUTE_SAMPLED)], &before);
@@ -216,14 +262,42 @@ impl Sprites {
             cmd,
             &[access::image(water, COMPUTE_SAMPLED, both)],
             &[
-                buffer(words, COMPUTE_WRITE, both),
-                buffer(arguments, COMPUTE_WRITE, INDIRECT.and(COMPUTE_READ)),
+                buffer(words, COMPUTE_WRITE, words_used),
+                buffer(arguments, COMPUTE_WRITE, arguments_used),
             ],
         );
+        match &self.way {
+            Way::Compute(goes) => self.record_compute(r, goes, particles)?,
+            Way::Quads(quads) => self.record_quads(r, quads, particles)?,
+        }
+        r.end(scope);
+        Ok(())
+    }
+
+    fn record_compute(
+        &self,
+        r: &Recording<'_>,
+        goes: &[Pipeline],
+        particles: Option<&DiffuseParticles>,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let Targets { words, occluders, thickness, normal } = &self.targets;
+        let both = COMPUTE_READ_WRITE;
         if let Some(particles) = particles {
-            for pipeline in [&self.depth, &self.frontmost] {
-                self.record_particles(r, particles, pipeline)?;
-                gpu.barriers(cmd, &[], &[buffer(words, both, both)]);
+            for (i, pipeline) in goes.iter().enumerate() {
+                if i > 0 {
+                    gpu.barriers(cmd, &[], &[buffer(words.handle, both, both)]);
+                }
+                let own = [
+                    (6, Resource::buffer(words)),
+                    (7, Resource::buffer(&self.arguments)),
+                    (8, Resource::buffer(words)),
+                ];
+                // Atomics alone, in any order: no barrier between chunks.
+                self.each_chunk(r, pipeline, &own, particles, |at| {
+                    // SAFETY: outside a render pass; the arguments are visible since `begin`.
+                    unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, at) };
+                })?;
             }
         }
         let images = [occluders, thickness, normal];
@@ -231,11 +305,11 @@ impl Sprites {
         gpu.barriers(
             cmd,
             &hand(AFTER.and(COPY_READ).discarded(), COMPUTE_WRITE),
-            &[buffer(words, both, COMPUTE_READ)],
+            &[buffer(words.handle, both, COMPUTE_READ)],
         );
         let resources = [
             (0, r.uniforms),
-            (1, Resource::buffer(&self.targets.words)),
+            (1, Resource::buffer(words)),
             (2, Resource::storage(occluders)),
             (3, Resource::storage(thickness)),
             (4, Resource::storage(normal)),
@@ -243,7 +317,46 @@ impl Sprites {
         r.descriptors.bind(gpu, cmd, &self.resolve, &resources)?;
         r.dispatch_over(r.extent, self.resolve.local_size);
         gpu.barriers(cmd, &hand(COMPUTE_WRITE, AFTER), &[]);
-        r.end(scope);
+        Ok(())
+    }
+
+    fn record_quads(
+        &self,
+        r: &Recording<'_>,
+        quads: &Quads,
+        particles: Option<&DiffuseParticles>,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let Targets { words, occluders, thickness, normal } = &self.targets;
+        let last = AFTER.and(COPY_READ).discarded();
+        quads.record(r, access::image(thickness, last, COLOR_ATTACHMENT), |pipeline| {
+            let Some(particles) = particles else { return Ok(()) };
+            let own = [(6, Resource::buffer(words))];
+            self.each_chunk(r, pipeline, &own, particles, |at| {
+                let arguments = self.arguments.handle;
+                // SAFETY: inside a render pass; the arguments are visible since `begin`.
+                unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, at, 1, 16) };
+            })
+        })?;
+        let written = [occluders, normal];
+        let hand = |from: Access, to| written.map(|image| access::image(image, from, to));
+        let drawn = [
+            access::image(thickness, COLOR_ATTACHMENT, AFTER),
+            access::image(quads.fronts(), COLOR_ATTACHMENT, COMPUTE_SAMPLED),
+        ];
+        gpu.barriers(cmd, &[&hand(last, COMPUTE_WRITE)[..], &drawn].concat(), &[]);
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::buffer(words)),
+            (2, Resource::storage(occluders)),
+            (3, sampled(thickness)),
+            (4, Resource::storage(normal)),
+            (5, sampled(quads.fronts())),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.resolve, &resources)?;
+        r.dispatch_over(r.extent, self.resolve.local_size);
+        gpu.barriers(cmd, &hand(COMPUTE_WRITE, AFTER), &[]);
         Ok(())
     }
 
@@ -282,7 +395,10 @@ impl Sprites {
                 from_gpu: u32::from(from_gpu),
                 chunks: self.chunks,
                 chunk_size: self.chunk_size,
-                group_size: self.depth.local_size[0],
+                group_size: match &self.way {
+                    Way::Compute(goes) => goes[0].local_size[0],
+                    Way::Quads(_) => 0,
+                },
             },
         );
         // At least an invocation a chunk.
@@ -291,31 +407,30 @@ impl Sprites {
         Ok(())
     }
 
-    fn record_particles(
+    /// Binds each chunk's streams and what else there is, and does something by its arguments, which lie there.
+    fn each_chunk(
         &self,
         r: &Recording<'_>,
-        particles: &DiffuseParticles,
         pipeline: &Pipeline,
+        own: &[(u32, Resource)],
+        particles: &DiffuseParticles,
+        act: impl Fn(vk::DeviceSize),
     ) -> Result<(), Error> {
-        let (gpu, cmd) = (r.gpu, r.cmd);
         let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
-        // Atomics alone, in any order: no barrier between chunks.
         for chunk in 0..self.chunks {
             let first = chunk * self.chunk_size;
-            let bound = Window::all(gpu, &particles.positions, others, first);
+            let bound = Window::all(r.gpu, &particles.positions, others, first);
             // A stream that ends before the chunk has no particles in it: the count was clamped.
             let Some((positions, [kinds, radii, ages, ids])) = bound else { break };
-            let resources = [
+            let streams = [
                 (0, r.uniforms),
                 (1, positions.resource),
                 (2, kinds.resource),
                 (3, radii.resource),
                 (4, ages.resource),
                 (5, ids.resource),
-                (6, Resource::buffer(&self.targets.words)),
-                (7, Resource::buffer(&self.arguments)),
             ];
-            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            r.descriptors.bind(r.gpu, r.cmd, pipeline, &[&streams[..], own].concat())?;
             let push = Push {
                 position_word: positions.word,
                 position_stride: positions.stride,
@@ -330,10 +445,8 @@ impl Sprites {
                 chunk_first: first,
                 chunk,
             };
-            pipeline.push(gpu, cmd, &push);
-            let groups = 16 * u64::from(chunk);
-            // SAFETY: outside a render pass; the arguments are visible since `begin`.
-            unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, groups) };
+            pipeline.push(r.gpu, r.cmd, &push);
+            act(16 * u64::from(chunk));
         }
         Ok(())
     }
@@ -341,7 +454,10 @@ impl Sprites {
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         let Targets { words, occluders, thickness, normal } = &self.targets;
-        let images = [occluders, thickness, normal].map(|image| image.size).iter().sum();
+        let mut images = [occluders, thickness, normal].map(|image| image.size).iter().sum();
+        if let Way::Quads(quads) = &self.way {
+            images += quads.memory();
+        }
         (images, words.size + self.arguments.size)
     }
 }

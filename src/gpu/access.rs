@@ -104,7 +104,6 @@ pub const COLOR_ATTACHMENT: Access = Access::new(
     Layout::COLOR_ATTACHMENT_OPTIMAL,
 );
 /// Depth attachment, tested and written.
-#[cfg(feature = "headless")]
 pub const DEPTH_ATTACHMENT: Access = Access::new(
     Stage::from_raw(Stage::EARLY_FRAGMENT_TESTS.as_raw() | Stage::LATE_FRAGMENT_TESTS.as_raw()),
     Mask::from_raw(

@@ -129,6 +129,15 @@ impl Pipeline {
 
     /// A graphics pipeline with one colour attachment.
     pub fn graphics(gpu: &Gpu, desc: &Graphics<'_>) -> Result<Self, Error> {
+        Self::tested(gpu, desc, None)
+    }
+
+    /// The same behind a depth test, which writes what passes it.
+    pub fn tested(
+        gpu: &Gpu,
+        desc: &Graphics<'_>,
+        passes: Option<vk::CompareOp>,
+    ) -> Result<Self, Error> {
         let stages = [
             (desc.vertex, vk::ShaderStageFlags::VERTEX),
             (desc.fragment, vk::ShaderStageFlags::FRAGMENT),
@@ -142,6 +151,10 @@ impl Pipeline {
             .line_width(1.0);
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+        let depth = vk::PipelineDepthStencilStateCreateInfo::default()
+            .depth_test_enable(passes.is_some())
+            .depth_write_enable(passes.is_some())
+            .depth_compare_op(passes.unwrap_or(vk::CompareOp::ALWAYS));
         let color = vk::PipelineColorBlendStateCreateInfo::default().attachments(desc.blend);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
@@ -151,6 +164,7 @@ impl Pipeline {
             .viewport_state(&viewport)
             .rasterization_state(&raster)
             .multisample_state(&multisample)
+            .depth_stencil_state(&depth)
             .color_blend_state(&color)
             .dynamic_state(&dynamic)
             .render_pass(desc.pass);

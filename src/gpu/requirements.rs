@@ -6,6 +6,7 @@ use ash::vk;
 
 use crate::contract::Enabled;
 use crate::error::Error;
+use crate::foam;
 use crate::water::settings::{Gate, Shading, Smoothing, Splat};
 
 /// One thing the host must or may enable, and why.
@@ -51,6 +52,10 @@ pub fn requirements() -> Requirements {
             Need {
                 what: "largePoints",
                 why: "sprites as points; without it all sprites are quads",
+            },
+            Need {
+                what: "shaderBufferInt64Atomics, shaderInt64",
+                why: "diffuse particles in one go, foam::Splat::Compute64; without them in two",
             },
             Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
         ],
@@ -127,6 +132,8 @@ impl Offer {
                 draw_indirect_count: v12.draw_indirect_count == vk::TRUE,
                 large_points: core.large_points == vk::TRUE,
                 precise_occlusion_queries: core.occlusion_query_precise == vk::TRUE,
+                buffer_int64_atomics: core.shader_int64 == vk::TRUE
+                    && v12.shader_buffer_int64_atomics == vk::TRUE,
             },
             api_version: properties.api_version,
             synchronization2: v13.synchronization2 == vk::TRUE,
@@ -187,6 +194,21 @@ impl Offer {
                 "blending of R32_SFLOAT and R32G32B32A32_SFLOAT".into(),
                 "the raster splat paths need it; choose Splat::Compute or leave it to the library",
             );
+        }
+        match config.diffuse.and_then(|diffuse| diffuse.splat) {
+            Some(foam::Splat::Raster) if !self.blend_floats => {
+                return missing(
+                    "blending of R32G32B32A32_SFLOAT".into(),
+                    "foam::Splat::Raster needs it; choose Compute or leave it to the library",
+                );
+            }
+            Some(foam::Splat::Compute64) if !self.optional.buffer_int64_atomics => {
+                return missing(
+                    "shaderBufferInt64Atomics and shaderInt64".into(),
+                    "foam::Splat::Compute64 needs them; choose Compute or leave it to the library",
+                );
+            }
+            _ => {}
         }
         if !self.blend_floats && config.cast.is_some() {
             return missing(

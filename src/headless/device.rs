@@ -331,12 +331,17 @@ fn make_device(
         draw_indirect_count: !options.bare && has12.draw_indirect_count == vk::TRUE,
         large_points: !options.bare && core.large_points == vk::TRUE,
         precise_occlusion_queries: !options.bare && core.occlusion_query_precise == vk::TRUE,
+        buffer_int64_atomics: !options.bare
+            && core.shader_int64 == vk::TRUE
+            && has12.shader_buffer_int64_atomics == vk::TRUE,
     };
     let features = vk::PhysicalDeviceFeatures::default()
         .occlusion_query_precise(enabled.precise_occlusion_queries)
-        .large_points(enabled.large_points);
+        .large_points(enabled.large_points)
+        .shader_int64(enabled.buffer_int64_atomics);
     let mut v12 = vk::PhysicalDeviceVulkan12Features::default()
-        .draw_indirect_count(enabled.draw_indirect_count);
+        .draw_indirect_count(enabled.draw_indirect_count)
+        .shader_buffer_int64_atomics(enabled.buffer_int64_atomics);
     let mut v13 = vk::PhysicalDeviceVulkan13Features::default().synchronization2(true);
     let mut conditional =
         vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default().conditional_rendering(true);

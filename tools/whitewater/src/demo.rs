@@ -73,6 +73,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         foam,
         diffuse,
         occlusion: file.diffuse.occlusion(),
+        splat: file.diffuse.splat(),
         spray,
         shadows,
         region,

@@ -427,6 +427,7 @@ fn look(
         foam,
         diffuse,
         occlusion: file.diffuse.occlusion(),
+        splat: file.diffuse.splat(),
         spray,
         shadows,
         region,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
-use whitewater::foam::{DiffuseConfig, GenerateSettings, Occlusion};
+use whitewater::foam::{DiffuseConfig, GenerateSettings, Occlusion, Splat};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles, WriteFormat};
@@ -34,6 +34,8 @@ pub struct Look {
     pub diffuse: Option<Diffusing>,
     /// How the shadow on them is sampled.
     pub occlusion: Occlusion,
+    /// How they become pixels; `None`: as the library chooses.
+    pub splat: Option<Splat>,
     /// Particles of the water turn to spray.
     pub spray: bool,
     /// How the scene's shadow map is filtered.
@@ -264,8 +266,8 @@ impl<'a> Session<'a> {
                 Diffusing::Files(_) => (diffuse, 12),
                 Diffusing::Made(made) => (made.max_particles(), 16),
             };
-            let occlusion = self.look.occlusion;
-            DiffuseConfig { max_stride, occlusion, ..DiffuseConfig::new(most) }
+            let Look { occlusion, splat, .. } = self.look;
+            DiffuseConfig { max_stride, occlusion, splat, ..DiffuseConfig::new(most) }
         });
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);

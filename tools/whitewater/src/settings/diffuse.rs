@@ -1,7 +1,7 @@
 //! Table `[diffuse]`.
 
 use serde::Deserialize;
-use whitewater::foam::{DiffuseLook, Mixing, Occlusion, Reach, Submerged};
+use whitewater::foam::{DiffuseLook, Mixing, Occlusion, Reach, Splat, Submerged};
 
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -20,8 +20,9 @@ pub struct DiffuseTable {
     shadow_color: Option<[f32; 3]>,
     albedo: Option<[f32; 3]>,
     mixing: Option<MixingTable>,
-    /// Not of the look: it chooses the pass.
+    /// Not of the look, as the next: they choose passes.
     occlusion: Option<OcclusionTable>,
+    splat: Option<SplatTable>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -52,6 +53,14 @@ enum OcclusionTable {
     Fast,
 }
 
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum SplatTable {
+    Raster,
+    Compute,
+    Compute64,
+}
+
 impl DiffuseTable {
     /// How the shadow is sampled.
     pub fn occlusion(&self) -> Occlusion {
@@ -59,6 +68,15 @@ impl DiffuseTable {
             Some(OcclusionTable::Reference) => Occlusion::Reference,
             Some(OcclusionTable::Fast) | None => Occlusion::Fast,
         }
+    }
+
+    /// How particles become pixels; `None`: as the library chooses.
+    pub fn splat(&self) -> Option<Splat> {
+        self.splat.map(|table| match table {
+            SplatTable::Raster => Splat::Raster,
+            SplatTable::Compute => Splat::Compute,
+            SplatTable::Compute64 => Splat::Compute64,
+        })
     }
 
     /// Puts what the table says over a look.

@@ -1,9 +1,11 @@
 //! Passes `splat`, `radiance` and `blur`: foam of diffuse particles against the twin, and the picture with it.
 
+mod ways;
+
 use ash::vk;
 use glam::{DVec3, Vec3};
 use whitewater::foam::{
-    DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion as Occluding, Reach, Submerged,
+    DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion as Occluding, Reach, Splat, Submerged,
 };
 use whitewater::water::{Shading, Shadows};
 use whitewater::{Config, Count, DiffuseParticles, Region, Renderer, Settings};
@@ -27,6 +29,24 @@ const HALF: f64 = 1.0 / 1024.0;
 fn diffusing(size: vk::Extent2D) -> Config {
     let diffuse = DiffuseConfig { occlusion: Occluding::Reference, ..DiffuseConfig::new(4096) };
     Config { diffuse: Some(diffuse), ..config(size) }
+}
+
+/// The same by a way to draw them.
+fn by(way: Splat, size: vk::Extent2D) -> Config {
+    let config = diffusing(size);
+    let diffuse = config.diffuse.map(|diffuse| DiffuseConfig { splat: Some(way), ..diffuse });
+    Config { diffuse, ..config }
+}
+
+/// Those that there are.
+fn ways(gpu: &Gpu) -> Vec<Splat> {
+    let mut ways = vec![Splat::Compute, Splat::Raster];
+    if gpu.enabled.buffer_int64_atomics {
+        ways.push(Splat::Compute64);
+    } else {
+        eprintln!("no 64-bit atomics here: Splat::Compute64 is not drawn");
+    }
+    ways
 }
 
 /// A shot with diffuse particles.
@@ -151,7 +171,12 @@ fn seen(drawn: &Diffused) -> Image<Option<Seen>> {
 #[test]
 fn foam_is_the_twins() {
     let gpu = Gpu::shared();
-    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    for way in ways(&gpu) {
+        foam_is_the_twins_by(&mut Rig::lit(&gpu, &by(way, SIZE), 1));
+    }
+}
+
+fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
     let spacing = 0.2 / 0.656;
     for (lens, falloff) in LENSES.iter().flat_map(|lens| [(*lens, false), (*lens, true)]) {
         let mut cloud = Diffuse::new(lens);
@@ -161,7 +186,7 @@ fn foam_is_the_twins() {
             cloud.radii = None;
             cloud.ids = None;
         }
-        let drawn = cloud.draw(&mut rig);
+        let drawn = cloud.draw(rig);
         let foam = drawn.diffuse.expect("diffuse particles");
         let fluid = channel(&foam.occluders, 2);
         compare::same("diffuse-fluid", &fluid, &drawn.depth);
@@ -513,95 +538,6 @@ fn many_on_one_spot_are_as_many_as_there_is_room_for() {
     let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
     let most = foam.thickness.data.iter().map(|t| t[0]).fold(0.0, f32::max);
     assert!((32_768.0..32_770.0).contains(&most), "half a word of 16.16: {most}");
-}
-
-/// The same particles in other buffers.
-#[test]
-fn streams_of_any_shape_are_the_same() {
-    let gpu = Gpu::shared();
-    let cloud = Diffuse::new(Lens::Standard);
-    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
-    let nameless = Diffuse { ids: None, ..cloud.clone() };
-    let expected = [&cloud, &nameless].map(|cloud| cloud.draw(&mut rig));
-    // A record has them all: 48 bytes, behind 20 of something else; a chunk holds a part of them.
-    let range = u64::from(gpu.limits().max_storage_buffer_range);
-    let strides = [48, (range / 150).next_multiple_of(4).min(1 << 20) as u32];
-    let [whole, chunked] = strides;
-    for (stride, counted, named) in
-        [(whole, false, true), (whole, true, true), (chunked, true, true), (chunked, false, false)]
-    {
-        let occlusion = Occluding::Reference;
-        let diffuse = DiffuseConfig { max_stride: stride, occlusion, ..DiffuseConfig::new(500) };
-        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
-        let count = cloud.positions.len();
-        let mut bytes = vec![0xa5_u8; 20 + stride as usize * count];
-        for (i, record) in bytes[20..].chunks_exact_mut(stride as usize).enumerate() {
-            record[..12].copy_from_slice(bytemuck::bytes_of(&cloud.positions[i]));
-            record[12..16].copy_from_slice(&cloud.kinds[i].to_ne_bytes());
-            let (radii, ids) = (cloud.radii.as_ref(), cloud.ids.as_ref());
-            record[16..20].copy_from_slice(&radii.expect("radii")[i].to_ne_bytes());
-            record[20..24].copy_from_slice(&cloud.ages[i].to_ne_bytes());
-            record[24..28].copy_from_slice(&ids.expect("ids")[i].to_ne_bytes());
-        }
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let data = rig.stub.data(&bytes, usage);
-        let number = rig.stub.data(&(count as u32).to_ne_bytes(), usage);
-        let at = |offset: u64| stream(&data, 20 + offset, stride);
-        let count = if counted {
-            Count::Gpu { buffer: number.buffer, offset: 0 }
-        } else {
-            Count::Cpu(count as u32)
-        };
-        let particles = DiffuseParticles {
-            kinds: Some(at(12)),
-            radii: Some(at(16)),
-            ages: Some(at(20)),
-            ids: named.then(|| at(24)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(at(0), count)
-        };
-        let water = rig.particles(&cloud.shot);
-        let drawn = rig.draw_diffuse(&cloud.shot, &water.particles(), Some(particles));
-        let name = format!("diffuse-stride-{stride}-{counted}");
-        let expected = &expected[usize::from(!named)];
-        compare::same_color(&name, &drawn.output, &expected.output);
-    }
-}
-
-#[test]
-fn size_and_configuration_change() {
-    let gpu = Gpu::shared();
-    let mut rig = Rig::lit(&gpu, &diffusing(extent(200, 100)), 1);
-    let cloud = Diffuse::new(Lens::Standard);
-    let expected = cloud.draw(&mut Rig::lit(&gpu, &diffusing(SIZE), 1)).output;
-    rig.resize(extent(1, 1));
-    rig.resize(SIZE);
-    compare::same_color("diffuse-resized", &cloud.draw(&mut rig).output, &expected);
-    rig.renderer().reconfigure(&config(SIZE)).expect("reconfigure");
-    rig.renderer().reconfigure(&diffusing(SIZE)).expect("reconfigure");
-    compare::same_color("diffuse-again", &cloud.draw(&mut rig).output, &expected);
-}
-
-#[test]
-fn memory_is_by_the_pixel() {
-    let gpu = Gpu::shared();
-    let of = |most| {
-        let size = extent(1280, 720);
-        let diffuse = (most > 0).then(|| DiffuseConfig::new(most));
-        // SAFETY: live handles.
-        let renderer = unsafe { Renderer::new(&gpu.host(1), &Config { diffuse, ..config(size) }) };
-        let renderer = renderer.expect("a renderer");
-        let memory = renderer.memory();
-        // SAFETY: nothing was recorded.
-        unsafe { renderer.destroy() };
-        (memory.images + memory.buffers) as f64
-    };
-    let (without, said) = (of(0), 84.0 * 1280.0 * 720.0);
-    for most in [1, 30_000_000] {
-        let found = of(most) - without;
-        assert!((found - said).abs() < 0.01 * said + 128.0 * 1024.0, "{most}: {found}");
-    }
 }
 
 #[test]

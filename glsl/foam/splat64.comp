@@ -1,0 +1,47 @@
+#version 460
+// Pass `splat` in one go, where there are atomics of 64 bits (Akinci et al. 2013, Sec. 2.1 and 2.2; passes 3 and 4):
+// the depth of the frontmost and, below it in the word, what goes with it. The same as of splat.comp in two.
+// Reads: positions, kinds, radii, ages, ids, words, arguments. Writes: words.
+
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+
+#include "frame.glsl"
+#include "falloff.glsl"
+#include "diffuse.glsl"
+#include "diffuse_words.glsl"
+
+layout(local_size_x = 64) in;
+
+#include "diffuse_streams.glsl"
+
+layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
+// The same memory.
+layout(set = 0, binding = 8, std430) buffer Fronts { uint64_t fronts[]; };
+
+#include "diffuse_cover.glsl"
+
+void splat(ivec2 pixel, Diffuse p, Footprint f) {
+    vec2 place;
+    float rr = diffuse_place(f, pixel, place);
+    if (!(rr < 1.0)) {
+        return;
+    }
+    float w = sqrt(1.0 - rr);
+    float depth = -p.centre.z - w * p.radius;
+    uint bits = floatBitsToUint(depth);
+    uint at = words_of(pixel);
+    if (!(bits < words[at + SCENE])) {
+        return;
+    }
+    // Most lose: a read is cheaper than an atomic.
+    if (bits <= words[at + FRONT]) {
+        atomicMin(fronts[at / 2u], uint64_t(bits) << 32 | with_of(p.radius, -p.centre.z, vec3(place, w)));
+    }
+    thicken(at, p, f, rr, depth);
+}
+
+void main() {
+    cover();
+}

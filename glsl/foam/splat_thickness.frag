@@ -1,0 +1,19 @@
+#version 460
+// Pass `splat` by quads, second go (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by blending.
+// Reads: words. Writes: what is before the fluid, behind it, and that by how far.
+
+#include "frame.glsl"
+#include "falloff.glsl"
+#include "diffuse.glsl"
+#include "diffuse_words.glsl"
+#include "diffuse_quad.glsl"
+
+layout(location = 0) out vec4 shares;
+
+void main() {
+    Met m = meet();
+    float amount = diffuse_amount(m.p, m.f, m.rr);
+    vec3 all = diffuse_shares(amount, m.depth, uintBitsToFloat(words[m.at + FLUID]));
+    // Whole steps, as of compute: up to 256 their sums are exact in any order.
+    shares = vec4(floor(all * STEPS + 0.5) / STEPS, 0.0);
+}

@@ -1,0 +1,41 @@
+// A diffuse particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, diffuse.glsl, diffuse_words.glsl.
+// Reads: words.
+
+layout(set = 0, binding = 6, std430) readonly buffer Words { uint words[]; };
+
+layout(location = 0) flat in vec4 sprite;
+layout(location = 1) flat in vec4 footprint;
+layout(location = 2) flat in vec2 parts;
+
+struct Met {
+    Diffuse p;
+    Footprint f;
+    uint at;     // words of the pixel
+    vec3 normal; // eye space
+    float rr;    // square of the distance from the middle
+    float depth;
+};
+
+// Discards where it is not seen.
+Met meet() {
+    Met m;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    m.p.centre = vec3(0.0, 0.0, -sprite.x);
+    m.p.radius = sprite.y;
+    m.p.life = sprite.z;
+    m.p.kind = uint(sprite.w);
+    m.f.middle = footprint.xy;
+    m.f.reach = footprint.zw;
+    m.f.own = parts.x;
+    m.f.even = parts.y;
+    vec2 place;
+    m.rr = diffuse_place(m.f, pixel, place);
+    float w = sqrt(max(1.0 - m.rr, 0.0));
+    m.normal = vec3(place, w);
+    m.depth = sprite.x - w * sprite.y;
+    m.at = words_of(pixel);
+    if (!(m.rr < 1.0) || !(floatBitsToUint(m.depth) < words[m.at + SCENE])) {
+        discard;
+    }
+    return m;
+}

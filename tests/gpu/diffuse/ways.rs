@@ -1,0 +1,191 @@
+//! The ways to draw diffuse particles: alike, for streams of any shape, after changes, in stated memory.
+
+use ash::vk;
+use whitewater::foam::{DiffuseConfig, Occlusion as Occluding, Splat};
+use whitewater::{Config, Count, DiffuseParticles, Renderer};
+
+use super::{Diffuse, SIZE, by, diffusing, ways};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent, stream};
+use crate::support::scenes::{self, LENSES, Lens};
+
+/// All ways leave the same.
+#[test]
+fn all_ways_are_the_same() {
+    let gpu = Gpu::shared();
+    for lens in LENSES {
+        let cloud = Diffuse::new(lens);
+        let draw = |way| cloud.draw(&mut Rig::lit(&gpu, &by(way, SIZE), 1));
+        let expected = draw(Splat::Compute);
+        for way in ways(&gpu) {
+            same(way, &draw(way), &expected);
+        }
+    }
+}
+
+/// To the last bit.
+fn same(way: Splat, found: &Drawn, expected: &Drawn) {
+    compare::same_color(&format!("diffuse-{way:?}"), &found.output, &expected.output);
+    let [found, expected] = [found, expected].map(|drawn| drawn.diffuse.as_ref().expect("foam"));
+    for (name, found, expected) in [
+        ("occluders", &found.occluders, &expected.occluders),
+        ("thickness", &found.thickness, &expected.thickness),
+        ("normal", &found.normal, &expected.normal),
+    ] {
+        compare::same_color(&format!("diffuse-{way:?}-{name}"), found, expected);
+    }
+}
+
+/// Of two spheres that meet a pixel at the same depth, to the left and to the right of its middle, compute takes the same
+/// one in any order.
+#[test]
+fn the_frontmost_of_equals_is_the_same() {
+    let gpu = Gpu::shared();
+    let mut cloud = Diffuse::new(Lens::Standard);
+    cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &[]);
+    let (depth, scale) = (6.0_f32, cloud.shot.camera.projection);
+    let middle = |i: u32, n: u32, scale: f32| ((2 * i + 1) as f32 / n as f32 - 1.0) / scale;
+    let radius = 1.5 * depth / (0.5 * SIZE.height as f32) / scale.y_axis.y.abs();
+    let grid = || {
+        (4..SIZE.width - 4)
+            .step_by(4)
+            .flat_map(|x| (4..SIZE.height - 4).step_by(4).map(move |y| (x, y)))
+    };
+    // All of one side, and then all of the other: neighbours may be drawn at a time.
+    let points: Vec<_> = [-0.1, 0.1]
+        .into_iter()
+        .flat_map(|aside| grid().map(move |(x, y)| (x, y, aside * radius)))
+        .map(|(x, y, aside)| {
+            let x = middle(x, SIZE.width, scale.x_axis.x) * depth + aside;
+            [x, middle(y, SIZE.height, scale.y_axis.y) * depth, depth]
+        })
+        .collect();
+    let count = points.len();
+    let at = |points: &[[f32; 3]]| Diffuse {
+        positions: scenes::world(&cloud.shot.camera, points),
+        kinds: vec![0; count],
+        radii: Some(vec![radius; count]),
+        ages: vec![0.0; count],
+        ids: Some(vec![0; count]),
+        ..cloud.clone()
+    };
+    let turned: Vec<_> = points.iter().rev().copied().collect();
+    let draw = |way, points: &[[f32; 3]]| at(points).draw(&mut Rig::lit(&gpu, &by(way, SIZE), 1));
+    let expected = draw(Splat::Compute, &points);
+    for way in ways(&gpu).into_iter().filter(|way| *way != Splat::Raster) {
+        for points in [&points, &turned] {
+            same(way, &draw(way, points), &expected);
+        }
+    }
+    // By quads the first of them is, which tells that there were some.
+    let [one, other] = [&points, &turned].map(|points| draw(Splat::Raster, points));
+    let normals = [one, other].map(|drawn| drawn.diffuse.expect("foam").normal.data);
+    let equals = normals[0].iter().zip(&normals[1]).filter(|(a, b)| a != b).count();
+    assert!(equals > 100, "{equals} pixels with two at one depth");
+}
+
+/// The same particles in other buffers.
+#[test]
+fn streams_of_any_shape_are_the_same() {
+    let gpu = Gpu::shared();
+    for way in ways(&gpu) {
+        streams_of_any_shape_by(&gpu, way);
+    }
+}
+
+fn streams_of_any_shape_by(gpu: &Gpu, way: Splat) {
+    let cloud = Diffuse::new(Lens::Standard);
+    let mut rig = Rig::lit(gpu, &by(way, SIZE), 1);
+    let nameless = Diffuse { ids: None, ..cloud.clone() };
+    let expected = [&cloud, &nameless].map(|cloud| cloud.draw(&mut rig));
+    // A record has them all: 48 bytes, behind 20 of something else; a chunk holds a part of them.
+    let range = u64::from(gpu.limits().max_storage_buffer_range);
+    let strides = [48, (range / 150).next_multiple_of(4).min(1 << 20) as u32];
+    let [whole, chunked] = strides;
+    for (stride, counted, named) in
+        [(whole, false, true), (whole, true, true), (chunked, true, true), (chunked, false, false)]
+    {
+        let occlusion = Occluding::Reference;
+        let splat = Some(way);
+        let diffuse =
+            DiffuseConfig { max_stride: stride, splat, occlusion, ..DiffuseConfig::new(500) };
+        let mut rig = Rig::lit(gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+        let count = cloud.positions.len();
+        let mut bytes = vec![0xa5_u8; 20 + stride as usize * count];
+        for (i, record) in bytes[20..].chunks_exact_mut(stride as usize).enumerate() {
+            record[..12].copy_from_slice(bytemuck::bytes_of(&cloud.positions[i]));
+            record[12..16].copy_from_slice(&cloud.kinds[i].to_ne_bytes());
+            let (radii, ids) = (cloud.radii.as_ref(), cloud.ids.as_ref());
+            record[16..20].copy_from_slice(&radii.expect("radii")[i].to_ne_bytes());
+            record[20..24].copy_from_slice(&cloud.ages[i].to_ne_bytes());
+            record[24..28].copy_from_slice(&ids.expect("ids")[i].to_ne_bytes());
+        }
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let data = rig.stub.data(&bytes, usage);
+        let number = rig.stub.data(&(count as u32).to_ne_bytes(), usage);
+        let at = |offset: u64| stream(&data, 20 + offset, stride);
+        let count = if counted {
+            Count::Gpu { buffer: number.buffer, offset: 0 }
+        } else {
+            Count::Cpu(count as u32)
+        };
+        let particles = DiffuseParticles {
+            kinds: Some(at(12)),
+            radii: Some(at(16)),
+            ages: Some(at(20)),
+            ids: named.then(|| at(24)),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..DiffuseParticles::new(at(0), count)
+        };
+        let water = rig.particles(&cloud.shot);
+        let drawn = rig.draw_diffuse(&cloud.shot, &water.particles(), Some(particles));
+        let name = format!("diffuse-stride-{way:?}-{stride}-{counted}");
+        let expected = &expected[usize::from(!named)];
+        compare::same_color(&name, &drawn.output, &expected.output);
+    }
+}
+
+#[test]
+fn size_and_configuration_change() {
+    let gpu = Gpu::shared();
+    let cloud = Diffuse::new(Lens::Standard);
+    for way in ways(&gpu) {
+        let mut rig = Rig::lit(&gpu, &by(way, extent(200, 100)), 1);
+        let expected = cloud.draw(&mut Rig::lit(&gpu, &by(way, SIZE), 1)).output;
+        rig.resize(extent(1, 1));
+        rig.resize(SIZE);
+        compare::same_color("diffuse-resized", &cloud.draw(&mut rig).output, &expected);
+        rig.renderer().reconfigure(&config(SIZE)).expect("reconfigure");
+        rig.renderer().reconfigure(&by(way, SIZE)).expect("reconfigure");
+        compare::same_color("diffuse-again", &cloud.draw(&mut rig).output, &expected);
+    }
+}
+
+#[test]
+fn memory_is_by_the_pixel() {
+    let gpu = Gpu::shared();
+    let of = |most, way| {
+        let size = extent(1280, 720);
+        let diffuse = DiffuseConfig { splat: Some(way), ..DiffuseConfig::new(most) };
+        let diffuse = (most > 1).then_some(diffuse);
+        // SAFETY: live handles.
+        let renderer = unsafe { Renderer::new(&gpu.host(1), &Config { diffuse, ..config(size) }) };
+        let renderer = renderer.expect("a renderer");
+        let memory = renderer.memory();
+        // SAFETY: nothing was recorded.
+        unsafe { renderer.destroy() };
+        (memory.images + memory.buffers) as f64
+    };
+    let without = of(1, Splat::Compute);
+    for way in ways(&gpu) {
+        let a_pixel = if way == Splat::Raster { 100.0 } else { 88.0 };
+        let said = a_pixel * 1280.0 * 720.0;
+        for most in [2, 30_000_000] {
+            let found = of(most, way) - without;
+            assert!((found - said).abs() < 0.01 * said + 128.0 * 1024.0, "{way:?} {most}: {found}");
+        }
+    }
+}
