@@ -212,7 +212,7 @@ impl Renderer {
         let diffuse = self.foam.as_ref().map(|foam| (foam, frame.diffuse.as_ref()));
         self.water.record(&mut r, &frame.particles, self.light.as_ref(), diffuse)?;
         if let Some(foam) = &self.foam {
-            foam.record_radiance(&mut r, &self.environment)?;
+            foam.record_radiance(&mut r, &self.environment, &self.water.layers())?;
         }
         let scene_color = match (&self.scene_copy, &self.light) {
             (_, Some(light)) => {

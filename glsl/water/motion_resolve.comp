@@ -15,9 +15,9 @@ layout(push_constant, std430) uniform Push { uint level; } push;
 #include "motion.glsl"
 #include "foam_texels.glsl"
 #include "shown_foam.glsl"
+#include "smoothed_depth.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
-layout(set = 0, binding = 5) uniform sampler2D smoothed;
 // Of a format that shaders may only be told of by a feature: written without being told.
 layout(set = 0, binding = 8) uniform writeonly image2D motion;
 
@@ -85,25 +85,6 @@ vec3 moved_at(vec2 pixel, float z) {
         least = min(least, away);
     }
     return sum.w > 0.0 ? sum.xyz / sum.w : vec3(0.0);
-}
-
-// Depth of the smoothed surface that a pixel's own depth lies on: the mean of the texels of it.
-float smoothed_at(vec2 pixel, float front) {
-    Level level = levels.level[finer_level()];
-    vec2 h = pixel / level.texel.z - 0.5;
-    ivec2 base = ivec2(floor(h));
-    vec2 f = h - vec2(base);
-    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-    float sum = 0.0;
-    float all = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), level.rect.zw - 1);
-        float off = texelFetch(smoothed, level.rect.xy + texel, 0).x - front;
-        bool own = abs(off) <= frame.surface.w;
-        sum += own ? w[i] * off : 0.0;
-        all += own ? w[i] : 0.0;
-    }
-    return all > 0.0 ? front + sum / all : front;
 }
 
 void main() {

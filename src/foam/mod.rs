@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
-use crate::water::Recording;
+use crate::water::{Recording, WaterLayers};
 pub use generate::{GenerateConfig, GenerateSettings, Generator, Limits};
 pub use settings::{
     DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion, Reach, Splat, Submerged,
@@ -59,8 +59,10 @@ impl Foam {
         &self,
         r: &mut Recording<'_>,
         environment: &Environment,
+        water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
-        self.radiance.record(r, &self.sprites, environment)
+        let smoothed = radiance::Smoothed { image: water.smoothed, levels: water.level.resource() };
+        self.radiance.record(r, &self.sprites, environment, smoothed)
     }
 
     /// How the host's streams are read.

@@ -14,7 +14,9 @@ use crate::contract::Config;
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::gpu::access::{self, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ};
+use crate::gpu::access::{
+    self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED,
+};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
@@ -47,8 +49,16 @@ fn points() -> Vec<[f32; 4]> {
     inside.take(MOST_SAMPLES).collect()
 }
 
+/// The smoothed surface of the water, as the fragments of `composite` take it.
+#[derive(Clone, Copy)]
+pub struct Smoothed<'a> {
+    pub image: &'a Image,
+    pub levels: Resource,
+}
+
 /// The passes.
 pub struct Radiance {
+    surface: Pipeline,
     gather: Pipeline,
     blur: Pipeline,
     points: Buffer,
@@ -73,6 +83,7 @@ impl Radiance {
         )?;
         buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
         Ok(Self {
+            surface: Pipeline::compute(gpu, shader::FOAM_SURFACE_COMP, &[])?,
             gather: Pipeline::compute(gpu, shader::FOAM_RADIANCE_COMP, &constants)?,
             blur: Pipeline::compute(gpu, shader::FOAM_BLUR_COMP, &[])?,
             points: buffer,
@@ -113,6 +124,7 @@ impl Radiance {
         r: &mut Recording<'_>,
         sprites: &Sprites,
         environment: &Environment,
+        smoothed: Smoothed<'_>,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [image, half] = &self.images;
@@ -120,8 +132,33 @@ impl Radiance {
         let linear = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
         let (occluders, normals) = (sampled(sprites.occluders()), sampled(sprites.normal()));
         let scope = r.begin(c"radiance");
+        let both = COMPUTE_READ_WRITE;
         let before = AFTER.and(COPY_READ).discarded();
-        gpu.barriers(cmd, &[access::image(image, before, COMPUTE_WRITE)], &[]);
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(smoothed.image, FRAGMENT_SAMPLED, COMPUTE_SAMPLED),
+                access::image(sprites.occluders(), AFTER, both),
+                access::image(image, before, COMPUTE_WRITE),
+            ],
+            &[],
+        );
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::storage(sprites.occluders())),
+            (5, sampled(smoothed.image)),
+            (7, smoothed.levels),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.surface, &resources)?;
+        r.dispatch_over(r.extent, self.surface.local_size);
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(smoothed.image, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
+                access::image(sprites.occluders(), both, AFTER),
+            ],
+            &[],
+        );
         let [shadow, thickness, basis, span] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),

@@ -311,9 +311,13 @@ fn moved_at(
     Some(if any { sum.mean() } else { (DVec3::ZERO, 0.0) })
 }
 
-/// Depth of the smoothed surface in a pixel.
-fn smoothed_at(shown: &Shown<'_>, (x, y): (usize, usize), front: f32, falloff: f32) -> f64 {
-    let (surface, edge) = shown.surface;
+/// Depth of the smoothed surface in a pixel, of its image and the pixels a texel of that is wide.
+pub fn smoothed_at(
+    (surface, edge): (&Image<f32>, usize),
+    (x, y): (usize, usize),
+    front: f32,
+    falloff: f32,
+) -> f64 {
     let at = (DVec2::new(x as f64, y as f64) + 0.5) / edge as f64;
     let (mut sum, mut all) = (0.0, 0.0);
     for (x, y, weight) in surface.bilinear(at) {
@@ -400,7 +404,7 @@ pub fn motion(
         let water = shown.depth.at(x, y);
         let z = match foam_at(x, y) < water {
             true => f64::from(front),
-            false => smoothed_at(shown, (x, y), water, settings.falloff),
+            false => smoothed_at(shown.surface, (x, y), water, settings.falloff),
         };
         vector(view, then, (x, y), off(z, 4.0), moved)
     })

@@ -14,7 +14,7 @@ use crate::light::even as mask;
 use crate::reference::diffuse::{
     self, Attenuation, Kind, Layers, Occlusion, Particle, Seen, foam_bounds,
 };
-use crate::reference::{EMPTY, Image};
+use crate::reference::{EMPTY, Image, motion};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
@@ -188,17 +188,11 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
         }
         let drawn = cloud.draw(rig);
         let foam = drawn.diffuse.expect("diffuse particles");
-        let fluid = channel(&foam.occluders, 2);
-        compare::same("diffuse-fluid", &fluid, &drawn.depth);
+        let fluid = &drawn.depth;
         let view = cloud.shot.view(SIZE);
         let scene = cloud.shot.scene_at(SIZE, 0);
-        let bounds = foam_bounds(
-            &cloud.particles(),
-            &view,
-            &cloud.twin_settings(),
-            &scene,
-            &doubles(&fluid),
-        );
+        let bounds =
+            foam_bounds(&cloud.particles(), &view, &cloud.twin_settings(), &scene, &doubles(fluid));
         compare::between("diffuse-depth", &channel(&foam.occluders, 0), &bounds.depth);
         for (i, sum) in bounds.sums.iter().enumerate() {
             compare::between(&format!("diffuse-sum-{i}"), &channel(&foam.thickness, i), sum);
@@ -221,6 +215,39 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
             }
         }
         assert!(told > 300, "{lens:?}: {told} pixels can tell");
+    }
+}
+
+/// The fluid that shades foam is the smoothed surface where there is one near the spheres, in near views too.
+#[test]
+fn the_fluid_round_foam_is_smooth() {
+    let gpu = Gpu::shared();
+    for (lens, smoothing_level) in [(Lens::Standard, 1), (Lens::OffAxis, 0), (Lens::Reversed, 2)] {
+        let config = Config { smoothing_level, max_particles: 20_000, ..diffusing(SIZE) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut cloud = Diffuse::new(lens);
+        let block = scenes::block(3, 0.2, [30, 20, 4], [-3.0, -2.0, 4.0]);
+        cloud.shot.positions = scenes::world(&cloud.shot.camera, &block);
+        let drawn = cloud.draw(&mut rig);
+        let fluid = channel(&drawn.diffuse.as_ref().expect("diffuse particles").occluders, 2);
+        let surface = (&drawn.surface, drawn.levels.finer().texel[2] as usize);
+        let falloff = cloud.shot.falloff();
+        let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
+            let sphere = drawn.depth.at(x, y);
+            if f64::from(sphere) >= EMPTY {
+                return f64::from(sphere);
+            }
+            motion::smoothed_at(surface, (x, y), sphere, falloff)
+        });
+        let off = |(smooth, sphere): (&f64, &f32)| (smooth - f64::from(*sphere)).abs();
+        let moved = expected.data.iter().zip(&drawn.depth.data).map(off).filter(|off| *off > 0.01);
+        let moved = moved.count();
+        // Weights and a mean of four: 8 roundings of what is at most the falloff, and one of the depth.
+        let ulp = f64::from(f32::EPSILON);
+        compare::close("diffuse-fluid", &fluid, &expected, 0, |_, _, v| {
+            8.0 * ulp * f64::from(falloff) + ulp * v
+        });
+        assert!(moved > 500, "{lens:?}: {moved} pixels moved by the smoothing");
     }
 }
 

@@ -1,0 +1,23 @@
+// The smoothed water surface's depth in a pixel, where no more is asked for. Needs frame.glsl, level.glsl.
+// Reads: smoothed.
+
+layout(set = 0, binding = 5) uniform sampler2D smoothed;
+
+// Depth of the smoothed surface that a pixel's own depth lies on: the mean of the texels of it.
+float smoothed_at(vec2 pixel, float front) {
+    Level level = levels.level[finer_level()];
+    vec2 h = pixel / level.texel.z - 0.5;
+    ivec2 base = ivec2(floor(h));
+    vec2 f = h - vec2(base);
+    vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+    float sum = 0.0;
+    float all = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), level.rect.zw - 1);
+        float off = texelFetch(smoothed, level.rect.xy + texel, 0).x - front;
+        bool own = abs(off) <= frame.surface.w;
+        sum += own ? w[i] * off : 0.0;
+        all += own ? w[i] : 0.0;
+    }
+    return all > 0.0 ? front + sum / all : front;
+}
