@@ -42,7 +42,9 @@ pub fn frame(
         ("Frame.scene_color.before", &frame.scene_color),
         ("Frame.scene_depth.before", &frame.scene_depth),
     ];
-    for (field, image) in images.into_iter().chain(shadow) {
+    let fluid = frame.diffuse.as_ref().and_then(|diffuse| diffuse.fluid_depth.as_ref());
+    let fluid = fluid.map(|image| ("Frame.diffuse.fluid_depth.before", image));
+    for (field, image) in images.into_iter().chain(shadow).chain(fluid) {
         if image.before.layout == vk::ImageLayout::UNDEFINED {
             return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
         }
@@ -81,7 +83,7 @@ pub fn frame(
     }
     particles(&frame.particles, config, limits)?;
     if let Some(particles) = &frame.diffuse {
-        diffuse(particles, config, limits)?;
+        diffuse(frame, particles, config, limits)?;
     }
     sun(frame, config)?;
     previous(frame, config)?;
@@ -129,6 +131,7 @@ fn particles(
 }
 
 fn diffuse(
+    frame: &Frame<'_>,
     particles: &DiffuseParticles,
     config: &Config,
     limits: &vk::PhysicalDeviceLimits,
@@ -140,6 +143,12 @@ fn diffuse(
     let most = ("Config.diffuse.max_particles", config.max_particles);
     let count = count(fields, particles.count, most, limits)?;
     let most = ("Config.diffuse.max_stride", config.max_stride);
+    if particles.fluid_depth.is_some_and(|image| image.image == frame.scene_depth.image) {
+        return Err(Error::bad(
+            "Frame.diffuse.fluid_depth",
+            "is the scene's depth: another image expected",
+        ));
+    }
     particles.positions.check("Frame.diffuse.positions", 12, count, most)?;
     let others = [
         ("Frame.diffuse.kinds", &particles.kinds),

@@ -351,6 +351,11 @@ pub struct DiffuseParticles {
     pub ids: Option<Stream>,
     /// How many.
     pub count: Count,
+    /// Depth of a fluid surface of the host's own, a sea say, in the camera's convention; the nearer of it and the
+    /// water's counts. Any size, only sampled by compute, another image than the scene's depth. What lies behind it is
+    /// seen with [`Submerged::Falloff`](crate::foam::Submerged::Falloff) alone: of the host's water nothing is known.
+    /// `None`: the water's surface is the only one.
+    pub fluid_depth: Option<HostImage>,
     /// Last use of all these buffers before `record` (layout ignored).
     pub before: Access,
     /// First use of them after `record` (layout ignored).
@@ -367,6 +372,7 @@ impl DiffuseParticles {
             ages: None,
             ids: None,
             count,
+            fluid_depth: None,
             before: crate::gpu::access::NOTHING,
             after: crate::gpu::access::NOTHING,
         }

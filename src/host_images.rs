@@ -64,6 +64,12 @@ fn shadow_use(image: &HostImage, convolved: bool) -> Access {
     Access { layout: depth_layout(image), ..sampled }
 }
 
+/// The host's own fluid surface.
+fn fluid<'a>(frame: &'a Frame<'_>) -> Option<(&'a HostImage, Access)> {
+    let image = frame.diffuse.as_ref()?.fluid_depth.as_ref()?;
+    Some((image, Access { layout: depth_layout(image), ..access::COMPUTE_SAMPLED }))
+}
+
 /// The host's shadow map or mask.
 pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
     let layout = depth_layout(&shadow.image);
@@ -97,6 +103,7 @@ pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     }
     let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
     all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
+    all.extend(fluid(frame).map(|(image, used)| barrier(image, used)));
     all
 }
 
@@ -111,5 +118,6 @@ pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     }
     let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
     all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
+    all.extend(fluid(frame).map(|(image, used)| barrier(image, used)));
     all
 }

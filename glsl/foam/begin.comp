@@ -1,7 +1,7 @@
 #version 460
 // Pass `splat`, first part: nothing in any pixel but the depths of scene and fluid, which particles ask for many
 // times (Akinci et al. 2013, passes 1 and 2); the dispatches that the particles need.
-// Reads: scene depth, water depth, count. Writes: words, arguments.
+// Reads: scene depth, water depth, the host's fluid's, count. Writes: words, arguments.
 
 #include "frame.glsl"
 #include "diffuse_words.glsl"
@@ -14,7 +14,13 @@ layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
 // Of each chunk its groups, or the corners and instances of its quads; and its particles.
 layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
+// The host's own fluid, in the camera's convention.
+layout(set = 0, binding = 6) uniform sampler2D fluid_depth;
+
 layout(push_constant, std430) uniform Push {
+    vec4 fluid_at;   // its texels a pixel, of none 0, and the first of them
+    ivec2 fluid_end; // after the last
+
     uint count;      // from the host, or the most there may be
     uint from_gpu;
     uint chunks;
@@ -37,6 +43,11 @@ void main() {
         float fluid = texelFetch(water_depth, pixel, 0).x;
         // Reversed infinite depth at infinity: 1/0, or negative by rounding.
         scene = scene > 0.0 ? min(scene, EMPTY) : EMPTY;
+        if (push.fluid_at.x > 0.0) {
+            ivec2 texel = ivec2((vec2(pixel) + 0.5) * push.fluid_at.xy + push.fluid_at.zw);
+            float host = eye_depth(texelFetch(fluid_depth, min(texel, push.fluid_end - 1), 0).x);
+            fluid = min(fluid, host > 0.0 ? host : EMPTY);
+        }
         uint at = words_of(pixel);
         words[at + FRONT] = floatBitsToUint(scene);
         words[at + WITH] = 0xffffffffu;

@@ -2,7 +2,7 @@
 // Pass `radiance`, first part: the fluid that stands round foam is the smoothed surface, not its spheres, whose bumps
 // would shade it. Particles were told by the spheres, which are there before the smoothing and its tiles are.
 // Not in the source, whose fluid surface is a host's.
-// Reads: smoothed, levels, foam depth and intensity beside the depths of fluid and scene. Writes: these.
+// Reads: depth, smoothed, levels, foam depth and intensity beside the depths of fluid and scene. Writes: these.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -10,6 +10,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 1, rgba32f) uniform image2D occluders;
+layout(set = 0, binding = 2) uniform sampler2D depth;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -17,7 +18,8 @@ void main() {
         return;
     }
     vec4 there = imageLoad(occluders, pixel);
-    if (there.z < EMPTY) {
+    // A fluid of the host's is as it is.
+    if (there.z < EMPTY && there.z == texelFetch(depth, pixel, 0).x) {
         there.z = smoothed_at(vec2(pixel) + 0.5, there.z);
         imageStore(occluders, pixel, there);
     }

@@ -61,8 +61,9 @@ impl Foam {
         environment: &Environment,
         water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
-        let smoothed = radiance::Smoothed { image: water.smoothed, levels: water.level.resource() };
-        self.radiance.record(r, &self.sprites, environment, smoothed)
+        let WaterLayers { depth, smoothed, level, .. } = *water;
+        let surface = radiance::Surface { depth, smoothed, levels: level.resource() };
+        self.radiance.record(r, &self.sprites, environment, surface)
     }
 
     /// How the host's streams are read.

@@ -49,10 +49,11 @@ fn points() -> Vec<[f32; 4]> {
     inside.take(MOST_SAMPLES).collect()
 }
 
-/// The smoothed surface of the water, as the fragments of `composite` take it.
+/// The surface of the water, as the fragments of `composite` take it.
 #[derive(Clone, Copy)]
-pub struct Smoothed<'a> {
-    pub image: &'a Image,
+pub struct Surface<'a> {
+    pub depth: &'a Image,
+    pub smoothed: &'a Image,
     pub levels: Resource,
 }
 
@@ -124,7 +125,7 @@ impl Radiance {
         r: &mut Recording<'_>,
         sprites: &Sprites,
         environment: &Environment,
-        smoothed: Smoothed<'_>,
+        water: Surface<'_>,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [image, half] = &self.images;
@@ -134,10 +135,14 @@ impl Radiance {
         let scope = r.begin(c"radiance");
         let both = COMPUTE_READ_WRITE;
         let before = AFTER.and(COPY_READ).discarded();
+        let hand =
+            |from, to| [water.depth, water.smoothed].map(|image| access::image(image, from, to));
+        let [depth, smoothed] = hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED);
         gpu.barriers(
             cmd,
             &[
-                access::image(smoothed.image, FRAGMENT_SAMPLED, COMPUTE_SAMPLED),
+                depth,
+                smoothed,
                 access::image(sprites.occluders(), AFTER, both),
                 access::image(image, before, COMPUTE_WRITE),
             ],
@@ -146,19 +151,14 @@ impl Radiance {
         let resources = [
             (0, r.uniforms),
             (1, Resource::storage(sprites.occluders())),
-            (5, sampled(smoothed.image)),
-            (7, smoothed.levels),
+            (2, sampled(water.depth)),
+            (5, sampled(water.smoothed)),
+            (7, water.levels),
         ];
         r.descriptors.bind(gpu, cmd, &self.surface, &resources)?;
         r.dispatch_over(r.extent, self.surface.local_size);
-        gpu.barriers(
-            cmd,
-            &[
-                access::image(smoothed.image, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
-                access::image(sprites.occluders(), both, AFTER),
-            ],
-            &[],
-        );
+        let [depth, smoothed] = hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED);
+        gpu.barriers(cmd, &[depth, smoothed, access::image(sprites.occluders(), both, AFTER)], &[]);
         let [shadow, thickness, basis, span] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),

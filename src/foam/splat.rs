@@ -26,6 +26,7 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
+use crate::host_images::depth_layout;
 use crate::water::{Recording, Window, capacity, each_once};
 
 /// Bytes of a pixel's words (glsl/include/diffuse_words.glsl).
@@ -39,6 +40,8 @@ pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
 struct BeginPush {
+    fluid_at: [f32; 4],
+    fluid_end: [i32; 2],
     count: u32,
     from_gpu: u32,
     chunks: u32,
@@ -48,7 +51,7 @@ struct BeginPush {
 shader::assert_layout!(
     shader::FOAM_BEGIN_COMP,
     "Push",
-    BeginPush { count, from_gpu, chunks, chunk_size, group_size }
+    BeginPush { fluid_at, fluid_end, count, from_gpu, chunks, chunk_size, group_size }
 );
 
 #[repr(C)]
@@ -378,6 +381,17 @@ impl Sprites {
             Some(Count::Cpu(count)) => (count.min(most), false, unread),
             None => (0, false, unread),
         };
+        let fluid = particles.and_then(|particles| particles.fluid_depth.as_ref());
+        let fluid_at = fluid.map_or([0.0; 4], |image| {
+            let vk::Rect2D { offset, extent } = image.rect;
+            let width = extent.width as f32 / r.extent.width as f32;
+            let height = extent.height as f32 / r.extent.height as f32;
+            [width, height, offset.x as f32, offset.y as f32]
+        });
+        let fluid_end = fluid.map_or([0; 2], |image| {
+            let vk::Rect2D { offset, extent } = image.rect;
+            [offset.x + extent.width as i32, offset.y + extent.height as i32]
+        });
         let resources = [
             (0, r.uniforms),
             (1, Resource::buffer(&self.targets.words)),
@@ -385,12 +399,22 @@ impl Sprites {
             (3, Resource::Sampled(water.view, gpu.samplers.nearest)),
             (4, host_count),
             (5, Resource::buffer(&self.arguments)),
+            // Where there is none it is not read.
+            (
+                6,
+                fluid.map_or(r.scene_depth, |image| {
+                    let layout = depth_layout(image);
+                    Resource::SampledIn(image.view, gpu.samplers.nearest, layout)
+                }),
+            ),
         ];
         r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
         self.begin.push(
             gpu,
             cmd,
             &BeginPush {
+                fluid_at,
+                fluid_end,
                 count,
                 from_gpu: u32::from(from_gpu),
                 chunks: self.chunks,

@@ -115,18 +115,19 @@ impl Headless {
         Ok(bytemuck::cast_slice(&words).to_vec())
     }
 
-    /// How many diffuse particles are shown, after the last [`generate`](Self::generate).
+    /// How many diffuse particles are shown, after the last [`generate`](Self::generate), and how many were never made
+    /// for want of room, in all.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
-    pub fn generated_count(&mut self) -> Result<u32, Error> {
+    pub fn generated_count(&mut self) -> Result<(u32, u32), Error> {
         let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
-            return Ok(0);
+            return Ok((0, 0));
         };
         let counts = generating.generator.counts();
         let counts = self.read_buffer(counts, 24)?;
         let [high, free, made] = [counts[0], counts[3], counts[4]];
-        Ok(high - free.saturating_sub(made))
+        Ok((high - free.saturating_sub(made), counts[5]))
     }
 
     /// The diffuse particles that are shown, after the last [`generate`](Self::generate).

@@ -8,7 +8,7 @@ use whitewater::foam::{
     DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion as Occluding, Reach, Splat, Submerged,
 };
 use whitewater::water::{Shading, Shadows};
-use whitewater::{Config, Count, DiffuseParticles, Region, Renderer, Settings};
+use whitewater::{Config, Count, DiffuseParticles, HostImage, Region, Renderer, Settings};
 
 use crate::light::even as mask;
 use crate::reference::diffuse::{
@@ -58,6 +58,8 @@ struct Diffuse {
     radii: Option<Vec<f32>>,
     ages: Vec<f32>,
     ids: Option<Vec<u32>>,
+    /// Its scene is a fluid of the host's.
+    fluid: Option<Shot>,
 }
 
 impl Diffuse {
@@ -82,6 +84,7 @@ impl Diffuse {
             radii: Some((0..count).map(|i| radius(i, &mut random)).collect()),
             ages: (0..count).map(|_| random.between(-0.1, 1.1)).collect(),
             ids: Some((0..count).map(|_| random.bits() as u32).collect()),
+            fluid: None,
         }
     }
 
@@ -95,7 +98,12 @@ impl Diffuse {
         let ages = data(bytemuck::cast_slice(&self.ages));
         let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
         let count = Count::Cpu(self.positions.len() as u32);
+        let fluid = self.fluid.as_ref().map(|shot| (rig.scene(shot).1, shot));
         let particles = DiffuseParticles {
+            fluid_depth: fluid.as_ref().map(|(texture, shot)| HostImage {
+                rect: shot.with_margin(shot.depth_extent).1,
+                ..texture.host_image()
+            }),
             kinds: Some(stream(&kinds, 0, 4)),
             radii: radii.as_ref().map(|all| stream(all, 0, 4)),
             ages: Some(stream(&ages, 0, 4)),
@@ -248,6 +256,57 @@ fn the_fluid_round_foam_is_smooth() {
             8.0 * ulp * f64::from(falloff) + ulp * v
         });
         assert!(moved > 500, "{lens:?}: {moved} pixels moved by the smoothing");
+    }
+}
+
+/// A fluid of the host's, of another size than the frame and a part of its image, is the surface that foam is before or
+/// behind; the nearer one where there is water of ours too.
+#[test]
+fn foam_is_told_by_a_fluid_of_the_hosts() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    for lens in LENSES {
+        let mut cloud = Diffuse::new(lens);
+        cloud.shot.settings.diffuse.submerged = Submerged::Falloff { most: 1.5, n: 2.0, m: 4.0 };
+        let mut sea = cloud.shot.clone();
+        (sea.depth_extent, sea.margin) = (extent(40, 50), [3, 0, 5, 2]);
+        sea.scene_depth(|x, y| (y > 9).then_some(4.0 + 0.02 * f64::from(x) + 0.05 * f64::from(y)));
+        let both = Diffuse { fluid: Some(sea.clone()), ..cloud.clone() }.draw(&mut rig);
+        let nearest = channel(&both.diffuse.as_ref().expect("diffuse particles").occluders, 2);
+        cloud.shot.positions.clear();
+        cloud.fluid = Some(sea.clone());
+        let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+        let view = cloud.shot.view(SIZE);
+        let (fluid, scene) = (channel(&foam.occluders, 2), cloud.shot.scene_at(SIZE, 0));
+        let (sea, falloff) = (sea.scene_at(SIZE, 0), f64::from(cloud.shot.falloff()));
+        let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
+            if sea.at(x, y) < scene.at(x, y) { sea.at(x, y).min(EMPTY) } else { EMPTY }
+        });
+        // A depth is the inverse of a sum of two terms, each rounded, that is 1 at the near plane.
+        let off = |v: f64| 4.0 * f64::from(f32::EPSILON) * v * (1.0 + v / view.near());
+        let most = |_, _, v: f64| if v < EMPTY { off(v) } else { 0.0 };
+        compare::close("diffuse-host", &fluid, &expected, 0, most);
+        let hosts = expected.data.iter().filter(|v| **v < EMPTY).count();
+        let mut ours = 0;
+        for (i, sphere) in both.depth.data.iter().map(|v| f64::from(*v)).enumerate() {
+            let (found, host) = (f64::from(nearest.data[i]), f64::from(fluid.data[i]));
+            // The nearer of both, where the smoothing can't turn them round.
+            if (sphere - host).abs() > 2.0 * falloff {
+                assert!(
+                    (found < host) == (sphere < host),
+                    "{lens:?}: {found} of {sphere} and {host}"
+                );
+                ours += usize::from(sphere < host);
+            }
+        }
+        assert!(ours > 200, "{lens:?}: {ours} pixels with water of ours");
+        assert!(hosts > 1000, "{lens:?}: {hosts} pixels with the host's fluid");
+        let settings = cloud.twin_settings();
+        let bounds = foam_bounds(&cloud.particles(), &view, &settings, &scene, &doubles(&fluid));
+        for (i, sum) in bounds.sums.iter().enumerate() {
+            let name = format!("diffuse-host-sum-{i}");
+            compare::between(&name, &channel(&foam.thickness, i), sum);
+        }
     }
 }
 
@@ -492,6 +551,7 @@ fn bubbles_lie_under_the_water() {
             radii: Some(vec![0.2; count]),
             ages: vec![0.0; count],
             ids: Some(vec![0; count]),
+            fluid: None,
         }
         .draw(rig)
     };
@@ -608,6 +668,11 @@ fn mistakes_are_named() {
         let error = rig.refused(&cloud.shot, Some(particles));
         assert!(error.contains(field), "{field}: {error}");
     }
+    let (_, depth) = rig.scene(&cloud.shot);
+    let lost = HostImage { before: whitewater::access::NOTHING, ..depth.host_image() };
+    let lost = DiffuseParticles { fluid_depth: Some(lost), ..good };
+    let error = rig.refused(&cloud.shot, Some(lost));
+    assert!(error.contains("Frame.diffuse.fluid_depth"), "{error}");
     let error = Rig::new(&gpu, &config(SIZE)).refused(&cloud.shot, Some(good));
     assert!(error.contains("Frame.diffuse"), "{error}");
     for (field, diffuse) in [
@@ -663,6 +728,7 @@ fn water_takes_the_sun_from_foam() {
             radii: Some(vec![0.15; 60]),
             ages: vec![0.0; 60],
             ids: Some(vec![0; 60]),
+            fluid: None,
         };
         channel(&cloud.draw(&mut rig).diffuse.expect("diffuse particles").light, 0).at(46, 28)
     };

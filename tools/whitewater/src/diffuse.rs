@@ -79,6 +79,16 @@ impl Files {
         longest.filter(|life| *life > 0.0)
     }
 
+    /// What to say where some of the frames have no file of their number.
+    pub fn missing(&self, frames: impl Iterator<Item = u64>) -> Option<String> {
+        let without: Vec<_> = frames.filter(|frame| !self.frames.contains_key(frame)).collect();
+        let first = without.first()?;
+        Some(format!(
+            "--whitewater: {} frames, from {first} on, have no file of their number and are drawn without diffuse particles",
+            without.len()
+        ))
+    }
+
     /// Those of a frame; none where there is no file of its number.
     pub fn read(&self, frame: u64) -> Outcome<Diffuse> {
         let mut all = Diffuse { identified: true, ..Diffuse::default() };
@@ -147,6 +157,15 @@ pub fn counted(count: usize) -> Outcome<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn frames_without_a_file_are_told() {
+        let frames = [2, 4].map(|frame| (frame, vec![(PathBuf::new(), None)])).into();
+        let files = Files { frames, up: Up::Y, life: None };
+        assert_eq!(files.missing([2, 4].into_iter()), None);
+        let said = files.missing(2..=5).expect("a warning");
+        assert!(said.contains("2 frames, from 3 on"), "{said}");
+    }
 
     #[test]
     fn files_are_named_with_their_kind() {

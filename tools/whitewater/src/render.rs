@@ -78,7 +78,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let made = args.whitewater == [Whitewater::Generate];
     let files = if made { &[][..] } else { &args.whitewater };
-    let files = diffuse::Files::find(files, args.up_axis, single)?.map(diffuse::Diffusing::Files);
+    let files = diffuse::Files::find(files, args.up_axis, single)?;
+    if let Some(line) = files.as_ref().and_then(|f| f.missing(all.iter().map(|f| f.number))) {
+        progress.say(&line);
+    }
+    let files = files.map(diffuse::Diffusing::Files);
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, camera, settings, environment, &progress)
     })?;

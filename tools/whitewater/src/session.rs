@@ -73,6 +73,8 @@ pub struct Session<'a> {
     memory: Memory,
     /// How diffuse particles are made, and how many at most.
     making: Option<(GenerateSettings, u32)>,
+    /// It was said that there is no room for more of them.
+    full: bool,
     /// Where what is made goes.
     pub keep: Option<Target<WriteFormat>>,
     /// In which axes.
@@ -206,6 +208,7 @@ impl<'a> Session<'a> {
             headless: None,
             memory: Memory::default(),
             making: None,
+            full: false,
             keep: None,
             up: Up::Y,
             times,
@@ -340,12 +343,20 @@ impl<'a> Session<'a> {
         self.step(number, "", particles, false)
     }
 
-    /// How many diffuse particles were made that are in the frame drawn last; none where none are made.
+    /// How many diffuse particles were made that are in the frame drawn last; none where none are made. Says so, once,
+    /// when there was no room for more.
     pub fn made(&mut self) -> Outcome<Option<u32>> {
-        match (&self.making, &mut self.headless) {
-            (Some(_), Some(headless)) => Ok(Some(headless.generated_count()?)),
-            _ => Ok(None),
+        let (Some((_, most)), Some(headless)) = (&self.making, &mut self.headless) else {
+            return Ok(None);
+        };
+        let (made, lost) = headless.generated_count()?;
+        if lost > 0 && !std::mem::replace(&mut self.full, true) {
+            self.times.say(&format!(
+                "there is room for {most} diffuse particles, {lost} more were not made: raise max_particles of \
+                 table [generate], or lower its rates"
+            ));
         }
+        Ok(Some(made))
     }
 
     /// Goes past a frame that can't be read.
