@@ -13,9 +13,9 @@
 #include "foam_texels.glsl"
 #include "beside.glsl"
 #include "convolution.glsl"
+#include "intensity.glsl"
 #include "sunlight.glsl"
 #include "surface_noise.glsl"
-#include "intensity.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -10,9 +10,9 @@
 #include "foam_texels.glsl"
 #include "beside.glsl"
 #include "convolution.glsl"
+#include "intensity.glsl"
 #include "sunlight.glsl"
 #include "surface_noise.glsl"
-#include "intensity.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;

@@ -164,7 +164,7 @@ impl Composite {
         let diffuse = diffuse.map_or([layers.thickness; 3], Foam::layers);
         let [diffuse, diffuse_thickness, diffuse_light] =
             diffuse.map(|image| Resource::Sampled(image.view, nearest));
-        let [shadow, light_thickness, basis, span] = r.sunlight.resources();
+        let [shadow, light_thickness, basis, span, light_diffuse] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(layers.smoothed.view, nearest)),
@@ -190,6 +190,7 @@ impl Composite {
             (21, diffuse),
             (22, diffuse_thickness),
             (23, diffuse_light),
+            light_diffuse,
         ];
         let arguments = layers.split.arguments.handle;
         let first = |i: u32| layers.split.most * (i % KINDS);

@@ -129,8 +129,9 @@ pub struct Config {
     pub shadow: Option<Shadows>,
     /// Water and foam cast shadows and caustics on the scene and foam on itself: the passes `light`,
     /// `caustics` and `lit`, with maps of so many texels a side over [`Sun::region`], a multiple of
-    /// 16 from 16 to 4096. 36 bytes a texel, and a lit copy of the scene. `None` (default): they do
-    /// not.
+    /// 16 from 16 to 4096. 36 bytes a texel, and a lit copy of the scene. With
+    /// [`diffuse`](Self::diffuse) its particles cast shadows too, on the scene, the water, foam and each
+    /// other: the pass `diffuse`, 24 bytes a texel more. `None` (default): they do not.
     pub cast: Option<u32>,
     /// Motion vectors are made (default: not): the pass `motion` and the layer `motion`, of
     /// [`Frame::previous`] and the particles' velocities. 12.5 bytes a pixel more (at other

@@ -88,6 +88,7 @@ pub fn sunlight(
     Sunlight {
         shadow: map.map_or(depth, |shadow| shadow_map(shadow, gpu)),
         thickness: light.map_or(depth, |light| light.thickness(gpu)),
+        diffuse: light.and_then(|light| light.diffuse(gpu)).unwrap_or(depth),
         convolved: convolving.map_or([depth, uniforms], |convolving| convolving.resources(gpu)),
     }
 }

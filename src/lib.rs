@@ -112,6 +112,7 @@
 //! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
 //! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 88 w h | 77.3 MiB | 174.0 MiB |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
+//! | the same of diffuse particles (`cast` with `diffuse`) | 24 N² | 24 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
@@ -173,6 +174,8 @@
 //!   The reach is a radius of the search, not metres ([`foam::Reach`]).
 //! - Light is scaled by what is in shadow ([`foam::Mixing`]); the source subtracts the shadow. The sun, which an
 //!   environment does not hold, is added.
+//! - Foam casts shadows (`Config.cast`), its future work: of the sun it takes what it covers of a picture from there,
+//!   by the thickness that lies before a point, told by its mean and its variance along the light.
 //!
 //! Against Ihmsen et al. (2012), whose diffuse particles [`foam::Generator`] makes:
 //!

@@ -23,7 +23,7 @@ use crate::gpu::requirements::Offer;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
-use crate::light::{Convolving, Light, Output, convolution};
+use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
 use crate::water::{Recording, Water, buffers_of};
 
 /// What one frame in flight owns.
@@ -507,7 +507,8 @@ impl SlotState {
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| splat::chunks(&gpu.limits, &diffuse).1);
-        110 + 27 * crate::water::chunks(&gpu.limits, config).1 + 2 * diffuse
+        let water = crate::water::chunks(&gpu.limits, config).1;
+        110 + 27 * water + 2 * diffuse + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

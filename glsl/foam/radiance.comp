@@ -8,6 +8,7 @@
 
 #include "frame.glsl"
 #include "convolution.glsl"
+#include "intensity.glsl"
 #include "sunlight.glsl"
 #include "octahedral.glsl"
 

@@ -13,6 +13,7 @@ layout(local_size_x = 64) in;
 // 0: depth and thickness. 1: what goes with the depth.
 layout(constant_id = 0) const uint FRONTMOST = 0;
 
+#include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
 layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };

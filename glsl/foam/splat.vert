@@ -5,6 +5,7 @@
 #include "frame.glsl"
 #include "falloff.glsl"
 #include "diffuse.glsl"
+#include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
 layout(location = 0) flat out vec4 sprite;    // depth of its middle, radius, life, kind

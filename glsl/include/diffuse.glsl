@@ -57,13 +57,11 @@ float diffuse_place(Footprint f, ivec2 pixel, out vec2 place) {
     return dot(place, place);
 }
 
-Footprint footprint_of(Diffuse p) {
-    float depth = -p.centre.z;
+// Of a kind, whose disc has a middle and half-axes in pixels.
+Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     Footprint f;
-    f.middle = (p.centre.xy / depth - frame.slope.zw) / frame.slope.xy;
-    vec2 reach = p.radius / (depth * frame.texel.xy);
     f.reach = reach * max(1.0, LEAST_REACH / min(reach.x, reach.y));
-    f.middle = clamp(f.middle, vec2(-1.0e6), vec2(1.0e6));
+    f.middle = clamp(middle, vec2(-1.0e6), vec2(1.0e6));
     vec2 room = min(f.reach, vec2(1.0e6));
     f.box = ivec4(ceil(f.middle - room - 0.5), floor(f.middle + room - 0.5));
     f.own = smoothstep(1.0, 2.0, min(f.reach.x, f.reach.y));
@@ -76,10 +74,16 @@ Footprint footprint_of(Diffuse p) {
                 sum += max(1.0 - diffuse_place(f, ivec2(x, y), place), 0.0);
             }
         }
-        float energy = 3.14159265 * reach.x * reach.y * diffuse_mean(p.kind);
+        float energy = 3.14159265 * reach.x * reach.y * diffuse_mean(kind);
         f.even = (1.0 - f.own) * energy / max(sum, 1.0e-6);
     }
     return f;
+}
+
+Footprint footprint_of(Diffuse p) {
+    float depth = -p.centre.z;
+    vec2 middle = (p.centre.xy / depth - frame.slope.zw) / frame.slope.xy;
+    return footprint_at(middle, p.radius / (depth * frame.texel.xy), p.kind);
 }
 
 // What a pixel gets of its thickness, at such a square of the distance.

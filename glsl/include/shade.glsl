@@ -240,6 +240,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     // pow() by hand: of tiny bases some drivers make NaN.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
+    sun = DIFFUSED == 1u ? sun * past_diffuse(light_texels(position)) : sun;
     sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
     if (NOISE == 1u) {
         // As the foam of the particles, in the light there.

@@ -1,6 +1,7 @@
 // How much of the sun's light reaches a point: past the host's scene, by its shadow map or its mask
 // (thesis Sec. 4.9.4, which has convolution shadow maps), and through water and foam (ours).
-// Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span, light's thickness.
+// Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: shadow map or mask, its basis and span, light's
+// thickness, diffuse particles as the sun sees them.
 
 // 0: the host says nothing, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
 layout(constant_id = 11) const uint SHADOW = 0;
@@ -8,11 +9,14 @@ layout(constant_id = 11) const uint SHADOW = 0;
 layout(constant_id = 12) const uint CAST = 0;
 // Of the Fourier basis.
 layout(constant_id = 13) const int TERMS = 16;
+// 1: so do diffuse particles.
+layout(constant_id = 21) const uint DIFFUSED = 0;
 
 layout(set = 0, binding = 16) uniform sampler2D shadow_map;
 layout(set = 0, binding = 17) uniform sampler2D light_thickness;
 layout(set = 0, binding = 18) uniform sampler2D shadow_basis;
 layout(set = 0, binding = 19, std140) uniform Span { uvec4 span; };
+layout(set = 0, binding = 24) uniform sampler2D light_diffuse;
 
 // Place in the shadow map, 0 to 1, and depth there. Outside the map all is lit.
 vec3 shadow_place(vec3 eye, out bool inside) {
@@ -107,6 +111,30 @@ vec2 before_depth(vec4 thick, float depth) {
     return clamp(depth - mean + 0.5 * t, vec2(0.0), t);
 }
 
+// What diffuse particles of a texel cover at a depth: as much as of what they are drawn over, by so many of them as
+// lie before it. Of these no more is known than where their middle is and how far they spread: behind the middle
+// at least 1 - s^2 / (s^2 + x^2) of them (Cantelli), which is all there may be where they lie in two places, as
+// foam on water and spray above it. It is scaled to be all at the end of an even body. A reach behind it begins:
+// foam does not shade itself for what a texel does not tell.
+float covered_by_diffuse(ivec2 texel, float depth) {
+    vec3 there = texelFetch(light_diffuse, texel, 0).xyz;
+    float reach = 0.5 * frame.particle.y + 1.5 * frame.light_map.y;
+    float behind = max(depth - there.y - reach, 0.0);
+    float square = behind * behind;
+    float part = min(4.0 / 3.0 * square / (square + there.z * there.z + reach * reach / 9.0), 1.0);
+    return intensity_of(part * there.x);
+}
+
+// Of the sun's light what diffuse particles before a point leave.
+float past_diffuse(LightTexels t) {
+    float lost = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
+        lost += weight * covered_by_diffuse(t.base + ivec2(i & 1, i >> 1), t.depth);
+    }
+    return t.inside ? 1.0 - lost : 1.0;
+}
+
 // Of the sun's light what water and foam before a point leave.
 vec3 through_fluid(vec3 eye) {
     LightTexels t = light_texels(eye);
@@ -119,7 +147,8 @@ vec3 through_fluid(vec3 eye) {
         float weight = ((i & 1) == 0 ? 1.0 - t.f.x : t.f.x) * (i < 2 ? 1.0 - t.f.y : t.f.y);
         lost += weight * (1.0 - exp(-extinction * thick.x - frame.shade.w * thick.y));
     }
-    return t.inside ? 1.0 - lost : vec3(1.0);
+    vec3 left = t.inside ? 1.0 - lost : vec3(1.0);
+    return DIFFUSED == 1u ? left * past_diffuse(t) : left;
 }
 
 // Share of the sun's light at a point of foam, of all colours together: what it is in is foam more than

@@ -5,6 +5,7 @@
 
 #include "frame.glsl"
 #include "convolution.glsl"
+#include "intensity.glsl"
 #include "sunlight.glsl"
 #include "lit.glsl"
 

@@ -10,6 +10,7 @@
 #include "density.glsl"
 #include "foam.glsl"
 #include "convolution.glsl"
+#include "intensity.glsl"
 #include "sunlight.glsl"
 
 layout(local_size_x = 64) in;

@@ -7,6 +7,7 @@
 #include "frame.glsl"
 #include "random.glsl"
 #include "convolution.glsl"
+#include "intensity.glsl"
 #include "sunlight.glsl"
 #include "spray.glsl"
 

@@ -1,17 +1,18 @@
 //! What water and foam do to the sunlight: shadows in the water's colours, shadows of foam, caustics
 //! (the thesis' future work). A pass a file: [`maps`] splats all particles as the sun sees them,
-//! [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
+//! [`diffuse`] the diffuse ones, [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
 //! highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
 //! shadow map.
 
 mod caustics;
 mod convolution;
+mod diffuse;
 mod lit;
 mod maps;
 
 use ash::vk;
 
-use crate::contract::{Config, HostImage, Layer, Particles};
+use crate::contract::{Config, DiffuseParticles, HostImage, Layer, Particles};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, FRAGMENT_SAMPLED};
@@ -22,18 +23,21 @@ use crate::water::settings::Shadows;
 use crate::water::{Recording, SphereList};
 use caustics::Caustics;
 pub use convolution::{Convolution, Convolved, Convolving, convolution};
+use diffuse::Diffuse;
 use lit::Lit;
 use maps::Maps;
 
 /// Specialisation constants of glsl/include/sunlight.glsl.
-pub fn constants(config: &Config) -> [(u32, u32); 3] {
+pub fn constants(config: &Config) -> [(u32, u32); 4] {
     let (shadow, terms) = match config.shadow {
         None => (0, 2),
         Some(Shadows::Mask) => (1, 2),
         Some(Shadows::Map) => (2, 2),
         Some(Shadows::Convolution(convolution)) => (3, convolution.terms),
     };
-    [(11, shadow), (12, u32::from(config.cast.is_some())), (13, terms)]
+    let cast = config.cast.is_some();
+    let diffused = cast && config.diffuse.is_some();
+    [(11, shadow), (12, u32::from(cast)), (13, terms), (21, u32::from(diffused))]
 }
 
 /// What of the sun's light reaches a point, for every shader that asks.
@@ -45,19 +49,22 @@ pub struct Sunlight {
     pub thickness: Resource,
     /// Basis of a filtered shadow map, and its span; any image and buffer where there is none.
     pub convolved: [Resource; 2],
+    /// Diffuse particles as the sun sees them; anything where they cast nothing.
+    pub diffuse: Resource,
 }
 
 impl Sunlight {
     /// As glsl/include/sunlight.glsl binds it.
-    pub fn resources(&self) -> [(u32, Resource); 4] {
+    pub fn resources(&self) -> [(u32, Resource); 5] {
         let [basis, span] = self.convolved;
-        [(16, self.shadow), (17, self.thickness), (18, basis), (19, span)]
+        [(16, self.shadow), (17, self.thickness), (18, basis), (19, span), (24, self.diffuse)]
     }
 }
 
-/// The three passes.
+/// The passes.
 pub struct Light {
     maps: Maps,
+    diffuse: Option<Diffuse>,
     caustics: Caustics,
     lit: Lit,
 }
@@ -66,6 +73,7 @@ impl Light {
     pub fn new(gpu: &Gpu, config: &Config, edge: u32) -> Result<Self, Error> {
         Ok(Self {
             maps: Maps::new(gpu, config, edge)?,
+            diffuse: config.diffuse.map(|diffuse| Diffuse::new(gpu, &diffuse, edge)).transpose()?,
             caustics: Caustics::new(gpu, edge)?,
             lit: Lit::new(gpu, config)?,
         })
@@ -86,14 +94,25 @@ impl Light {
         Resource::Sampled(self.maps.thickness.image().view, gpu.samplers.nearest)
     }
 
-    /// `light` and `caustics`, after `cull`, whose counts they take.
+    /// The same of diffuse particles, where they cast.
+    pub fn diffuse(&self, gpu: &Gpu) -> Option<Resource> {
+        let image = &self.diffuse.as_ref()?.image;
+        Some(Resource::Sampled(image.view, gpu.samplers.nearest))
+    }
+
+    /// `light`, `diffuse` and `caustics`, after `cull`, whose counts they take. The buffers of the diffuse particles
+    /// are read by compute from here on.
     pub fn record_maps(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
         list: &SphereList,
+        diffuse: Option<&DiffuseParticles>,
     ) -> Result<(), Error> {
         self.maps.record(r, particles, list)?;
+        if let Some(pass) = &self.diffuse {
+            pass.record(r, diffuse, &self.maps)?;
+        }
         self.caustics.record(r, &self.maps)
     }
 
@@ -114,7 +133,7 @@ impl Light {
     pub const SCENE_USE: Access = lit::SCENE_USE;
 
     /// Layers for the host.
-    pub fn layers(&self) -> [Layer; 3] {
+    pub fn layers(&self) -> Vec<Layer> {
         let layer = |name, image: &Image, access| Layer {
             name,
             image: image.handle,
@@ -123,22 +142,34 @@ impl Light {
             extent: image.extent,
             access,
         };
-        [
+        let mut layers = vec![
             layer("light.front", self.maps.front.image(), maps::AFTER),
             layer("light.thickness", self.maps.thickness.image(), maps::AFTER),
             layer("light.caustics", &self.caustics.image, FRAGMENT_SAMPLED),
-        ]
+        ];
+        let diffuse = self.diffuse.as_ref();
+        layers.extend(diffuse.map(|pass| layer("light.diffuse", &pass.image, maps::AFTER)));
+        layers
     }
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         let (images, buffers) = self.caustics.memory();
+        let (diffuse, words) = self.diffuse.as_ref().map_or((0, 0), Diffuse::memory);
         let maps = self.maps.front.image().size + self.maps.thickness.image().size;
-        (images + maps + self.lit.image().size, buffers)
+        (images + maps + diffuse + self.lit.image().size, buffers + words)
     }
 }
 
 pub use lit::Output;
+
+/// Descriptor sets that diffuse particles take of a frame where they cast.
+pub fn diffuse_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
+    match (config.cast, &config.diffuse) {
+        (Some(edge), Some(diffuse)) => diffuse::sets(limits, diffuse, edge),
+        _ => 0,
+    }
+}
 
 /// A square image of the light's.
 fn map_desc(

@@ -28,7 +28,7 @@ use crate::error::Error;
 use crate::foam::Foam;
 use crate::frame::reduced;
 use crate::gpu::Gpu;
-use crate::gpu::access::Access;
+use crate::gpu::access::{Access, COMPUTE_READ};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::image::Image;
@@ -205,7 +205,8 @@ impl Water {
     ) -> Result<(), Error> {
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
-            light.record_maps(r, particles, &self.cull.list)?;
+            let diffuse = diffuse.and_then(|(_, particles)| particles);
+            light.record_maps(r, particles, &self.cull.list, diffuse)?;
         }
         self.front.record(r, &self.cull)?;
         self.depth.record(r, &self.front.list)?;
@@ -216,7 +217,10 @@ impl Water {
             spray.record(r, particles, &self.cull.list, &self.depth.image)?;
         }
         if let Some((foam, particles)) = diffuse {
-            foam.record_splat(r, particles, &self.depth.image)?;
+            // The light's maps have taken their buffers over.
+            let before = |p: &DiffuseParticles| light.map_or(p.before, |_| COMPUTE_READ);
+            let particles = particles.map(|p| DiffuseParticles { before: before(p), ..*p });
+            foam.record_splat(r, particles.as_ref(), &self.depth.image)?;
         }
         let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
         if let Some(gaps) = gaps {

@@ -153,9 +153,9 @@ impl Spray {
         let area = r.extent.into();
         self.target.begin(gpu, cmd, area, [0.0; 4]);
         if any {
-            let [shadow, thickness, basis, span] = r.sunlight.resources();
+            let [shadow, thickness, basis, span, diffuse] = r.sunlight.resources();
             let water = Resource::Sampled(depth.view, gpu.samplers.nearest);
-            let more = [(2, r.scene_depth), (3, water), shadow, thickness, basis, span];
+            let more = [(2, r.scene_depth), (3, water), shadow, thickness, basis, span, diffuse];
             self.sprites.draw(r, list, &self.draw, cull::SPRAY, &more)?;
         }
         gpu.end_pass(cmd);

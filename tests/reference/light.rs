@@ -7,6 +7,8 @@
 //! particle of a texel, a multiple of a step, whether two depths are of one surface. A decision
 //! that rounding may turn opens the bounds by what it decides, and by nothing else.
 
+mod diffuse;
+
 use super::thickness::{J, kernel};
 use super::{EMPTY, Image, is_surface};
 use crate::support::rounded::{Rounded, dot, exact, normalize, off, smoothstep};
@@ -50,6 +52,8 @@ pub struct Light {
     /// Lost per metre of water and of foam.
     pub extinction: [f64; 3],
     pub foam_extinction: f64,
+    /// Of diffuse particles: half and exponent of what they cover.
+    pub intensity: [f64; 2],
 }
 
 /// A frame's maps.
@@ -58,6 +62,8 @@ pub struct Maps<'a> {
     pub front: &'a Image<f32>,
     pub thickness: &'a Image<[f32; 4]>,
     pub caustics: &'a Image<f32>,
+    /// Diffuse particles, where they cast.
+    pub diffuse: Option<&'a Image<[f32; 4]>>,
 }
 
 /// What of a particle is drawn.
@@ -389,13 +395,15 @@ impl Light {
             let lost = exact(self.foam_extinction) * before(y, w, half);
             let water = before(x, z, half);
             let kept = self.extinction.map(|k| (-(self::off(k, 1.0) * water) - lost).exp());
+            let covered = maps.diffuse.map(|map| self.covered(map.clamped(i, j), d));
+            let covered = covered.unwrap_or(exact(0.0));
             let below = before(x, z, exact(0.0)) / if x.v > 1e-9 { x } else { exact(1e-9) };
             let caustics = exact(f64::from(maps.caustics.clamped(i, j)));
             let mean = z / if x.v > 1e-9 { x } else { exact(1e-9) };
             let far = (d - mean - exact(0.5) * x).clamp(0.0, f64::INFINITY);
             // Far behind the water it is spread.
             let sharp = one / (one + far / self::off(8.0 * self.spacing, 1.0));
-            [kept[0], kept[1], kept[2], below * sharp, caustics]
+            [kept[0], kept[1], kept[2], below * sharp, caustics, covered]
         };
         let (i, j) = (base.x as isize, base.y as isize);
         let mean = |c: usize| {
@@ -414,7 +422,10 @@ impl Light {
         };
         let focus = mean(4).clamp(0.0, 3.0);
         let gain = one + (focus - one) * mean(3);
-        let (kept, gain) = ([0, 1, 2].map(mean), gain);
+        let kept = [0, 1, 2].map(mean);
+        // Alone what is lost is a mean.
+        let left = one - mean(5);
+        let kept = if maps.diffuse.is_some() { kept.map(|kept| kept * left) } else { kept };
         // So near to the border it may be outside as well.
         let open = |v: Rounded| Rounded { e: v.e + (1.0 - v.v).abs(), ..v };
         if inside(-moved) { (kept, gain) } else { (kept.map(open), open(gain)) }

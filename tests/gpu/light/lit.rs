@@ -17,7 +17,7 @@ use super::shade::{light_views, shadows};
 use super::{SIZE, casting, even, halves, maps, twin, water};
 
 /// Particles about a tilted ground of the world at a height; they are at 0.8 to 1.2.
-fn grounded(lens: Lens, height: f64) -> Foamy {
+pub fn grounded(lens: Lens, height: f64) -> Foamy {
     let mut shot = Shot::new(SIZE, lens, 0.06, &[]);
     let mut random = Random(8);
     shot.positions = (0..90)
@@ -47,7 +47,7 @@ fn grounded(lens: Lens, height: f64) -> Foamy {
 
 /// The scene's point in a pixel, and metres that it may be off: by the depth's quotient, whose
 /// divisor is a difference, and by the way to the world.
-fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
+pub fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
     let view = shot.view(SIZE);
     let back = view.view.inverse();
     let p = back.transform_point3(view.ray(x, y) * depth);
@@ -56,15 +56,18 @@ fn seen(shot: &Shot, depth: f64, (x, y): (usize, usize)) -> (DVec3, f64) {
 }
 
 /// Pixels without fluid are the scene in the light that the maps leave, to half precision.
-fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Past<'_>) {
+pub fn check_lit(name: &str, case: &Foamy, config: &Config, drawn: &Drawn, past: &Past<'_>) {
     let (shot, light, maps) = (&case.shot, twin(&case.shot, config), maps(drawn));
     let scene = shot.scene_eye();
     let foam = drawn.foam.as_ref().map(|foam| foam.seen(shot));
+    let diffuse = drawn.diffuse.as_ref().map(|diffuse| &diffuse.occluders);
     let sun = &shot.settings.light;
     let (mut outside, mut darker, mut lighter, mut wrong) = (0, 0, 0, String::new());
     for (i, found) in drawn.output.data.iter().enumerate() {
         let (x, y) = (i % drawn.output.width, i / drawn.output.width);
-        if drawn.depth.data[i] < 1e9 || foam.as_ref().is_some_and(|seen| seen.data[i].0 < 1e9) {
+        let foamy = foam.as_ref().is_some_and(|seen| seen.data[i].0 < 1e9)
+            || diffuse.is_some_and(|seen| seen.data[i][0] < 1e9);
+        if drawn.depth.data[i] < 1e9 || foamy {
             continue;
         }
         let color = shot.color[i];

@@ -2,6 +2,7 @@
 //! what the maps say. Here the scenes, and what the twin takes of them.
 
 mod caustics;
+mod diffuse;
 mod lit;
 mod maps;
 mod shade;
@@ -74,6 +75,7 @@ fn twin(shot: &Shot, config: &Config) -> Light {
             Medium::Source { falloff, .. } => [0, 1, 2].map(|i| f64::from(falloff[i])),
         },
         foam_extinction: f64::from(shot.settings.foam.shadow),
+        intensity: [shot.settings.diffuse.half, shot.settings.diffuse.exponent].map(f64::from),
     }
 }
 
@@ -92,6 +94,7 @@ fn maps(drawn: &Drawn) -> Maps<'_> {
         front: drawn.light_front.as_ref().expect("a front"),
         thickness: drawn.light_thickness.as_ref().expect("a thickness"),
         caustics: drawn.caustics.as_ref().expect("caustics"),
+        diffuse: drawn.light_diffuse.as_ref(),
     }
 }
 

@@ -39,6 +39,8 @@ pub struct Drawn {
     pub light_front: Option<Image<f32>>,
     /// As above.
     pub light_thickness: Option<Image<[f32; 4]>>,
+    /// Of diffuse particles: thickness, metres along the light to its middle and of its spread.
+    pub light_diffuse: Option<Image<[f32; 4]>>,
     /// As above.
     pub caustics: Option<Image<f32>>,
     /// With diffuse particles.
@@ -69,6 +71,7 @@ impl Drawn {
             noise: None,
             light_front: None,
             light_thickness: None,
+            light_diffuse: None,
             caustics: None,
             diffuse: None,
             shadow_basis: None,
@@ -230,6 +233,7 @@ impl Rig<'_> {
                     let bytes = self.bytes(layer, whole);
                     drawn.shadow_basis = Some(picture(layer.format, layer.extent, &bytes));
                 }
+                "light.diffuse" => drawn.light_diffuse = Some(self.fours(layer)),
                 "light.caustics" => drawn.caustics = Some(self.floats(layer, whole)),
                 "water.foam.thickness" => {
                     let four: Image<[f32; 4]> =

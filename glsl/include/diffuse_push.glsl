@@ -1,0 +1,16 @@
+// Where a chunk's streams begin, of the pass `splat`. Of a stream that is not there the stride is 0.
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;
+    uint position_stride;
+    uint kind_word;
+    uint kind_stride;
+    uint radius_word;
+    uint radius_stride;
+    uint age_word;
+    uint age_stride;
+    uint id_word;
+    uint id_stride;
+    uint chunk_first;
+    uint chunk;
+} push;

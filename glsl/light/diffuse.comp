@@ -1,0 +1,141 @@
+#version 460
+// Pass `diffuse`: the thickness of diffuse particles as the sun sees them, and where along its light it lies; as
+// Akinci et al. 2013, Sec. 2.2, for the eye. That they cast shadows is their future work. An invocation a particle,
+// all of a group the large ones.
+// Reads: positions, kinds, radii, ages, ids, front, arguments. Writes: words.
+
+#include "frame.glsl"
+#include "falloff.glsl"
+#include "diffuse.glsl"
+#include "light_diffuse.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;
+    uint position_stride;
+    uint kind_word;
+    uint kind_stride;
+    uint radius_word;
+    uint radius_stride;
+    uint age_word;
+    uint age_stride;
+    uint id_word;
+    uint id_stride;
+    uint chunk_first;
+    uint chunk;
+    int first; // rows of the map whose words are bound
+    int last;
+} push;
+
+#include "diffuse_streams.glsl"
+
+layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
+// Where the light meets water first.
+layout(set = 0, binding = 8) uniform sampler2D front;
+
+// Texels of a box that an invocation does by itself.
+const int SMALL = 256;
+
+shared uint large[gl_WorkGroupSize.x];
+shared uint larges;
+
+// A particle as the sun sees it.
+struct Sunned {
+    Diffuse p;
+    Footprint f;
+    float depth; // of its middle, metres along the light
+    uint place;  // of its far end, texels along the light
+};
+
+Sunned sunned_at(uint i) {
+    Sunned s;
+    vec4 world = diffuse_world(i);
+    s.p = diffuse_at(i, world);
+    vec3 seen = (frame.to_light * vec4(s.p.centre, 1.0)).xyz;
+    float texel = frame.light_map.y;
+    s.depth = seen.z;
+    s.f = footprint_at(seen.xy * frame.light_map.x, vec2(s.p.radius / texel), s.p.kind);
+    // Its far end: a particle, however large, does not shade itself. What is nearer to the sun than the region
+    // shades all of it; what is behind it nothing there.
+    float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
+    // The sun sees what is behind the eye too.
+    bool there = world.w < 1.0 && all(lessThan(abs(world.xyz), vec3(EMPTY))) && place < frame.light_map.x;
+    s.p.life = there ? falloff(max(world.w, 0.0), 1.0, 2.0, 0.4) : 0.0;
+    s.place = uint(max(place, 0.0));
+    return s;
+}
+
+// All in one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not
+// they have something to add. What comes to a sum that is full is taken out again.
+void add(uint at, uint steps, uint place) {
+    uint high, low;
+    umulExtended(steps * place, place, high, low);
+    bool over = false;
+    uint i = 0u;
+    while (i < WORDS) {
+        uint value = i == 0u ? (over ? 0u - steps : steps) : i == 1u ? steps * place : i == 2u ? low : high;
+        uint old = atomicAdd(words[at + i], value);
+        uint carry = old + value < old ? 1u : 0u;
+        high += i == 1u ? carry * CARRY : i == 2u ? carry : 0u;
+        bool taken = i == 0u && over;
+        over = i == 0u && !over && old >= FULL;
+        i = taken ? WORDS : over ? 0u : i == 2u && high == 0u ? WORDS : i + 1u;
+    }
+}
+
+void splat(ivec2 texel, Sunned s) {
+    vec2 place;
+    float rr = diffuse_place(s.f, texel, place);
+    if (!(rr < 1.0)) {
+        return;
+    }
+    float amount = diffuse_amount(s.p, s.f, rr);
+    // What is not shown behind the water's surface does not cast either.
+    if (frame.diffuse.w > 0.0) {
+        float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
+        amount = diffuse_shares(amount, depth, texelFetch(front, texel, 0).x).x;
+    }
+    uint steps = uint(amount * STEPS + 0.5);
+    if (steps > 0u) {
+        add(WORDS * uint((texel.y - push.first) * int(frame.light_map.x) + texel.x), steps, s.place);
+    }
+}
+
+ivec4 inside(ivec4 box) {
+    return ivec4(max(box.xy, ivec2(0, push.first)), min(box.zw, ivec2(int(frame.light_map.x) - 1, push.last)));
+}
+
+void main() {
+    if (gl_LocalInvocationIndex == 0u) {
+        larges = 0u;
+    }
+    barrier();
+    uint i = gl_GlobalInvocationID.x;
+    if (i < arguments[push.chunk].w) {
+        Sunned s = sunned_at(i);
+        ivec4 box = s.p.life > 0.0 ? inside(s.f.box) : ivec4(0, 0, -1, -1);
+        ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
+        if (size.x * size.y > SMALL) {
+            large[atomicAdd(larges, 1u)] = i;
+        } else {
+            for (int y = box.y; y <= box.w; ++y) {
+                for (int x = box.x; x <= box.z; ++x) {
+                    splat(ivec2(x, y), s);
+                }
+            }
+        }
+    }
+    barrier();
+    ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
+    for (uint k = 0u; k < larges; ++k) {
+        Sunned s = sunned_at(large[k]);
+        ivec4 box = inside(s.f.box);
+        for (int y = box.y + lane.y; y <= box.w; y += 8) {
+            for (int x = box.x + lane.x; x <= box.z; x += 8) {
+                splat(ivec2(x, y), s);
+            }
+        }
+    }
+}

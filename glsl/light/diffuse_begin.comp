@@ -1,0 +1,25 @@
+#version 460
+// Pass `diffuse`, first part: the dispatches that the particles need. Not in the source.
+// Reads: count. Writes: arguments.
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 1, std430) readonly buffer Count { uint count; };
+// Groups of each chunk, and its particles.
+layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint count;      // from the host, or the most there may be
+    uint from_gpu;
+    uint chunks;
+    uint chunk_size;
+    uint group_size;
+} push;
+
+void main() {
+    uint chunk = gl_GlobalInvocationID.x;
+    if (chunk < push.chunks) {
+        uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;
+        uint own = min(all - min(all, chunk * push.chunk_size), push.chunk_size);
+        arguments[chunk] = uvec4((own + push.group_size - 1u) / push.group_size, 1u, 1u, own);
+    }
+}
