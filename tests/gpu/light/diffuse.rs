@@ -242,8 +242,8 @@ fn a_sheet_takes_of_the_sun_what_it_covers() {
                 continue;
             }
             under += 1;
-            for c in 0..3 {
-                let lost = 1.0 - f64::from(found[c]) / f64::from(shot.color[i][c]);
+            for (c, (found, open)) in found.iter().zip(&shot.color[i]).take(3).enumerate() {
+                let lost = 1.0 - f64::from(*found) / f64::from(*open);
                 // Halves of the map and of the picture, of steps, of the picture's own values.
                 let by = 4.0 / 1024.0;
                 let inside = covered[0] - by..covered[1] + by;
