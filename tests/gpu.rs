@@ -20,6 +20,8 @@ mod convolution;
 mod depth;
 #[path = "gpu/diffuse/mod.rs"]
 mod diffuse;
+#[path = "gpu/diffuse_parts.rs"]
+mod diffuse_parts;
 #[path = "gpu/environment.rs"]
 mod environment;
 #[path = "gpu/foam/mod.rs"]

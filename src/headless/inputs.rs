@@ -9,6 +9,7 @@ use super::Headless;
 use crate::contract::{Access, Count, DiffuseParticles, Particles, Slot, Step, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
+use crate::gpu::access::COPY_WRITE;
 use crate::gpu::buffer::Buffer;
 use crate::gpu::graveyard::Destroy;
 use crate::state::{State, StateConfig};
@@ -47,26 +48,40 @@ pub(super) struct Diffusing {
     ids: Option<Buffer>,
 }
 
+impl Diffuse<'_> {
+    /// Which there are beside positions.
+    fn attributes(&self) -> [bool; 4] {
+        self.words().map(|words| words.is_some())
+    }
+
+    /// The attributes of a word each: kinds, radii, ages, ids.
+    fn words(&self) -> [Option<&[u8]>; 4] {
+        [
+            self.kinds.map(bytemuck::cast_slice),
+            self.radii.map(bytemuck::cast_slice),
+            self.ages.map(bytemuck::cast_slice),
+            self.ids.map(bytemuck::cast_slice),
+        ]
+    }
+}
+
 impl Diffusing {
-    fn new(gpu: &Arc<Gpu>, diffuse: &Diffuse<'_>) -> Result<Self, Error> {
-        let count = diffuse.positions.len();
-        let lengths = [
-            diffuse.kinds.map(<[_]>::len),
-            diffuse.radii.map(<[_]>::len),
-            diffuse.ages.map(<[_]>::len),
-            diffuse.ids.map(<[_]>::len),
-        ];
-        if lengths.into_iter().flatten().any(|length| length != count) {
-            return Err(Error::bad("diffuse", "an attribute is not as long as positions"));
-        }
-        let some = |name, bytes: Option<&[u8]>| bytes.map(|b| input(gpu, name, b)).transpose();
+    /// Room for so many.
+    fn new(gpu: &Arc<Gpu>, count: u32, attributes: [bool; 4]) -> Result<Self, Error> {
+        let room = |name, bytes: u64| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+            let size = (bytes * u64::from(count)).max(16);
+            Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly)
+        };
+        let some = |there: bool, name| there.then(|| room(name, 4)).transpose();
+        let [kinds, radii, ages, ids] = attributes;
         Ok(Self {
-            count: u32::try_from(count).map_err(|_| Error::bad("diffuse", "more than 2^32"))?,
-            positions: input(gpu, "headless/diffuse", bytemuck::cast_slice(diffuse.positions))?,
-            kinds: some("headless/diffuse/kinds", diffuse.kinds.map(bytemuck::cast_slice))?,
-            radii: some("headless/diffuse/radii", diffuse.radii.map(bytemuck::cast_slice))?,
-            ages: some("headless/diffuse/ages", diffuse.ages.map(bytemuck::cast_slice))?,
-            ids: some("headless/diffuse/ids", diffuse.ids.map(bytemuck::cast_slice))?,
+            count,
+            positions: room("headless/diffuse", 12)?,
+            kinds: some(kinds, "headless/diffuse/kinds")?,
+            radii: some(radii, "headless/diffuse/radii")?,
+            ages: some(ages, "headless/diffuse/ages")?,
+            ids: some(ids, "headless/diffuse/ids")?,
         })
     }
 
@@ -77,10 +92,92 @@ impl Diffusing {
             radii: words(&self.radii),
             ages: words(&self.ages),
             ids: words(&self.ids),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
+            before: COPY_WRITE,
+            after: COPY_WRITE,
             ..DiffuseParticles::new(stream(&self.positions, 12), Count::Cpu(self.count))
         }
+    }
+
+    /// Bytes of its buffers.
+    fn size(&self) -> u64 {
+        let words = [&self.kinds, &self.radii, &self.ages, &self.ids];
+        let words = words.into_iter().flatten().map(|buffer| buffer.size).sum::<u64>();
+        self.positions.size + words
+    }
+}
+
+/// Bytes that are on their way to the device at a time.
+const STAGING: usize = 4 << 20;
+
+/// An upload of diffuse particles a part after the other, from [`Headless::diffuse_parts`]. Dropped before
+/// [`finish`](Self::finish) there are none.
+pub struct DiffuseParts<'a> {
+    headless: &'a mut Headless,
+    count: u32,
+    written: u32,
+    /// From the first part on, which says what attributes there are.
+    made: Option<(Diffusing, Buffer)>,
+}
+
+impl DiffuseParts<'_> {
+    /// Uploads the particles that come next. What is borrowed is free again afterwards.
+    ///
+    /// # Errors
+    /// Attributes of another length, or others than in the part before; more particles than were said; no memory.
+    /// Then nothing of the part counts.
+    pub fn push(&mut self, part: &Diffuse<'_>) -> Result<(), Error> {
+        let length = part.positions.len();
+        if part.words().into_iter().flatten().any(|words| words.len() != 4 * length) {
+            return Err(Error::bad("diffuse", "an attribute is not as long as positions"));
+        }
+        let left = self.count - self.written;
+        let Some(length) = u32::try_from(length).ok().filter(|length| *length <= left) else {
+            let why = format!("{length} particles in a part, of all there are {left} left");
+            return Err(Error::bad("diffuse", why));
+        };
+        let (diffusing, staging) = match &mut self.made {
+            Some(made) => made,
+            made => {
+                let gpu = &self.headless.gpu;
+                let new = Diffusing::new(gpu, self.count, part.attributes())?;
+                // No more than all there is, which often is little.
+                let size = (12 * u64::from(self.count)).clamp(16, STAGING as u64);
+                let usage = vk::BufferUsageFlags::TRANSFER_SRC;
+                let location = MemoryLocation::CpuToGpu;
+                let staging = Buffer::new(gpu, "headless/diffuse/staging", size, usage, location)?;
+                made.insert((new, staging))
+            }
+        };
+        let to = [&diffusing.kinds, &diffusing.radii, &diffusing.ages, &diffusing.ids];
+        if to.map(Option::is_some) != part.attributes() {
+            return Err(Error::bad("diffuse", "other attributes than in the part before"));
+        }
+        let first = u64::from(self.written);
+        let positions = bytemuck::cast_slice(part.positions);
+        self.headless.copy(staging, positions, &diffusing.positions, 12 * first)?;
+        for (to, words) in to.into_iter().zip(part.words()) {
+            if let (Some(to), Some(words)) = (to, words) {
+                self.headless.copy(staging, words, to, 4 * first)?;
+            }
+        }
+        self.written += length;
+        Ok(())
+    }
+
+    /// Ends the upload: these are the diffuse particles of the frames to come.
+    ///
+    /// # Errors
+    /// Fewer particles than were said, and no memory; then there are none.
+    pub fn finish(mut self) -> Result<(), Error> {
+        if self.written < self.count {
+            let why = format!("{} particles expected, found {}", self.count, self.written);
+            return Err(Error::bad("diffuse", why));
+        }
+        self.headless.diffuse = match self.made.take() {
+            Some((diffusing, _)) => Some(diffusing),
+            None => Some(Diffusing::new(&self.headless.gpu, 0, [false; 4])?),
+        };
+        Ok(())
     }
 }
 
@@ -161,12 +258,63 @@ impl Headless {
     /// are none.
     ///
     /// # Errors
-    /// Attributes of another length, no memory; then there are none.
+    /// As [`diffuse_parts`](Self::diffuse_parts) and [`DiffuseParts::push`]; then there are none.
     pub fn diffuse(&mut self, diffuse: Option<&Diffuse<'_>>) -> Result<(), Error> {
+        let mut parts = self.diffuse_parts(diffuse.map_or(0, |all| all.positions.len()))?;
+        match diffuse {
+            Some(all) => {
+                parts.push(all)?;
+                parts.finish()
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Uploads the diffuse particles of a frame part by part, so that no more than a part of them is in the host's
+    /// memory at a time: of a file that is read on the way, or of very many. `count`: of all. There are none
+    /// until [`DiffuseParts::finish`].
+    ///
+    /// # Errors
+    /// More than [`DiffuseConfig::max_particles`](crate::foam::DiffuseConfig::max_particles).
+    pub fn diffuse_parts(&mut self, count: usize) -> Result<DiffuseParts<'_>, Error> {
         self.diffuse = None;
         self.hide_generated();
         self.gpu.bury();
-        self.diffuse = diffuse.map(|diffuse| Diffusing::new(&self.gpu, diffuse)).transpose()?;
+        let most = self.renderer.config().diffuse.map_or(u32::MAX, |config| config.max_particles);
+        let Some(count) = u32::try_from(count).ok().filter(|count| *count <= most) else {
+            let why = format!("{count} is more than Config.diffuse.max_particles, {most}");
+            return Err(Error::bad("diffuse", why));
+        };
+        Ok(DiffuseParts { headless: self, count, written: 0, made: None })
+    }
+
+    /// Bytes of the buffers of diffuse particles that were uploaded.
+    pub fn diffuse_memory(&self) -> u64 {
+        self.diffuse.as_ref().map_or(0, Diffusing::size)
+    }
+
+    /// Copies bytes to a place in a buffer, as many at a time as the staging buffer holds.
+    fn copy(
+        &mut self,
+        staging: &mut Buffer,
+        bytes: &[u8],
+        to: &Buffer,
+        mut at: u64,
+    ) -> Result<(), Error> {
+        for bytes in bytes.chunks(staging.mapped().len().max(1)) {
+            staging.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+            let size = bytes.len() as u64;
+            let region = vk::BufferCopy { src_offset: 0, dst_offset: at, size };
+            self.run(|this, cmd| {
+                // SAFETY: cmd is recording; both ranges lie in their buffers; no run before is still at work.
+                unsafe {
+                    let device = &this.gpu.device;
+                    device.cmd_copy_buffer(cmd, staging.handle, to.handle, &[region]);
+                }
+                Ok(())
+            })?;
+            at += size;
+        }
         Ok(())
     }
 

@@ -2,7 +2,8 @@
 //! tool and for tests; an engine that embeds the library does not compile it.
 //!
 //! One frame at a time: [`Headless::new`]; then what a frame takes, by [`Headless::particles`] and
-//! [`Headless::motion`], [`Headless::sky`] or [`Headless::equirectangular`], [`Headless::scene`]; then
+//! [`Headless::motion`], [`Headless::diffuse`] or a part at a time
+//! [`Headless::diffuse_parts`], [`Headless::sky`] or [`Headless::equirectangular`], [`Headless::scene`]; then
 //! [`Headless::render`], and the picture and its layers back. What is recorded is submitted and waited
 //! for at once.
 
@@ -25,7 +26,7 @@ pub use device::{Device, DeviceOptions};
 pub use draw::Background;
 pub use generate::Generated;
 use generate::Generating;
-pub use inputs::Diffuse;
+pub use inputs::{Diffuse, DiffuseParts};
 use inputs::{Diffusing, Foaming};
 pub use readback::Picture;
 use stage::Stage;
