@@ -17,6 +17,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
     let visible = u64::from(drawn.counts.visible);
     let front = u64::from(drawn.counts.front);
     let texels = u64::from(drawn.config.cast.unwrap_or(0)).pow(2);
+    let foam = drawn.foam;
     Some(match pass {
         // Positions in, spheres out.
         "cull" => 12 * u64::from(drawn.particles) + 16 * visible,
@@ -93,10 +94,24 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
             let foam = if drawn.config.foam { 16 + 4 + 4 } else { 0 };
             16 * visible + (24 + apart + foam) * thick
         }
+        // Two depths in and seven words a pixel out, those in again, two images of four floats and one of halves
+        // out; positions, kinds, ages and ids in twice. What atomics move is not counted.
+        "splat" => (8 + 28 + 28 + 32 + 8) * full + 2 * 24 * u64::from(drawn.diffuse),
+        // Depth in and light out; where there is foam its normal in. The samples are not counted.
+        "radiance" => (16 + 8) * full + 8 * foam,
+        // Twice: depth and light in, light out; where there is foam its normal in.
+        "blur" => 2 * ((16 + 8 + 8) * full + 8 * foam),
         // A copy of half-float colour.
         "scene" => 16 * full,
-        // Depth, thickness and surface shares, scene colour and depth in, colour out.
-        "composite" => drawn.covered * (4 + 4 + 8 + 4 + 8) + 4 * reduced,
+        // Depth, thickness and surface shares, scene colour and depth in, colour out; depth, thickness and light of
+        // diffuse foam in, and of pixels with nothing but that the scene in and colour out too.
+        "composite" => {
+            let alone = foam.saturating_sub(drawn.covered);
+            drawn.covered * (4 + 4 + 8 + 4 + 8)
+                + 4 * reduced
+                + (16 + 16 + 8) * foam
+                + (8 + 4 + 8) * alone
+        }
         _ => return None,
     })
 }

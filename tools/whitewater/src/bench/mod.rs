@@ -1,11 +1,13 @@
 //! `whitewater bench`: per-pass times on the GPU's own clock, over particle counts, resolutions and
-//! paths, beside the bytes each pass has to move.
+//! paths, beside the bytes each pass has to move. Of water, or of the foam of a sea.
 
 mod bytes;
 mod calibrate;
 mod pool;
 mod report;
+mod sea;
 
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use clap::{Args, ValueEnum};
@@ -17,6 +19,7 @@ use whitewater::water::{
     Convolution, FoamLook, FoamSettings, Gate, NoiseLook, Rule, Shading, Shadows, Smoothing, Splat,
 };
 use whitewater::{Camera, Config, Error, Previous, Region, Settings};
+use whitewater_seas::Sea;
 
 use crate::bounds::Bounds;
 use crate::failure::{Failure, Outcome};
@@ -30,9 +33,22 @@ pub struct BenchArgs {
     /// Particle counts: 16k, 64k, 256k, 1m or any number; the pool is the same, resolved finer
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
-    /// Picture sizes
-    #[arg(long, value_delimiter = ',', default_values = ["1280x720"], value_parser = parse_size)]
+    /// Picture sizes [default: 1280x720; of a sea the source's, 800x600 or 1280x960]
+    #[arg(long, value_delimiter = ',', value_parser = parse_size)]
     size: Vec<(u32, u32)>,
+    /// Instead of water the diffuse particles of a sea, over its scene
+    #[arg(long, value_delimiter = ',', value_parser = sea::parser(), conflicts_with_all = ["particles", "path"])]
+    sea: Vec<Sea>,
+    /// Diffuse particles of a sea: 20k, 0.8m, 29m (thousands and millions) or any number [default: as many as the
+    /// source's: 0.82m, 9m, 15m, 29m]
+    #[arg(long, value_delimiter = ',', value_parser = sea::parse_count, requires = "sea")]
+    diffuse: Vec<u32>,
+    /// How the shadow on diffuse particles is sampled [default: fast]
+    #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
+    occlusion: Vec<sea::OcclusionArg>,
+    /// Write the last frame, of a sea and one combination
+    #[arg(long, value_name = "FILE.png", requires = "sea")]
+    picture: Option<PathBuf>,
     /// Ways to draw: `default` is what the library chooses on the device
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["default"])]
     path: Vec<Path>,
@@ -165,6 +181,9 @@ pub struct Drawn {
     pub foaming: u64,
     /// Full-resolution pixels with water.
     pub covered: u64,
+    /// Diffuse particles, and full-resolution pixels with their foam.
+    pub diffuse: u32,
+    pub foam: u64,
     /// Active pixels summed over the iterations of the smoothing.
     pub iterations: u64,
     /// Most iterations of a pixel.
@@ -178,6 +197,7 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
     } else {
         args.path.clone()
     };
+    sea::check(args)?;
     let options = DeviceOptions { name: args.device.clone(), ..Default::default() };
     let device = Device::new(&options)?;
     let (adapter, driver) = (device.adapter.clone(), device.driver.clone());
@@ -185,7 +205,11 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
     let report = Arc::new(Mutex::new(Report::new(args.format, adapter, driver)?));
     let begun = Arc::clone(&report);
     output::at_interrupt(move || lock(&begun).finish());
-    let outcome = measure_all(args, &paths, &options, &report);
+    let outcome = if args.sea.is_empty() {
+        measure_all(args, &paths, &options, &report)
+    } else {
+        sea::measure_all(args, &options, &report)
+    };
     // What there is is told, whatever became of the rest.
     let told = output::at_end();
     outcome.and(told)
@@ -201,12 +225,13 @@ fn measure_all(
     options: &DeviceOptions,
     report: &Mutex<Report>,
 ) -> Outcome<()> {
-    let total = args.particles.len() * args.size.len() * paths.len();
+    let sizes = if args.size.is_empty() { &[(1280, 720)] } else { &args.size[..] };
+    let total = args.particles.len() * sizes.len() * paths.len();
     let mut progress = Progress::new(total, "combinations");
     let steps = progress.steps();
     for &count in &args.particles {
         let pool = pool::Pool::new(count);
-        for &(width, height) in &args.size {
+        for &(width, height) in sizes {
             for &path in paths {
                 let what = format!(
                     "{} particles, {width}x{height}, {}",
@@ -289,20 +314,45 @@ fn sample(
         headless.motion(&velocities, None)?;
         headless.previous(Some(Previous { camera, dt: 1.0 / 60.0 }));
     }
-    let mut samples: Vec<(&'static str, Vec<f64>)> = Vec::new();
+    let background = match config.shadow {
+        Some(_) => Background::Scene,
+        None => Background::Color([0.4, 0.4, 0.4]),
+    };
+    let times = times(headless, args, |headless| match path {
+        Path::ReadBack => headless.render_with_read_back(&camera, &settings, &background),
+        _ => headless.render(&camera, &settings, &background),
+    })?;
+    let drawn = Drawn { foaming, ..drawn(headless, config, pool)? };
+    let template = Row {
+        particles: drawn.particles,
+        width: extent.width,
+        height: extent.height,
+        path: path.name(),
+        most_iterations: drawn.most_iterations,
+        ..Row::of(headless)
+    };
+    Ok(times.rows(&template, &drawn))
+}
+
+/// What the frames took, milliseconds.
+struct Times {
+    passes: Vec<(&'static str, Vec<f64>)>,
+    totals: Vec<f64>,
+    calibration: f64,
+}
+
+/// Draws all frames.
+fn times(
+    headless: &mut Headless,
+    args: &BenchArgs,
+    mut draw: impl FnMut(&mut Headless) -> Result<(), Error>,
+) -> Result<Times, Error> {
+    let mut passes: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut totals = Vec::new();
     let mut calibration = Vec::new();
     for frame in 0..args.warmup + args.frames {
-        let background = match config.shadow {
-            Some(_) => Background::Scene,
-            None => Background::Color([0.4, 0.4, 0.4]),
-        };
         calibration.push(calibrate::milliseconds());
-        if path == Path::ReadBack {
-            headless.render_with_read_back(&camera, &settings, &background)?;
-        } else {
-            headless.render(&camera, &settings, &background)?;
-        }
+        draw(headless)?;
         if frame < args.warmup {
             continue;
         }
@@ -310,35 +360,37 @@ fn sample(
         for timing in headless.timings() {
             let ms = timing.nanoseconds * 1e-6;
             total += ms;
-            match samples.iter_mut().find(|(name, _)| *name == timing.name) {
+            match passes.iter_mut().find(|(name, _)| *name == timing.name) {
                 Some((_, list)) => list.push(ms),
-                None => samples.push((timing.name, vec![ms])),
+                None => passes.push((timing.name, vec![ms])),
             }
         }
         totals.push(total);
     }
-    let drawn = Drawn { foaming, ..drawn(headless, config, pool)? };
-    let calibration = report::median(&mut calibration);
-    let row = |pass: &str, list: &mut Vec<f64>, moved: Option<u64>| Row {
-        particles: drawn.particles,
-        width: extent.width,
-        height: extent.height,
-        path: path.name(),
-        pass: pass.to_owned(),
-        median: report::median(list),
-        low: report::quantile(list, 0.1),
-        high: report::quantile(list, 0.9),
-        bytes: moved,
-        calibration,
-        most_iterations: drawn.most_iterations,
-    };
-    let mut rows: Vec<Row> = samples
-        .iter_mut()
-        .map(|(name, list)| row(name, list, bytes::moved(name, &drawn)))
-        .collect();
-    let all = rows.iter().filter_map(|row| row.bytes).sum();
-    rows.push(row("frame", &mut totals, Some(all)));
-    Ok(rows)
+    Ok(Times { passes, totals, calibration: report::median(&mut calibration) })
+}
+
+impl Times {
+    /// A row a pass, and one of the whole frame.
+    fn rows(mut self, template: &Row, drawn: &Drawn) -> Vec<Row> {
+        let row = |pass: &str, list: &mut Vec<f64>, moved: Option<u64>| Row {
+            pass: pass.to_owned(),
+            median: report::median(list),
+            low: report::quantile(list, 0.1),
+            high: report::quantile(list, 0.9),
+            bytes: moved,
+            calibration: self.calibration,
+            ..template.clone()
+        };
+        let mut rows: Vec<Row> = self
+            .passes
+            .iter_mut()
+            .map(|(name, list)| row(name, list, bytes::moved(name, drawn)))
+            .collect();
+        let all = rows.iter().filter_map(|row| row.bytes).sum();
+        rows.push(row("frame", &mut self.totals, Some(all)));
+        rows
+    }
 }
 
 /// A fortieth is spray, the highest.
@@ -405,6 +457,8 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
         counts,
         foaming: 0,
         covered,
+        diffuse: 0,
+        foam: 0,
         iterations: sum as u64,
         most_iterations: most as u32,
     })

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use serde::Serialize;
+use whitewater::headless::Headless;
 
 use crate::failure::Outcome;
 use crate::out;
@@ -18,7 +19,7 @@ pub enum Format {
 }
 
 /// One pass of one combination.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Row {
     pub particles: u32,
     pub width: u32,
@@ -37,6 +38,36 @@ pub struct Row {
     pub calibration: f64,
     /// Most smoothing iterations of a pixel.
     pub most_iterations: u32,
+    /// Nanoseconds a diffuse particle, of the pass that is by particles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ns_per_diffuse: Option<f64>,
+    /// Bytes of the renderer, and of the diffuse particles.
+    pub memory: u64,
+    pub inputs: u64,
+    /// Of a sea.
+    #[serde(flatten)]
+    pub sea: Option<SeaRow>,
+}
+
+/// What there is to say of a sea beside.
+#[derive(Clone, Debug, Serialize)]
+pub struct SeaRow {
+    pub sea: &'static str,
+    /// Diffuse particles.
+    pub diffuse: u32,
+    pub occlusion: &'static str,
+}
+
+impl Row {
+    /// What the renderer alone says.
+    pub fn of(headless: &Headless) -> Self {
+        let memory = headless.renderer().memory();
+        Self {
+            memory: memory.images + memory.buffers,
+            inputs: headless.diffuse_memory(),
+            ..Self::default()
+        }
+    }
 }
 
 /// The value below which a share of the samples lies.
@@ -69,7 +100,8 @@ impl Report {
             Format::Table => out::print(format_args!("{adapter}, {driver}\n"))?,
             Format::Csv => out::print(format_args!(
                 "adapter,driver,version,particles,width,height,path,pass,median_ms,p10_ms,p90_ms,\
-                 bytes,calibration_ms,most_iterations\n"
+                 bytes,calibration_ms,most_iterations,memory_bytes,sea,diffuse,occlusion,\
+                 input_bytes,ns_per_diffuse\n"
             ))?,
             Format::Json => {}
         }
@@ -106,8 +138,13 @@ impl Report {
 
 fn csv(adapter: &str, driver: &str, r: &Row) -> String {
     let bytes = r.bytes.map_or_else(String::new, |b| b.to_string());
+    let each = r.ns_per_diffuse.map_or_else(String::new, |each| format!("{each:.3}"));
+    let sea = match &r.sea {
+        Some(sea) => format!("{},{},{},{},{each}", sea.sea, sea.diffuse, sea.occlusion, r.inputs),
+        None => ",,,,".into(),
+    };
     format!(
-        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{}\n",
+        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{},{},{sea}\n",
         r.particles,
         r.width,
         r.height,
@@ -117,22 +154,33 @@ fn csv(adapter: &str, driver: &str, r: &Row) -> String {
         r.low,
         r.high,
         r.calibration,
-        r.most_iterations
+        r.most_iterations,
+        r.memory
     )
 }
 
 /// Of one combination.
 fn table(rows: &[Row]) -> String {
     let Some(first) = rows.first() else { return String::new() };
-    let mut text = format!(
-        "\n{} particles, {}x{}, {}, at most {} iterations; calibration loop {:.2} ms\n",
-        first.particles,
-        first.width,
-        first.height,
-        first.path,
-        first.most_iterations,
-        first.calibration
-    );
+    let mb = |bytes: u64| bytes as f64 * 1e-6;
+    let mut text = match &first.sea {
+        Some(sea) => format!(
+            "\n{}, {} diffuse particles, {}x{}, {} occlusion; renderer {:.1} MB, particles {:.1} MB ({:.1} a million)",
+            sea.sea,
+            sea.diffuse,
+            first.width,
+            first.height,
+            sea.occlusion,
+            mb(first.memory),
+            mb(first.inputs),
+            first.inputs as f64 / f64::from(sea.diffuse.max(1))
+        ),
+        None => format!(
+            "\n{} particles, {}x{}, {}, at most {} iterations",
+            first.particles, first.width, first.height, first.path, first.most_iterations
+        ),
+    };
+    text += &format!("; calibration loop {:.2} ms\n", first.calibration);
     let [a, b, c, d, e] = ["median ms", "p10", "p90", "MB at least", "GB/s"];
     text += &format!("{:<12}{a:>10}{b:>10}{c:>10}{d:>11}{e:>10}\n", "pass");
     for r in rows {
@@ -147,6 +195,9 @@ fn table(rows: &[Row]) -> String {
             "{:<12}{:>10.3}{:>10.3}{:>10.3}{moved:>11}{rate:>10}\n",
             r.pass, r.median, r.low, r.high
         );
+        if let Some(each) = r.ns_per_diffuse {
+            text += &format!("{:<12}{each:>10.2} ns a particle\n", "");
+        }
         if r.pass == "frame" {
             text += &format!("{:<12}{:>10.2} calibration loops\n", "", r.median / r.calibration);
         }

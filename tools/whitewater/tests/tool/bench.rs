@@ -81,3 +81,78 @@ fn an_interrupt_loses_nothing_measured() {
     let rows = all["rows"].as_array().unwrap();
     assert!(!rows.is_empty() && rows.iter().all(|row| row["width"] == 16), "{text}");
 }
+
+/// A sea instead of water: who drew what, how long a particle took and what it took of memory; and the picture.
+#[test]
+fn a_sea_says_what_its_foam_costs() {
+    let folder = Folder::new();
+    let quick = "bench --sea wave --diffuse 20k --size 160x120 --frames 1 --warmup 0";
+    let run = folder.run(&format!("{quick} --occlusion fast,reference --format json")).ok();
+    let all: Value = serde_json::from_str(&run.stdout()).unwrap();
+    let rows = all["rows"].as_array().unwrap();
+    for occlusion in ["fast", "reference"] {
+        let row = |pass: &str| {
+            let row = rows.iter().find(|r| r["occlusion"] == occlusion && r["pass"] == pass);
+            row.unwrap_or_else(|| panic!("{occlusion}, {pass}: {}", run.stdout()))
+        };
+        let frame = row("frame");
+        assert_eq!((&frame["sea"], &frame["diffuse"]), (&"wave".into(), &20_000.into()));
+        // Positions, kinds, ages and ids, and what a device rounds up.
+        let input = frame["inputs"].as_u64().unwrap();
+        assert!((24 * 20_000..24 * 20_000 + 4096).contains(&input), "{input}");
+        assert!(frame["memory"].as_u64().unwrap() > 28 * 160 * 120);
+        // The words and images of a pixel and two times a particle's streams, as bytes.rs says.
+        assert_eq!(row("splat")["bytes"], 104 * 160 * 120 + 48 * 20_000);
+        let each = row("splat")["ns_per_diffuse"].as_f64().unwrap();
+        let median = row("splat")["median"].as_f64().unwrap();
+        assert!(each > 0.0 && (each * 20_000.0 / (median * 1e6) - 1.0).abs() < 1e-6);
+        assert!(row("radiance")["bytes"].as_u64() >= Some(24 * 160 * 120));
+        assert!(row("blur")["median"].as_f64() > Some(0.0));
+        assert!(row("radiance").get("ns_per_diffuse").is_none());
+    }
+    let text = folder.run(&format!("{quick} --format csv --picture wave.png")).ok().stdout();
+    let mut lines = text.lines();
+    let head: Vec<_> = lines.next().unwrap().split(',').collect();
+    let splat = lines.find(|line| line.contains(",splat,")).unwrap();
+    let (_, rest) = splat.rsplit_once('"').unwrap();
+    let cells: Vec<_> = rest.trim_start_matches(',').split(',').collect();
+    assert_eq!(cells.len(), head.len() - 2, "{text}");
+    let cell = |name: &str| cells[head.iter().position(|h| *h == name).unwrap() - 2];
+    assert_eq!([cell("sea"), cell("diffuse"), cell("occlusion")], ["wave", "20000", "fast"]);
+    assert!(cell("ns_per_diffuse").parse::<f64>().unwrap() > 0.0);
+    // There is foam in the picture, and sea.
+    let picture = folder.picture("wave.png");
+    assert_eq!((picture.width, picture.height), (160, 120));
+    let rgb = picture.rgb().unwrap();
+    let share = |test: &dyn Fn(&[f32; 3]) -> bool| {
+        rgb.iter().filter(|c| test(c)).count() as f32 / rgb.len() as f32
+    };
+    let white = share(&|c| c.iter().all(|v| *v > 0.8));
+    assert!((0.01..0.5).contains(&white), "{white} of the picture is white");
+    assert!(share(&|c| c[2] < 0.55 && c[2] > c[0]) > 0.2);
+    let text = folder.run(quick).ok().stdout();
+    for part in ["wave, 20000 diffuse particles, 160x120, fast occlusion", "(24.", "ns a particle"]
+    {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn what_is_no_sea_is_an_error() {
+    let folder = Folder::new();
+    for (arguments, says) in [
+        ("--sea pool", "pool"),
+        ("--sea wave --diffuse 0", "from 1 to 268m"),
+        ("--sea wave --diffuse 269m", "from 1 to 268m"),
+        ("--sea wave --diffuse nan", "from 1 to 268m"),
+        ("--sea wave --particles 64k", "--particles"),
+        ("--diffuse 20k", "--sea"),
+        ("--sea wave,ship --picture a.png", "one combination"),
+        ("--sea wave --picture a.exr", ".png"),
+    ] {
+        let run = folder.run(&format!("bench {arguments}"));
+        assert_eq!(run.0.status.code(), Some(2), "{arguments}: {}", run.stderr());
+        assert!(run.stderr().contains(says), "{arguments}: {}", run.stderr());
+    }
+    assert!(folder.files().is_empty(), "{:?}", folder.files());
+}

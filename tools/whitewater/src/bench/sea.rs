@@ -1,0 +1,242 @@
+//! The foam of a sea: diffuse particles by the million over its scene, without water particles.
+
+use std::sync::Mutex;
+
+use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use whitewater::ash::vk;
+use whitewater::foam::{DiffuseConfig, DiffuseLook, Occlusion};
+use whitewater::headless::scene::Scene;
+use whitewater::headless::{
+    Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Diffuse, Headless,
+};
+use whitewater::io::picture;
+use whitewater::water::Shadows;
+use whitewater::{Config, Error, Settings};
+use whitewater_seas::Sea;
+
+use super::report::{Report, Row, SeaRow};
+use super::{BenchArgs, Drawn, lock, times};
+use crate::camera::Lens;
+use crate::environment::Environment;
+use crate::failure::{Failure, Outcome};
+use crate::layers;
+use crate::output::{self, PictureFormat, Target};
+use crate::progress::Progress;
+
+/// Particles that are made and uploaded at a time.
+const PART: u32 = 1 << 20;
+
+/// How the shadow is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum OcclusionArg {
+    /// A sixteenth of the points a pixel
+    Fast,
+    /// As printed by the source
+    Reference,
+}
+
+impl OcclusionArg {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Reference => "reference",
+        }
+    }
+}
+
+impl From<OcclusionArg> for Occlusion {
+    fn from(arg: OcclusionArg) -> Self {
+        match arg {
+            OcclusionArg::Fast => Self::Fast,
+            OcclusionArg::Reference => Self::Reference,
+        }
+    }
+}
+
+/// Of `--sea`.
+pub fn parser() -> impl TypedValueParser<Value = Sea> {
+    PossibleValuesParser::new(Sea::ALL.map(Sea::name))
+        .try_map(|name| Sea::from_name(&name).ok_or("no such sea"))
+}
+
+/// Of `--diffuse`: decimal, as the source counts.
+pub fn parse_count(text: &str) -> Result<u32, String> {
+    let lower = text.to_lowercase();
+    let (digits, scale) = match lower.strip_suffix('k') {
+        Some(digits) => (digits, 1e3),
+        None => match lower.strip_suffix('m') {
+            Some(digits) => (digits, 1e6),
+            None => (lower.as_str(), 1.0),
+        },
+    };
+    match digits.parse::<f64>().map(|n| (n * scale).round()) {
+        Ok(count) if (1.0..=268_435_456.0).contains(&count) => Ok(count as u32),
+        _ => Err(format!("expected a count from 1 to 268m such as 20k or 0.8m, found '{text}'")),
+    }
+}
+
+/// One combination.
+#[derive(Clone, Copy)]
+struct Case {
+    sea: Sea,
+    count: u32,
+    extent: vk::Extent2D,
+    occlusion: OcclusionArg,
+}
+
+fn cases(args: &BenchArgs) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for &sea in &args.sea {
+        let (count, size) = sea.source();
+        let counts = if args.diffuse.is_empty() { vec![count] } else { args.diffuse.clone() };
+        let sizes = if args.size.is_empty() { vec![size] } else { args.size.clone() };
+        for &count in &counts {
+            for &(width, height) in &sizes {
+                let modes = match &args.occlusion[..] {
+                    [] => &[OcclusionArg::Fast],
+                    modes => modes,
+                };
+                let extent = vk::Extent2D { width, height };
+                cases.extend(modes.iter().map(|&occlusion| Case { sea, count, extent, occlusion }));
+            }
+        }
+    }
+    cases
+}
+
+/// What can be said before anything is measured.
+pub fn check(args: &BenchArgs) -> Outcome<()> {
+    let Some(path) = &args.picture else { return Ok(()) };
+    let count = cases(args).len();
+    if count != 1 {
+        return Err(Failure::usage(format!(
+            "--picture: expected one combination of sea, count, size and occlusion, found {count}; leave only one"
+        )));
+    }
+    if Target::new(path, false)?.format != PictureFormat::Png {
+        let path = path.display();
+        return Err(Failure::usage(format!("--picture: expected a .png, found {path}; rename it")));
+    }
+    output::probe(path)
+}
+
+pub fn measure_all(
+    args: &BenchArgs,
+    options: &DeviceOptions,
+    report: &Mutex<Report>,
+) -> Outcome<()> {
+    let cases = cases(args);
+    let mut progress = Progress::new(cases.len(), "combinations");
+    let steps = progress.steps();
+    for case in cases {
+        let Case { sea, count, extent, occlusion } = case;
+        let what = format!(
+            "{}, {count} diffuse particles, {}x{}, {}",
+            sea.name(),
+            extent.width,
+            extent.height,
+            occlusion.name()
+        );
+        match steps.during(&what, || measure(args, options, case)) {
+            Ok(rows) => {
+                progress.aside(|| lock(report).add(rows))?;
+                progress.advance(&what);
+            }
+            Err(failure) => {
+                progress.finish();
+                return Err(Failure { message: format!("{what}: {}", failure.message), ..failure });
+            }
+        }
+    }
+    progress.finish();
+    Ok(())
+}
+
+fn measure(args: &BenchArgs, options: &DeviceOptions, case: Case) -> Outcome<Vec<Row>> {
+    let device = Device::new(options)?;
+    // There are none, and it is not zero.
+    let mut config = Config::new(case.extent, COLOR_FORMAT, 64);
+    config.diffuse =
+        Some(DiffuseConfig { occlusion: case.occlusion.into(), ..DiffuseConfig::new(case.count) });
+    config.shadow = Some(Shadows::Map);
+    let mut headless = Headless::new(device, &config)?;
+    let rows = sample(&mut headless, args, case, config);
+    headless.finish()?;
+    rows
+}
+
+fn sample(
+    headless: &mut Headless,
+    args: &BenchArgs,
+    case: Case,
+    config: Config,
+) -> Outcome<Vec<Row>> {
+    let Case { sea, count, extent, occlusion } = case;
+    let scene = sea.scene();
+    let environment = Environment::sky(Some(scene.sun.direction))?;
+    if let crate::environment::Source::Sky(sky) = &environment.source {
+        headless.sky(sky)?;
+    }
+    headless.scene(&Scene { sun: environment.sun_light(), ..scene }, true)?;
+    headless.particles(&[], None)?;
+    upload(headless, sea, count)?;
+    let settings = Settings {
+        diffuse: DiffuseLook { radius: sea.radius(count), ..DiffuseLook::default() },
+        light: environment.light(),
+        ..Settings::default()
+    };
+    let camera = sea.camera(extent.width as f32 / extent.height as f32);
+    let times =
+        times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
+    let depth = headless.layer("foam")?;
+    let foam = depth.map_or(0, |depth| depth.data.iter().filter(|z| **z < picture::EMPTY).count());
+    let drawn = Drawn {
+        extent,
+        config,
+        particles: 0,
+        counts: Counts::default(),
+        foaming: 0,
+        covered: 0,
+        diffuse: count,
+        foam: foam as u64,
+        iterations: 0,
+        most_iterations: 0,
+    };
+    if let Some(path) = &args.picture {
+        let size = (extent.width, extent.height);
+        let layers = layers::collect(headless, size, &[], &Lens::new(&camera)?)?;
+        output::write(path, |to| picture::write_png(&layers, environment.exposure(), to))?;
+    }
+    let template = Row {
+        width: extent.width,
+        height: extent.height,
+        path: "sea".into(),
+        sea: Some(SeaRow { sea: sea.name(), diffuse: count, occlusion: occlusion.name() }),
+        ..Row::of(headless)
+    };
+    let mut rows = times.rows(&template, &drawn);
+    for row in rows.iter_mut().filter(|row| row.pass == "splat") {
+        row.ns_per_diffuse = Some(row.median * 1e6 / f64::from(count));
+    }
+    Ok(rows)
+}
+
+/// A part after the other: never all are in the host's memory.
+fn upload(headless: &mut Headless, sea: Sea, count: u32) -> Result<(), Error> {
+    let mut parts = headless.diffuse_parts(count as usize)?;
+    let mut first = 0;
+    while first < count {
+        let next = count.min(first.saturating_add(PART));
+        let foam = sea.foam(first..next, count);
+        parts.push(&Diffuse {
+            positions: &foam.positions,
+            kinds: Some(&foam.kinds),
+            ages: Some(&foam.ages),
+            ids: Some(&foam.ids),
+            radii: None,
+        })?;
+        first = next;
+    }
+    parts.finish()
+}
