@@ -190,7 +190,7 @@ const MILKY: Vec3 = vec3(0.12, 0.28, 0.30);
 
 /// Albedo of water that was this, where foam covers so much of it.
 fn aerated(clear: Vec3, amount: f32) -> Vec3 {
-    let milky = clear.lerp(MILKY, noise::smooth(0.15, 0.75, amount));
+    let milky = clear.lerp(MILKY, noise::smooth(0.30, 0.85, amount));
     milky.lerp(vec3(0.42, 0.49, 0.49), 0.8 * noise::smooth(0.65, 1.1, amount))
 }
 

@@ -127,7 +127,7 @@ fn foam(random: &mut Random) -> Particle {
 fn running(random: &mut Random) -> Particle {
     let wet = |p: Vec2| -> f32 {
         let y = rock(p);
-        if y < -0.5 || y > 6.0 || p.length() < 4.5 {
+        if !(-0.5..=6.0).contains(&y) || p.length() < 4.5 {
             return 0.0;
         }
         let hollow = octaves(0.33 * p, 4) - octaves(0.9 * p + 3.0, 3);
