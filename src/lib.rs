@@ -167,7 +167,7 @@
 //! Against Akinci et al. (2013), whose foam of diffuse particles it is:
 //!
 //! - Particles smaller than a pixel and a half are widened, and their light is kept exactly, wherever between the
-//!   pixels they lie: far foam does not sparkle.
+//!   pixels they lie, and face the eye: far foam does not sparkle.
 //! - What is behind the water's surface lies in the water, at its mean depth, and loses light as all in it does; the
 //!   source's falloff is there as [`foam::Submerged::Falloff`].
 //! - A sample is hidden by how far its occluder stands before the sample itself; the print has the fragment's depth.

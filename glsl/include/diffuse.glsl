@@ -86,6 +86,12 @@ Footprint footprint_of(Diffuse p) {
     return footprint_at(middle, p.radius / (depth * frame.texel.xy), p.kind);
 }
 
+// Its normal where it is met, eye space, of any length. Of one smaller than a pixel the mean, which faces the eye: the place
+// that a pixel's middle hits is chance, and lit by it far foam is salt and pepper. Not in the source.
+vec3 diffuse_normal(Footprint f, vec2 place, float w) {
+    return mix(vec3(0.0, 0.0, 1.0), vec3(place, w), f.own);
+}
+
 // What a pixel gets of its thickness, at such a square of the distance.
 float diffuse_amount(Diffuse p, Footprint f, float rr) {
     return p.life * (f.even * (1.0 - rr) + f.own * diffuse_shape(p.kind, sqrt(rr)));
