@@ -1,0 +1,36 @@
+// A diffuse particle as a ray meets it: a ball that faces the eye, as its sprite does. Distances across the view
+// are taken at the depth of its centre, those along it are depths: the integral of the kernel along a ray is
+// then the thickness of the sprite in that pixel (src/lib.rs derives the kernels).
+// Needs view.glsl. Reads: records.
+
+struct Ball {
+    vec3 centre;   // x and y in eye space; depth
+    float radius;  // 0: not in the picture
+    vec3 kernel;   // of y = 1 - q^2 at q radii from the centre: sqrt(y) (a + b y + c y^2)
+    float inverse; // of the radius
+};
+
+layout(set = 0, binding = 1, std430) readonly buffer Records { vec4 records[]; };
+
+Ball ball_of(uint i) {
+    vec4 where = records[2u * i];
+    vec4 what = records[2u * i + 1u];
+    return Ball(where.xyz, where.w, what.xyz, what.w);
+}
+
+// 1 less the square of the distance of a ray from the centre, in radii.
+float rest_of(Ball ball, vec2 slope) {
+    vec2 d = (slope * ball.centre.z - ball.centre.xy) * ball.inverse;
+    return 1.0 - dot(d, d);
+}
+
+float kernel_at(Ball ball, float y) {
+    return sqrt(y) * (ball.kernel.x + y * (ball.kernel.y + y * ball.kernel.z));
+}
+
+// The first and the last of the samples of a slab that lie in a ball: at t + k dt radii from its centre.
+ivec2 samples_in(float rest, float t, float dt, int samples) {
+    float reach = sqrt(rest);
+    vec2 k = clamp(vec2(ceil((-reach - t) / dt), floor((reach - t) / dt)), vec2(0.0, -1.0), vec2(samples, samples - 1));
+    return ivec2(k);
+}

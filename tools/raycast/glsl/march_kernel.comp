@@ -1,0 +1,60 @@
+#version 460
+// Pass `march` of the kernel ray-caster: at each sample of a ray the sum of the kernels of the particles near it
+// (Ihmsen et al. 2012, Sec. 5). The particles of a cell are gone through once for all samples in it, and only those
+// samples that lie in one are taken.
+// Reads: records, tiles, starts, cells, entries, scene depth. Writes: thickness.
+
+#include "view.glsl"
+#include "tiles.glsl"
+#include "ball.glsl"
+#include "push.glsl"
+#include "march.glsl"
+
+layout(set = 0, binding = 5, std430) readonly buffer Entries { uint entries[]; };
+
+void main() {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uint tile = tile_of(gl_WorkGroupID.xy);
+    uint near = tiles[4u * tile + NEAR];
+    uint far = tiles[4u * tile + FAR];
+    if (near >= far || any(greaterThanEqual(pixel, view.extent.xy))) {
+        return;
+    }
+    uint at = pixel.y * view.extent.x + pixel.x;
+    float sum = thickness[at];
+    float end = scene[at];
+    vec2 slope = (vec2(pixel) + 0.5) * view.slope.xy + view.slope.zw;
+    float place = sample_place(pixel);
+    int samples = int(view.samples.x);
+    uint cell = starts[tile];
+    uint begin = cell > 0u ? cells[cell - 1u] : 0u;
+    for (uint slab = near; slab < far && cell < push.cells; ++slab, ++cell) {
+        uint stop = min(cells[cell], push.capacity);
+        if (stop > begin) {
+            float depth = slab_depth(slab);
+            float dz = (slab_depth(slab + 1u) - depth) / float(samples);
+            float first = depth + place * dz;
+            if (depth >= end || sum >= view.lens.w) {
+                break;
+            }
+            int before = clamp(int(ceil((end - first) / dz)), 0, samples);
+            float slab_sum = 0.0;
+            for (uint entry = begin; entry < stop; ++entry) {
+                Ball ball = ball_of(entries[entry]);
+                float rest = rest_of(ball, slope);
+                if (rest > 0.0) {
+                    float t = (first - ball.centre.z) * ball.inverse;
+                    float dt = dz * ball.inverse;
+                    ivec2 inside = samples_in(rest, t, dt, before);
+                    for (int k = inside.x; k <= inside.y; ++k) {
+                        float q = t + float(k) * dt;
+                        slab_sum += kernel_at(ball, max(rest - q * q, 0.0));
+                    }
+                }
+            }
+            sum += dz * slab_sum;
+        }
+        begin = stop;
+    }
+    thickness[at] = sum;
+}

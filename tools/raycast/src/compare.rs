@@ -1,0 +1,197 @@
+//! `whitewater-raycast compare`: Table 1 and Fig. 8 of Akinci et al. 2013 for one cloud.
+
+use std::path::PathBuf;
+
+use clap::Args as ClapArgs;
+use whitewater::ash::vk;
+use whitewater::foam::{DiffuseConfig, Occlusion};
+use whitewater::headless::{Background, COLOR_FORMAT, Device, Diffuse, Headless, Picture};
+use whitewater::{Camera, Config, Settings as Look};
+use whitewater_raycast::cloud::Cloud;
+use whitewater_raycast::{Caster, Foam, Input, Method, SceneDepth, Settings};
+
+use crate::picture::{self, mean_flip};
+use crate::{Args, Outcome, by_name, line, measure, median};
+
+/// How far from the converged picture a step may be.
+const TOLERANCE: f32 = 0.02;
+/// Two steps, one half the other, whose pictures are no farther apart are converged.
+const CONVERGED: f32 = 0.001;
+/// The finest step.
+const FINEST: f32 = 1.0 / 64.0;
+/// Steps to choose from, in radii.
+const STEPS: [f32; 14] =
+    [16.0, 12.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.75, 0.5, 0.25, 0.125, 0.0625];
+
+/// What is compared.
+#[derive(ClapArgs)]
+pub struct CompareArgs {
+    /// Folder for the pictures: ours, and of each ray-caster the converged one and that of the step that was chosen
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+}
+
+/// A cloud with a view of it.
+struct Shot {
+    foam: Foam,
+    radius: f32,
+    camera: Camera,
+    size: [u32; 2],
+}
+
+/// What `whitewater` makes of it.
+struct Ours {
+    times: Vec<(&'static str, f64)>,
+    intensity: Picture<f32>,
+    scene: SceneDepth,
+}
+
+/// What a ray-caster makes of it.
+struct Cast {
+    converged: (f32, Picture<f32>),
+    step: f32,
+    flip: f32,
+    picture: Picture<f32>,
+    times: Vec<(&'static str, f64)>,
+    memory: u64,
+    chunks: usize,
+}
+
+pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
+    let [width, height] = args.size;
+    let shot = Shot {
+        foam: Cloud.foam(0..args.particles, args.particles),
+        radius: Cloud.radius(args.particles),
+        camera: Cloud.camera(width as f32 / height as f32),
+        size: args.size,
+    };
+    let (device, ours) = draw_ours(crate::device(args)?, &shot, args.repeat)?;
+    println!("{}: {} particles, {width}x{height}", device.adapter, args.particles);
+    println!("{:<28} {:>6} {:>9} {:>7} {:>9}  passes, ms", "", "step", "ms", "FLIP", "MiB");
+    if let Some(folder) = &how.pictures {
+        std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        picture::write(&folder.join("ours.png"), &ours.intensity)?;
+    }
+    let mut apart = Vec::new();
+    for method in Method::ALL {
+        let cast = cast(&device, method, &shot, &ours.scene, args)?;
+        let chunks = if cast.chunks > 1 { format!(" x{}", cast.chunks) } else { String::new() };
+        row(
+            &format!("ray-casting, {}{chunks}", method.name()),
+            Some((cast.step, cast.flip, cast.memory)),
+            &cast.times,
+        );
+        apart.push((method, mean_flip(&ours.intensity, &cast.converged.1), cast.converged.0));
+        if let Some(folder) = &how.pictures {
+            let path = |what: &str| folder.join(format!("{}-{what}.png", method.name()));
+            picture::write(&path("converged"), &cast.converged.1)?;
+            picture::write(&path("step"), &cast.picture)?;
+        }
+    }
+    let of = |names: &[&str]| -> Vec<_> {
+        ours.times.iter().filter(|(name, _)| names.contains(name)).copied().collect()
+    };
+    row("ours, intensity only", None, &of(&["splat"]));
+    row("ours, total (fast shadow)", None, &of(&["splat", "radiance", "blur", "composite"]));
+    for (method, flip, step) in apart {
+        println!("ours and {} converged (step {step}): mean FLIP {flip:.4}", method.name());
+    }
+    Ok(())
+}
+
+fn row(name: &str, cast: Option<(f32, f32, u64)>, times: &[(&'static str, f64)]) {
+    let all: f64 = times.iter().map(|(_, ms)| ms).sum();
+    let passes: Vec<_> = times.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
+    let [step, flip, memory] = match cast {
+        Some((step, flip, memory)) => [
+            format!("{step}"),
+            format!("{flip:.4}"),
+            format!("{:.1}", memory as f64 / f64::from(1 << 20)),
+        ],
+        None => [const { String::new() }; 3],
+    };
+    println!("{name:<28} {step:>6} {all:>9.2} {flip:>7} {memory:>9}  {}", passes.join(", "));
+}
+
+fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)> {
+    let [width, height] = shot.size;
+    let count = shot.foam.positions.len() as u32;
+    let diffuse = DiffuseConfig { occlusion: Occlusion::Fast, ..DiffuseConfig::new(count.max(1)) };
+    let extent = vk::Extent2D { width, height };
+    let config = Config { diffuse: Some(diffuse), ..Config::new(extent, COLOR_FORMAT, 1024) };
+    let mut headless = Headless::new(device, &config).map_err(line)?;
+    let mut draw = || {
+        headless.particles(&[], None)?;
+        headless.scene(&Cloud.scene(), false)?;
+        headless.diffuse(Some(&Diffuse {
+            positions: &shot.foam.positions,
+            kinds: Some(&shot.foam.kinds),
+            radii: None,
+            ages: Some(&shot.foam.ages),
+            ids: Some(&shot.foam.ids),
+        }))?;
+        let mut look = Look::default();
+        look.diffuse.radius = shot.radius;
+        let mut frames = Vec::new();
+        for frame in 0..=repeat {
+            headless.render(&shot.camera, &look, &Background::Scene)?;
+            if frame > 0 {
+                frames.push(by_name(&headless.timings()));
+            }
+        }
+        let intensity = headless.layer("foam.intensity")?;
+        let depth = headless.scene_depth()?;
+        Ok((frames, intensity, SceneDepth::of_device(&shot.camera, &depth.data)?))
+    };
+    let drawn = draw().map_err(line);
+    let device = headless.finish().map_err(line)?;
+    let (frames, intensity, scene) = drawn?;
+    let intensity = intensity.ok_or("whitewater kept no layer foam.intensity")?;
+    Ok((device, Ours { times: median(frames), intensity, scene }))
+}
+
+fn cast(
+    device: &Device,
+    method: Method,
+    shot: &Shot,
+    scene: &SceneDepth,
+    args: &Args,
+) -> Outcome<Cast> {
+    let input = Input {
+        foam: &shot.foam,
+        radius: shot.radius,
+        camera: &shot.camera,
+        size: shot.size,
+        scene,
+    };
+    let make = |step| {
+        let settings = Settings { step, tile: args.tile, ..Settings::default() };
+        Caster::new(device, method, &input, &settings).map_err(line)
+    };
+    let draw = |step| {
+        let caster = make(step)?;
+        caster.draw().map_err(line)?;
+        caster.intensity().map_err(line)
+    };
+    let mut step = 0.5;
+    let mut finer = draw(step)?;
+    loop {
+        step *= 0.5;
+        let coarser = std::mem::replace(&mut finer, draw(step)?);
+        if step <= FINEST || mean_flip(&coarser, &finer) <= CONVERGED {
+            break;
+        }
+    }
+    let converged = (step, finer);
+    for step in STEPS {
+        let picture = draw(step)?;
+        let flip = mean_flip(&picture, &converged.1);
+        if flip <= TOLERANCE {
+            let caster = make(step)?;
+            let times = measure(&caster, args.repeat)?;
+            let (memory, chunks) = (caster.memory(), caster.chunk_count());
+            return Ok(Cast { converged, step, flip, picture, times, memory, chunks });
+        }
+    }
+    Err(format!("{}: no step is within FLIP {TOLERANCE} of the converged picture", method.name()))
+}

@@ -1,0 +1,80 @@
+//! The ray-caster through a density grid that is aligned with the view (Fraedrich et al. 2010): passes `prepare`,
+//! `tiles`, `count`, `scan` of [`Cells`], which here are bricks of voxels, then `clear`, `splat` and `march`.
+//!
+//! A column of voxels a pixel, a voxel a sample of its ray. The source's grid is dense; of ours there are only the
+//! bricks with particles.
+
+use whitewater::Error;
+use whitewater::gpu_allocator::MemoryLocation;
+use whitewater::headless::Device;
+
+use crate::Settings;
+use crate::cells::{Cells, Chunk, Layout, shader};
+use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE};
+
+/// Samples of a brick along a ray: with fewer ones there are more bricks, with more ones more empty voxels.
+const SAMPLES: u32 = 8;
+/// Edge of a tile in pixels.
+const TILE: u32 = 4;
+
+/// Of its bricks.
+pub(crate) fn layout(settings: &Settings) -> Layout {
+    let tile = settings.tile.unwrap_or(TILE);
+    let voxels = u64::from(SAMPLES * tile * tile);
+    Layout { tile, samples: SAMPLES, bricks: true, bytes_each: 4 * voxels }
+}
+
+/// Its own passes.
+pub(crate) struct Grid<'d> {
+    splat: Pass<'d>,
+    march: Pass<'d>,
+    voxels: Buffer<'d>,
+}
+
+impl<'d> Grid<'d> {
+    pub fn new(device: &'d Device, cells: &Cells<'d>) -> Result<Self, Error> {
+        let constants = cells.constants();
+        let bytes = cells.layout.bytes_each * cells.room.total;
+        Ok(Self {
+            splat: Pass::new(device, "splat", shader!("splat"), 5, &constants)?,
+            march: Pass::new(device, "march", shader!("march_grid"), 7, &constants)?,
+            voxels: Buffer::new(device, "voxels", bytes, MemoryLocation::GpuOnly)?,
+        })
+    }
+
+    pub fn memory(&self) -> u64 {
+        self.voxels.size
+    }
+
+    pub fn record(
+        &self,
+        frame: &mut Frame<'_>,
+        cells: &Cells<'_>,
+        chunk: &Chunk<'_>,
+    ) -> Result<(), Error> {
+        let (view, push) = (&cells.view, cells.push(chunk));
+        frame.scope("clear", |frame| {
+            frame.barrier(&[(&self.voxels, READ, FILL)]);
+            frame.clear(&self.voxels);
+            Ok(())
+        })?;
+        frame.scope("splat", |frame| {
+            frame.barrier(&[(&self.voxels, FILL, UPDATE), (&cells.cells, UPDATE, READ)]);
+            let buffers = [&cells.records, &cells.tiles, &cells.starts, &cells.cells, &self.voxels];
+            frame.dispatch(&self.splat, view, &buffers, push, chunk.groups())
+        })?;
+        frame.scope("march", |frame| {
+            frame.barrier(&[(&self.voxels, UPDATE, READ), (&cells.thickness, UPDATE, UPDATE)]);
+            let buffers = [
+                &cells.records,
+                &cells.tiles,
+                &cells.starts,
+                &cells.cells,
+                &self.voxels,
+                &cells.scene,
+                &cells.thickness,
+            ];
+            frame.dispatch(&self.march, view, &buffers, push, cells.tile_count)
+        })
+    }
+}

@@ -1,0 +1,187 @@
+//! `whitewater-raycast`: draws foam by volume ray-casting, and measures that beside `whitewater`.
+//!
+//! ```sh
+//! whitewater-raycast --particles 800000 --method grid --step 1 -o foam.png --timings
+//! whitewater-raycast compare --particles 800000
+//! ```
+
+mod compare;
+mod picture;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
+use whitewater::headless::{Device, DeviceOptions};
+use whitewater::{Error, Timing};
+use whitewater_raycast::cloud::Cloud;
+use whitewater_raycast::{Caster, Input, Method, SceneDepth, Settings};
+
+/// Of everything here: a line for the user.
+type Outcome<T> = Result<T, String>;
+
+/// Draws foam by volume ray-casting (emission and absorption alone)
+#[derive(Parser)]
+#[command(version, args_conflicts_with_subcommands = false)]
+struct Args {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// How many particles
+    #[arg(long, value_name = "N", default_value_t = 100_000, global = true)]
+    particles: u32,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = size, global = true)]
+    size: [u32; 2],
+    /// Part of the adapter's name
+    #[arg(long, value_name = "NAME", global = true)]
+    device: Option<String>,
+    /// Edge of a tile in pixels: 4, 8 or 16 [default: the fastest that was measured]
+    #[arg(long, value_name = "PIXELS", global = true)]
+    tile: Option<u32>,
+    /// Frames of which the times are the median
+    #[arg(long, value_name = "N", default_value_t = 5, global = true,
+          value_parser = clap::value_parser!(u32).range(1..=1000))]
+    repeat: u32,
+    /// Which ray-caster
+    #[arg(long, value_enum, default_value_t = MethodArg::Kernel)]
+    method: MethodArg,
+    /// Distance of a ray's samples in particle radii
+    #[arg(long, value_name = "RADII", default_value_t = 0.5)]
+    step: f32,
+    /// All samples side by side, not shifted from pixel to pixel
+    #[arg(long)]
+    even: bool,
+    /// The intensity as grey
+    #[arg(short, long, value_name = "OUT.png")]
+    output: Option<PathBuf>,
+    /// Print how long each pass took
+    #[arg(long)]
+    timings: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Measures both ray-casters, at the coarsest step that looks converged, beside whitewater
+    Compare(compare::CompareArgs),
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodArg {
+    /// Kernels summed at each sample
+    Kernel,
+    /// A grid of densities, aligned with the view
+    Grid,
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    match parsed {
+        Some([w, h]) if w > 0 && h > 0 => Ok([w, h]),
+        _ => Err("expected width and height as in 800x600".into()),
+    }
+}
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let result = match &args.command {
+        Some(Command::Compare(how)) => compare::run(&args, how),
+        None => draw(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("raycast: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Bad values at the command line end as clap's own do, by exit code 2; all else is a line.
+fn line(error: Error) -> String {
+    match error {
+        Error::BadInput { field: "Settings.step" | "Settings.tile" | "Input.size", why } => {
+            Args::command().error(ErrorKind::ValueValidation, why).exit()
+        }
+        error => error.to_string(),
+    }
+}
+
+fn device(args: &Args) -> Outcome<Device> {
+    let options = DeviceOptions { name: args.device.clone(), ..DeviceOptions::default() };
+    Device::new(&options).map_err(line)
+}
+
+fn draw(args: &Args) -> Outcome<()> {
+    if args.output.is_none() && !args.timings {
+        let message = "nothing to do: give -o OUT.png, or --timings, or both";
+        Args::command().error(ErrorKind::MissingRequiredArgument, message).exit();
+    }
+    let method = match args.method {
+        MethodArg::Kernel => Method::Kernel,
+        MethodArg::Grid => Method::Grid,
+    };
+    let [width, height] = args.size;
+    let settings =
+        Settings { step: args.step, shifted: !args.even, tile: args.tile, ..Settings::default() };
+    let foam = Cloud.foam(0..args.particles, args.particles);
+    let camera = Cloud.camera(width as f32 / height as f32);
+    let input = Input {
+        foam: &foam,
+        radius: Cloud.radius(args.particles),
+        camera: &camera,
+        size: args.size,
+        scene: &SceneDepth::Plane { normal: [0.0, 1.0, 0.0], offset: -1.0 },
+    };
+    let device = device(args)?;
+    let caster = Caster::new(&device, method, &input, &settings).map_err(line)?;
+    let times = measure(&caster, if args.timings { args.repeat } else { 1 })?;
+    if args.timings {
+        println!("{}: {} particles, {width}x{height}", device.adapter, args.particles);
+        println!("{} at a step of {} radii:", method.name(), args.step);
+        for (name, ms) in &times {
+            println!("{name:<12} {ms:>10.3} ms");
+        }
+        let all: f64 = times.iter().map(|(_, ms)| ms).sum();
+        println!("{:<12} {all:>10.3} ms", "all");
+        let mebibytes = caster.memory() as f64 / f64::from(1 << 20);
+        println!("{:<12} {mebibytes:>10.1} MiB in {} chunk(s)", "memory", caster.chunk_count());
+    }
+    if let Some(path) = &args.output {
+        let intensity = caster.intensity().map_err(line)?;
+        picture::write(path, &intensity)?;
+    }
+    Ok(())
+}
+
+/// The passes of a frame by name, in their order, in milliseconds: those of the frame that took the median time of
+/// so many, after one that is not counted.
+fn measure(caster: &Caster<'_>, repeat: u32) -> Outcome<Vec<(&'static str, f64)>> {
+    caster.draw().map_err(line)?;
+    let mut frames = Vec::new();
+    for _ in 0..repeat {
+        frames.push(by_name(&caster.draw().map_err(line)?));
+    }
+    Ok(median(frames))
+}
+
+/// The sum of each pass.
+fn by_name(timings: &[Timing]) -> Vec<(&'static str, f64)> {
+    let mut sums: Vec<(&'static str, f64)> = Vec::new();
+    for timing in timings {
+        let ms = timing.nanoseconds * 1.0e-6;
+        match sums.iter_mut().find(|(name, _)| *name == timing.name) {
+            Some((_, sum)) => *sum += ms,
+            None => sums.push((timing.name, ms)),
+        }
+    }
+    sums
+}
+
+/// The frame of the median of all times.
+fn median(mut frames: Vec<Vec<(&'static str, f64)>>) -> Vec<(&'static str, f64)> {
+    let sum = |frame: &[(&str, f64)]| frame.iter().map(|(_, ms)| ms).sum::<f64>();
+    frames.sort_by(|a, b| sum(a).total_cmp(&sum(b)));
+    let middle = frames.len() / 2;
+    frames.into_iter().nth(middle).unwrap_or_default()
+}
