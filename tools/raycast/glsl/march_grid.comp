@@ -33,7 +33,7 @@ void main() {
             if (depth >= end || sum >= view.lens.w) {
                 break;
             }
-            int before = clamp(int(ceil((end - depth) / dz - place)), 0, samples);
+            int before = int(clamp(ceil((end - depth) / dz - place), 0.0, float(samples)));
             for (int k = 0; k < before; ++k) {
                 sum += float(voxels[voxel_of(brick, uint(k), pixel)]) / STEPS;
             }

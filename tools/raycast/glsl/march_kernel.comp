@@ -37,7 +37,7 @@ void main() {
             if (depth >= end || sum >= view.lens.w) {
                 break;
             }
-            int before = clamp(int(ceil((end - first) / dz)), 0, samples);
+            int before = int(clamp(ceil((end - first) / dz), 0.0, float(samples)));
             float slab_sum = 0.0;
             for (uint entry = begin; entry < stop; ++entry) {
                 Ball ball = ball_of(entries[entry]);

@@ -201,7 +201,7 @@ impl<'d> Cells<'d> {
             thickness: on_device("thickness", 4 * pixels)?,
             intensity: on_device("intensity", 4 * pixels)?,
         };
-        cells.make_room(device, input, range)?;
+        cells.make_room(device, input, range, settings.chunk)?;
         Ok(cells)
     }
 
@@ -242,10 +242,12 @@ impl<'d> Cells<'d> {
         device: &'d Device,
         input: &Input<'_>,
         range: u64,
+        chunk: Option<u32>,
     ) -> Result<(), Error> {
         let all = input.foam.positions.len();
         let most = (range / RECORD).min(u64::from(GROUP * MOST_GROUPS)) as usize;
-        let mut size = all.min(most).max(1);
+        let chunk = chunk.map_or(most, |chunk| most.min(chunk as usize));
+        let mut size = all.min(chunk).max(1);
         loop {
             if self.fits(device, input, range, size)? {
                 return Ok(());

@@ -139,6 +139,8 @@ pub struct Settings {
     pub opaque: f32,
     /// Edge of a tile in pixels, 4, 8 or 16; `None`: what was measured to be the fastest.
     pub tile: Option<u32>,
+    /// Most particles that are taken at a time, from 1 on; `None`: as many as the device has room for.
+    pub chunk: Option<u32>,
 }
 
 impl Default for Settings {
@@ -150,6 +152,7 @@ impl Default for Settings {
             exponent: 1.25,
             opaque: 1.0 - 1.0 / 512.0,
             tile: None,
+            chunk: None,
         }
     }
 }
@@ -166,6 +169,9 @@ impl Settings {
         range("Settings.half", self.half, 1.0e-6, 1.0e6)?;
         range("Settings.exponent", self.exponent, 0.1, 16.0)?;
         range("Settings.opaque", self.opaque, 1.0e-6, 1.0)?;
+        if self.chunk == Some(0) {
+            return Err(bad("Settings.chunk", "0: at least 1 expected".into()));
+        }
         match self.tile {
             None | Some(4 | 8 | 16) => Ok(()),
             Some(tile) => Err(bad("Settings.tile", format!("{tile}: 4, 8 or 16 expected"))),
