@@ -40,16 +40,17 @@ void main() {
             int before = int(clamp(ceil((end - first) / dz), 0.0, float(samples)));
             float slab_sum = 0.0;
             for (uint entry = begin; entry < stop; ++entry) {
-                Ball ball = ball_of(entries[entry]);
-                float rest = rest_of(ball, slope);
-                if (rest > 0.0) {
-                    float t = (first - ball.centre.z) * ball.inverse;
-                    float dt = dz * ball.inverse;
-                    ivec2 inside = samples_in(rest, t, dt, before);
-                    for (int k = inside.x; k <= inside.y; ++k) {
-                        float q = t + float(k) * dt;
-                        slab_sum += kernel_at(ball, max(rest - q * q, 0.0));
-                    }
+                uint i = entries[entry];
+                vec4 where = records[2u * i];
+                float inverse = 1.0 / where.w;
+                float rest = rest_of(where.xyz, inverse, slope);
+                float t = (first - where.z) * inverse;
+                float dt = dz * inverse;
+                // Most particles of the cell the ray misses: what is a loop a CPU goes past.
+                ivec2 inside = samples_in(rest, t, dt, before);
+                for (int k = inside.x; k <= inside.y; ++k) {
+                    float q = t + float(k) * dt;
+                    slab_sum += kernel_at(records[2u * i + 1u].xyz, max(rest - q * q, 0.0));
                 }
             }
             sum += dz * slab_sum;

@@ -26,7 +26,7 @@ shared uint larges;
 
 // In a slab from a depth on, of samples so far apart.
 void splat(Ball ball, uvec2 pixel, uint slab, float depth, float dz) {
-    float rest = rest_of(ball, (vec2(pixel) + 0.5) * view.slope.xy + view.slope.zw);
+    float rest = rest_of(ball.centre, ball.inverse, (vec2(pixel) + 0.5) * view.slope.xy + view.slope.zw);
     uint tile = tile_of(pixel / TILE);
     uint near = tiles[4u * tile + NEAR];
     if (!(rest > 0.0) || slab < near || slab >= tiles[4u * tile + FAR]) {
@@ -42,7 +42,7 @@ void splat(Ball ball, uvec2 pixel, uint slab, float depth, float dz) {
     ivec2 inside = samples_in(rest, t, dt, int(view.samples.x));
     for (int k = inside.x; k <= inside.y; ++k) {
         float q = t + float(k) * dt;
-        uint steps = uint(min(dz * kernel_at(ball, max(rest - q * q, 0.0)) * STEPS + 0.5, 1.0e9));
+        uint steps = uint(min(dz * kernel_at(ball.kernel, max(rest - q * q, 0.0)) * STEPS + 0.5, 1.0e9));
         uint voxel = voxel_of(brick, uint(k), pixel);
         if (steps > 0u && atomicAdd(voxels[voxel], steps) >= HALF_FULL) {
             atomicAdd(voxels[voxel], 0u - steps);

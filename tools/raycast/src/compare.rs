@@ -165,7 +165,8 @@ fn cast(
         scene,
     };
     let make = |step| {
-        let settings = Settings { step, tile: args.tile, ..Settings::default() };
+        let settings =
+            Settings { step, shifted: !args.even, tile: args.tile, ..Settings::default() };
         Caster::new(device, method, &input, &settings).map_err(line)
     };
     let draw = |step| {

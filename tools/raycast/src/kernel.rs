@@ -9,9 +9,9 @@ use crate::Settings;
 use crate::cells::{Cells, Chunk, Layout, shader};
 use crate::vulkan::{Buffer, Frame, Pass, READ, UPDATE, WRITE};
 
-/// Thickness of a cell in radii, at least: with thinner ones a particle lies in more of them, with thicker ones a
-/// ray meets more that it misses.
-const SLAB: f32 = 2.0;
+/// Thickness of a cell in radii, at least: with thinner ones a particle lies in more of them; thicker ones cost
+/// nothing, as of a particle only the samples that lie in it are taken, but steps grow only from slab to slab.
+const SLAB: f32 = 32.0;
 /// Edge of a tile in pixels.
 const TILE: u32 = 4;
 

@@ -23,7 +23,7 @@ type Outcome<T> = Result<T, String>;
 
 /// Draws foam by volume ray-casting (emission and absorption alone)
 #[derive(Parser)]
-#[command(version, args_conflicts_with_subcommands = false)]
+#[command(version)]
 struct Args {
     #[command(subcommand)]
     command: Option<Command>,
@@ -50,7 +50,7 @@ struct Args {
     #[arg(long, value_name = "RADII", default_value_t = 0.5)]
     step: f32,
     /// All samples side by side, not shifted from pixel to pixel
-    #[arg(long)]
+    #[arg(long, global = true)]
     even: bool,
     /// The intensity as grey
     #[arg(short, long, value_name = "OUT.png")]
@@ -99,10 +99,20 @@ fn main() -> ExitCode {
 
 /// Bad values at the command line end as clap's own do, by exit code 2; all else is a line.
 fn line(error: Error) -> String {
-    match error {
-        Error::BadInput { field: "Settings.step" | "Settings.tile" | "Input.size", why } => {
-            Args::command().error(ErrorKind::ValueValidation, why).exit()
-        }
+    let option = |field: &str| match field {
+        "Settings.step" => Some("--step"),
+        "Settings.tile" => Some("--tile"),
+        "Input.size" | "Config.extent" => Some("--size"),
+        _ => None,
+    };
+    match &error {
+        Error::BadInput { field, why } => match option(field) {
+            Some(option) => {
+                let message = format!("{option}: {why}\n");
+                Args::command().error(ErrorKind::ValueValidation, message).exit()
+            }
+            None => error.to_string(),
+        },
         error => error.to_string(),
     }
 }
@@ -114,7 +124,7 @@ fn device(args: &Args) -> Outcome<Device> {
 
 fn draw(args: &Args) -> Outcome<()> {
     if args.output.is_none() && !args.timings {
-        let message = "nothing to do: give -o OUT.png, or --timings, or both";
+        let message = "nothing to do: give -o OUT.png, or --timings, or both\n";
         Args::command().error(ErrorKind::MissingRequiredArgument, message).exit();
     }
     let method = match args.method {

@@ -117,7 +117,7 @@ fn draw(gpu: &Gpu, method: Method, foam: &Foam, scene: &SceneDepth, settings: &S
 /// Samples of a slab, which the twin has as the ray-casters.
 fn samples(method: Method, step: f32) -> u32 {
     match method {
-        Method::Kernel => (2.0 / step).ceil().max(1.0) as u32,
+        Method::Kernel => (32.0 / step).ceil().max(1.0) as u32,
         Method::Grid => 8,
     }
 }
@@ -384,10 +384,10 @@ fn chunks_make_no_difference() {
 #[test]
 fn rays_end_when_nothing_more_shows() {
     let gpu = Gpu::new();
-    // Deep and dense in one corner.
+    // Dense, and deeper than a slab of both.
     let mut foam = cloud(3000, 23);
     for (i, position) in foam.positions.iter_mut().enumerate() {
-        let depth = 2.0 + 0.002 * i as f32;
+        let depth = 2.0 + 0.008 * i as f32;
         *position = [-0.2 * depth + 0.02 * position[0], 0.02 * position[1], -depth];
         foam.kinds[i] = 0;
         foam.ids[i] = 0;
@@ -401,9 +401,9 @@ fn rays_end_when_nothing_more_shows() {
         for i in 0..whole.intensity.data.len() {
             let (a, b) = (whole.intensity.data[i], ended.intensity.data[i]);
             assert!((a - b).abs() <= 1.0 / 512.0, "{method:?}: {a} {b}");
-            early += usize::from(ended.thickness.data[i] < 0.9 * whole.thickness.data[i]);
+            early += usize::from(ended.thickness.data[i] < 0.95 * whole.thickness.data[i]);
         }
-        assert!(early > 20, "{method:?}: {early} rays end early");
+        assert!(early > 2, "{method:?}: {early} rays end early");
     }
 }
 

@@ -18,19 +18,20 @@ Ball ball_of(uint i) {
     return Ball(where.xyz, where.w, what.xyz, what.w);
 }
 
-// 1 less the square of the distance of a ray from the centre, in radii.
-float rest_of(Ball ball, vec2 slope) {
-    vec2 d = (slope * ball.centre.z - ball.centre.xy) * ball.inverse;
+// 1 less the square of the distance of a ray from a centre, in radii.
+float rest_of(vec3 centre, float inverse, vec2 slope) {
+    vec2 d = (slope * centre.z - centre.xy) * inverse;
     return 1.0 - dot(d, d);
 }
 
-float kernel_at(Ball ball, float y) {
-    return sqrt(y) * (ball.kernel.x + y * (ball.kernel.y + y * ball.kernel.z));
+float kernel_at(vec3 kernel, float y) {
+    return sqrt(y) * (kernel.x + y * (kernel.y + y * kernel.z));
 }
 
-// The first and the last of the samples of a slab that lie in a ball: at t + k dt radii from its centre.
+// The first and the last of the samples of a slab that lie in a ball: at t + k dt radii from its centre. There are
+// none where the ray misses it.
 ivec2 samples_in(float rest, float t, float dt, int samples) {
-    float reach = sqrt(rest);
+    float reach = sqrt(max(rest, 0.0));
     vec2 k = clamp(vec2(ceil((-reach - t) / dt), floor((reach - t) / dt)), vec2(0.0, -1.0), vec2(samples, samples - 1));
-    return ivec2(k);
+    return rest > 0.0 ? ivec2(k) : ivec2(0, -1);
 }

@@ -198,7 +198,11 @@ impl Twin {
                 let (far, far_error) = self.depth((j + 1) as f64 * slab);
                 let dz = (far - near) / f64::from(self.samples);
                 let dz_error = (near_error + far_error) / f64::from(self.samples) + U * dz;
-                for k in 0..self.samples {
+                // Those in it, and some more.
+                let [front, back] = [-1.0, 1.0].map(|side| {
+                    (ball.centre.z + side * ball.radius - near) / dz - place + 3.0 * side
+                });
+                for k in front.max(0.0) as u32..(back.max(0.0) as u32).min(self.samples) {
                     let z = near + (f64::from(k) + place) * dz;
                     let z_error = near_error + far_error + 4.0 * U * z;
                     let t = (z - ball.centre.z) / ball.radius;

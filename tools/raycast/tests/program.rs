@@ -1,0 +1,80 @@
+//! The program: pictures, tables, and how it ends.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn run(arguments: &[&str], folder: &Path) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_whitewater-raycast"));
+    program.args(arguments).current_dir(folder).output().expect("it starts")
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn draws_a_picture_and_prints_times() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut pictures = Vec::new();
+    for method in ["kernel", "grid"] {
+        let name = format!("{method}.png");
+        let arguments =
+            ["--particles", "2000", "--size", "96x64", "--step", "0.1", "--repeat", "1"];
+        let more = ["--method", method, "--timings", "-o", &name];
+        let output = run(&[&arguments[..], &more].concat(), folder.path());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        for pass in ["prepare", "tiles", "count", "scan", "march", "resolve", "memory"] {
+            assert!(out(&output).lines().any(|line| line.starts_with(pass)), "{}", out(&output));
+        }
+        let picture = image::open(folder.path().join(&name)).expect("a PNG").into_luma8();
+        assert_eq!(picture.dimensions(), (96, 64));
+        // The sky is empty, the crest is not.
+        let row = |y: u32| (0..96).map(|x| u32::from(picture.get_pixel(x, y)[0])).sum::<u32>();
+        assert!(row(0) == 0 && row(28) > 96 * 30, "{} {}", row(0), row(28));
+        pictures.push(picture);
+    }
+    let apart = pictures[0].iter().zip(pictures[1].iter()).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(apart < Some(16), "{apart:?} of 255");
+}
+
+#[test]
+fn compares_both_with_whitewater() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let arguments = ["compare", "--particles", "3000", "--size", "96x64", "--repeat", "1"];
+    let output = run(&[&arguments[..], &["--pictures", "p"]].concat(), folder.path());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = out(&output);
+    for row in ["ray-casting, kernel", "ray-casting, grid", "ours, intensity", "ours, total"] {
+        let line = text.lines().find(|line| line.starts_with(row)).expect(row);
+        let ms = line.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
+        assert!(ms.sum::<f64>() > 0.0, "{line}");
+    }
+    let apart: Vec<f32> =
+        text.lines().filter_map(|line| line.split_once("mean FLIP ")?.1.parse().ok()).collect();
+    assert!(apart.len() == 2 && apart.iter().all(|flip| *flip < 0.02), "{text}");
+    for name in ["ours", "kernel-converged", "kernel-step", "grid-converged", "grid-step"] {
+        assert!(folder.path().join(format!("p/{name}.png")).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn ends_by_what_went_wrong() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = ["--particles", "10"];
+    for (arguments, code, part) in [
+        (&["--no-such"][..], 2, "--no-such"),
+        (&["--size", "0x8", "--timings"], 2, "800x600"),
+        (&["--method", "other", "--timings"], 2, "kernel"),
+        (&["--step=-1", "--timings"], 2, "--step: -1"),
+        (&["--step", "NaN", "--size", "8x8", "--timings"], 2, "expected"),
+        (&["--tile", "5", "--timings"], 2, "--tile: 5: 4, 8 or 16"),
+        (&[], 2, "-o OUT.png"),
+        (&["--size", "8x8", "-o", "no/such/folder.png"], 1, "no/such/folder.png"),
+        (&["--device", "no such device", "--timings"], 1, "no such device"),
+    ] {
+        let output = run(&[&small[..], arguments].concat(), folder.path());
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
+        assert!(text.contains(part), "{arguments:?}: {text}");
+    }
+}
