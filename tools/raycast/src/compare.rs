@@ -16,9 +16,9 @@ use crate::{Args, Outcome, by_name, line, measure, median};
 /// How far from the converged picture a step may be.
 const TOLERANCE: f32 = 0.02;
 /// Two steps, one half the other, whose pictures are no farther apart are converged.
-const CONVERGED: f32 = 0.001;
+const CONVERGED: f32 = 0.002;
 /// The finest step.
-const FINEST: f32 = 1.0 / 64.0;
+const FINEST: f32 = 1.0 / 32.0;
 /// Steps to choose from, in radii.
 const STEPS: [f32; 14] =
     [16.0, 12.0, 8.0, 6.0, 4.0, 3.0, 2.0, 1.5, 1.0, 0.75, 0.5, 0.25, 0.125, 0.0625];
