@@ -83,7 +83,8 @@ impl Twin {
             let position = Vec3::from(foam.positions[i]).as_dvec3();
             let eye = view.transform_point3(position);
             let age = f64::from(foam.ages[i]);
-            if !eye.is_finite() || !(age < 1.0) || !(-eye.z > 0.1) {
+            let drawn = eye.is_finite() && age < 1.0 && -eye.z > 0.1;
+            if !drawn {
                 continue;
             }
             let ball = twin.ball(DVec3::new(eye.x, eye.y, -eye.z), foam.kinds[i], age, foam.ids[i]);
