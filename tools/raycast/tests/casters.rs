@@ -388,7 +388,9 @@ fn rays_end_when_nothing_more_shows() {
     let mut foam = cloud(3000, 23);
     for (i, position) in foam.positions.iter_mut().enumerate() {
         let depth = 2.0 + 0.008 * i as f32;
-        *position = [-0.2 * depth + 0.06 * position[0], 0.06 * position[1], -depth];
+        // A cone of many round one of more.
+        let wide = depth / -position[2] * if i % 3 == 0 { 0.15 } else { 0.05 };
+        *position = [-0.2 * depth + wide * position[0], wide * position[1], -depth];
         foam.kinds[i] = 0;
         foam.ids[i] = 0;
         foam.ages[i] = 0.0;
