@@ -120,10 +120,12 @@ void main() {
         if (size.x * size.y > SMALL) {
             large[atomicAdd(larges, 1u)] = i;
         } else {
-            for (int y = box.y; y <= box.w; ++y) {
-                for (int x = box.x; x <= box.z; ++x) {
-                    splat(ivec2(x, y), s);
-                }
+            // One loop: lanes with boxes of other shapes end with the largest, not with the widest and the highest.
+            ivec2 at = box.xy;
+            for (int left = size.x * size.y; left > 0; --left) {
+                splat(at, s);
+                bool last = at.x == box.z;
+                at = ivec2(last ? box.x : at.x + 1, last ? at.y + 1 : at.y);
             }
         }
     }

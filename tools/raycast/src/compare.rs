@@ -1,4 +1,4 @@
-//! `whitewater-raycast compare`: Table 1 and Fig. 8 of Akinci et al. 2013 for one cloud.
+//! `whitewater-raycast compare`: Table 1 and Fig. 8 of Akinci et al. 2013 for one sea.
 
 use std::path::PathBuf;
 
@@ -7,8 +7,8 @@ use whitewater::ash::vk;
 use whitewater::foam::{DiffuseConfig, Occlusion};
 use whitewater::headless::{Background, COLOR_FORMAT, Device, Diffuse, Headless, Picture};
 use whitewater::{Camera, Config, Settings as Look};
-use whitewater_raycast::cloud::Cloud;
-use whitewater_raycast::{Caster, Foam, Input, Method, SceneDepth, Settings};
+use whitewater_raycast::{Caster, Input, Method, SceneDepth, Settings};
+use whitewater_seas::{Foam, Sea};
 
 use crate::picture::{self, mean_flip};
 use crate::{Args, Outcome, by_name, line, measure, median};
@@ -31,12 +31,58 @@ pub struct CompareArgs {
     pictures: Option<PathBuf>,
 }
 
-/// A cloud with a view of it.
-struct Shot {
+/// A sea's foam with a view of it.
+pub struct Shot {
+    sea: Sea,
     foam: Foam,
     radius: f32,
     camera: Camera,
     size: [u32; 2],
+}
+
+impl Shot {
+    pub fn new(args: &Args) -> Self {
+        let Args { sea, particles, size, .. } = *args;
+        let [width, height] = size;
+        Self {
+            sea,
+            foam: sea.foam(0..particles, particles),
+            radius: sea.radius(particles),
+            camera: sea.camera(width as f32 / height as f32),
+            size,
+        }
+    }
+
+    /// As the ray-casters take it.
+    pub fn input<'a>(&'a self, scene: &'a SceneDepth) -> Input<'a> {
+        Input {
+            foam: &self.foam,
+            radius: self.radius,
+            camera: &self.camera,
+            size: self.size,
+            scene,
+        }
+    }
+
+    fn extent(&self) -> vk::Extent2D {
+        let [width, height] = self.size;
+        vk::Extent2D { width, height }
+    }
+}
+
+/// Depth of the sea without its foam.
+pub fn scene_depth(device: Device, shot: &Shot) -> Outcome<(Device, SceneDepth)> {
+    let config = Config::new(shot.extent(), COLOR_FORMAT, 1);
+    let mut headless = Headless::new(device, &config).map_err(line)?;
+    let mut draw = || {
+        headless.particles(&[], None)?;
+        headless.scene(&shot.sea.scene(), false)?;
+        headless.render(&shot.camera, &Look::default(), &Background::Scene)?;
+        SceneDepth::of_device(&shot.camera, &headless.scene_depth()?.data)
+    };
+    let drawn = draw().map_err(line);
+    let device = headless.finish().map_err(line)?;
+    Ok((device, drawn?))
 }
 
 /// What `whitewater` makes of it.
@@ -59,14 +105,14 @@ struct Cast {
 
 pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
     let [width, height] = args.size;
-    let shot = Shot {
-        foam: Cloud.foam(0..args.particles, args.particles),
-        radius: Cloud.radius(args.particles),
-        camera: Cloud.camera(width as f32 / height as f32),
-        size: args.size,
-    };
+    let shot = Shot::new(args);
     let (device, ours) = draw_ours(crate::device(args)?, &shot, args.repeat)?;
-    println!("{}: {} particles, {width}x{height}", device.adapter, args.particles);
+    println!(
+        "{}: {}, {} particles, {width}x{height}",
+        device.adapter,
+        args.sea.name(),
+        args.particles
+    );
     println!("{:<28} {:>6} {:>9} {:>7} {:>9}  passes, ms", "", "step", "ms", "FLIP", "MiB");
     if let Some(folder) = &how.pictures {
         std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -114,15 +160,14 @@ fn row(name: &str, cast: Option<(f32, f32, u64)>, times: &[(&'static str, f64)])
 }
 
 fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)> {
-    let [width, height] = shot.size;
     let count = shot.foam.positions.len() as u32;
     let diffuse = DiffuseConfig { occlusion: Occlusion::Fast, ..DiffuseConfig::new(count.max(1)) };
-    let extent = vk::Extent2D { width, height };
-    let config = Config { diffuse: Some(diffuse), ..Config::new(extent, COLOR_FORMAT, 1024) };
+    let config =
+        Config { diffuse: Some(diffuse), ..Config::new(shot.extent(), COLOR_FORMAT, 1024) };
     let mut headless = Headless::new(device, &config).map_err(line)?;
     let mut draw = || {
         headless.particles(&[], None)?;
-        headless.scene(&Cloud.scene(), false)?;
+        headless.scene(&shot.sea.scene(), false)?;
         headless.diffuse(Some(&Diffuse {
             positions: &shot.foam.positions,
             kinds: Some(&shot.foam.kinds),
@@ -157,13 +202,7 @@ fn cast(
     scene: &SceneDepth,
     args: &Args,
 ) -> Outcome<Cast> {
-    let input = Input {
-        foam: &shot.foam,
-        radius: shot.radius,
-        camera: &shot.camera,
-        size: shot.size,
-        scene,
-    };
+    let input = shot.input(scene);
     let make = |step| {
         let settings =
             Settings { step, shifted: !args.even, tile: args.tile, ..Settings::default() };

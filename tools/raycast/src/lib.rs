@@ -41,7 +41,6 @@
 //! 3/2 (`tests/casters.rs`).
 
 mod cells;
-pub mod cloud;
 mod grid;
 mod kernel;
 mod vulkan;
@@ -49,6 +48,8 @@ mod vulkan;
 use glam::{Mat4, Vec4};
 use whitewater::headless::{Device, Picture};
 use whitewater::{Camera, Error, Timing};
+/// Diffuse particles; other kinds than foam, spray and bubbles are foam, those of NaN, infinite or past ages are not drawn.
+pub use whitewater_seas::Foam;
 
 use cells::Cells;
 use vulkan::Buffer;
@@ -76,19 +77,6 @@ const MOST_PIXELS: u64 = 64 * 65_535;
 
 /// Eye depth of nothing.
 pub const EMPTY: f32 = 1.0e10;
-
-/// Diffuse particles, all of one length.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Foam {
-    /// World-space centres, scene units. NaN and infinite ones are not drawn.
-    pub positions: Vec<[f32; 3]>,
-    /// 0 foam, 1 spray, 2 bubble; others are foam.
-    pub kinds: Vec<u32>,
-    /// What of their lives has passed, 0 to 1; from 1 on, and NaN, they are not drawn.
-    pub ages: Vec<f32>,
-    /// Numbers that their sizes go by.
-    pub ids: Vec<u32>,
-}
 
 /// What ends the rays.
 #[derive(Clone, Debug, Default, PartialEq)]

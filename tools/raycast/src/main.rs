@@ -15,8 +15,8 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand, ValueEnum};
 use whitewater::headless::{Device, DeviceOptions};
 use whitewater::{Error, Timing};
-use whitewater_raycast::cloud::Cloud;
-use whitewater_raycast::{Caster, Input, Method, SceneDepth, Settings};
+use whitewater_raycast::{Caster, Method, Settings};
+use whitewater_seas::Sea;
 
 /// Of everything here: a line for the user.
 type Outcome<T> = Result<T, String>;
@@ -27,6 +27,9 @@ type Outcome<T> = Result<T, String>;
 struct Args {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Whose foam
+    #[arg(long, value_name = "SEA", default_value = "wave", value_parser = sea, global = true)]
+    sea: Sea,
     /// How many particles
     #[arg(long, value_name = "N", default_value_t = 100_000, global = true)]
     particles: u32,
@@ -72,6 +75,11 @@ enum MethodArg {
     Kernel,
     /// A grid of densities, aligned with the view
     Grid,
+}
+
+fn sea(text: &str) -> Result<Sea, String> {
+    let names = Sea::ALL.map(Sea::name).join(", ");
+    Sea::from_name(text).ok_or_else(|| format!("expected one of {names}"))
 }
 
 fn size(text: &str) -> Result<[u32; 2], String> {
@@ -134,20 +142,18 @@ fn draw(args: &Args) -> Outcome<()> {
     let [width, height] = args.size;
     let settings =
         Settings { step: args.step, shifted: !args.even, tile: args.tile, ..Settings::default() };
-    let foam = Cloud.foam(0..args.particles, args.particles);
-    let camera = Cloud.camera(width as f32 / height as f32);
-    let input = Input {
-        foam: &foam,
-        radius: Cloud.radius(args.particles),
-        camera: &camera,
-        size: args.size,
-        scene: &SceneDepth::Plane { normal: [0.0, 1.0, 0.0], offset: -1.0 },
-    };
-    let device = device(args)?;
+    let shot = compare::Shot::new(args);
+    let (device, scene) = compare::scene_depth(device(args)?, &shot)?;
+    let input = shot.input(&scene);
     let caster = Caster::new(&device, method, &input, &settings).map_err(line)?;
     let times = measure(&caster, if args.timings { args.repeat } else { 1 })?;
     if args.timings {
-        println!("{}: {} particles, {width}x{height}", device.adapter, args.particles);
+        println!(
+            "{}: {}, {} particles, {width}x{height}",
+            device.adapter,
+            args.sea.name(),
+            args.particles
+        );
         println!("{} at a step of {} radii:", method.name(), args.step);
         for (name, ms) in &times {
             println!("{name:<12} {ms:>10.3} ms");

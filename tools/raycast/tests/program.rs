@@ -51,7 +51,10 @@ fn compares_both_with_whitewater() {
     }
     let apart: Vec<f32> =
         text.lines().filter_map(|line| line.split_once("mean FLIP ")?.1.parse().ok()).collect();
-    assert!(apart.len() == 2 && apart.iter().all(|flip| *flip < 0.02), "{text}");
+    // Balls that the sea cuts: a ray has of them what is before it, a sprite all where its front is. Of few and large
+    // ones that shows; both ray-casters have the same.
+    assert!(apart.len() == 2 && apart.iter().all(|flip| *flip < 0.1), "{text}");
+    assert!((apart[0] - apart[1]).abs() < 0.005, "{text}");
     for name in ["ours", "kernel-converged", "kernel-step", "grid-converged", "grid-step"] {
         assert!(folder.path().join(format!("p/{name}.png")).is_file(), "{name}");
     }
@@ -64,6 +67,7 @@ fn ends_by_what_went_wrong() {
     for (arguments, code, part) in [
         (&["--no-such"][..], 2, "--no-such"),
         (&["--size", "0x8", "--timings"], 2, "800x600"),
+        (&["--sea", "pond", "--timings"], 2, "wave, ship"),
         (&["--method", "other", "--timings"], 2, "kernel"),
         (&["--step=-1", "--timings"], 2, "--step: -1"),
         (&["--step", "NaN", "--size", "8x8", "--timings"], 2, "expected"),
