@@ -347,7 +347,8 @@ fn a_sheet_hardly_shades_itself() {
                 })
                 .collect();
             let along = (1.0 - height * height).sqrt();
-            shot.settings.light.direction = toward(0.8 * along, height, 0.6 * along);
+            // From behind the eye, which small foam faces.
+            shot.settings.light.direction = toward(-0.8 * along, height, 0.6 * along);
             shot.settings.light.irradiance = [3.0 * height.max(0.1); 3];
             shot.settings.light.shade = [0.0; 3];
             shot.sun.region = Some(Region { center: [3.1, 0.9, 0.2], radius: 1.2 });

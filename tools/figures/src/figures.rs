@@ -1,4 +1,4 @@
-//! The figures, each by its number in the thesis.
+//! The figures of layered water, each by its number in the thesis.
 
 use std::path::{Path, PathBuf};
 
@@ -6,13 +6,14 @@ use serde_json::json;
 
 use crate::Outcome;
 use crate::curves::{self, Curve};
+use crate::diffuse;
 use crate::panels::{self, amount, depth, grid, iterations, normals};
 use crate::tool::{Times, Tool, quicker, sequence, total};
 
-type Figure = fn(&Tool, &Path) -> Outcome<()>;
+pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 10] = [
+pub const ALL: [(&str, Figure); 13] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -23,9 +24,12 @@ pub const ALL: [(&str, Figure); 10] = [
     ("sheets", sheets),
     ("zoom", zoom),
     ("flights", flights),
+    ("seas", diffuse::seas),
+    ("diffuse-layers", diffuse::layers),
+    ("diffuse-look", diffuse::looks),
 ];
 
-fn pictures(docs: &Path, name: &str) -> PathBuf {
+pub fn pictures(docs: &Path, name: &str) -> PathBuf {
     docs.join("pictures").join(name)
 }
 
@@ -50,7 +54,7 @@ fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
         depth(layers, "water.depth.Z")?,
         depth(layers, "water.foam.Z")?,
         depth(layers, "water.surface.Z")?,
-        normals(layers)?,
+        normals(layers, "water.normal", "water.surface.Z")?,
         iterations(layers)?,
         amount(layers, "water.thickness", 6.0 * radius)?,
         amount(layers, "water.foam.thickness", radius)?,

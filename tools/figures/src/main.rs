@@ -1,4 +1,5 @@
-//! The figures of `docs/layered-water.md`: the thesis' own (F. Bagar, 2010), drawn anew by `whitewater`.
+//! The figures of `docs/layered-water.md` and `docs/screen-space-foam.md`: the sources' own (F. Bagar, 2010; Akinci et
+//! al., 2013), drawn anew by `whitewater`.
 //!
 //! ```sh
 //! cargo build --release -p whitewater-cli -p whitewater-figures
@@ -10,6 +11,7 @@
 //! line as anyone would; here is only what puts them side by side.
 
 mod curves;
+mod diffuse;
 mod figures;
 mod panels;
 mod tool;

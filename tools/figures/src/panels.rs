@@ -26,15 +26,28 @@ pub fn amount(layers: &Layers, name: &str, scale: f32) -> Outcome<RgbImage> {
     Ok(picture(layers, |i| [1.0 - (-all[i] / scale).exp(); 3]))
 }
 
-/// Normals in eye space.
-pub fn normals(layers: &Layers) -> Outcome<RgbImage> {
-    let [x, y, z] = ["X", "Y", "Z"].map(|axis| channel(layers, &format!("water.normal.{axis}")));
+/// Normals, where there is a depth.
+pub fn normals(layers: &Layers, name: &str, depth: &str) -> Outcome<RgbImage> {
+    let [x, y, z] = ["X", "Y", "Z"].map(|axis| channel(layers, &format!("{name}.{axis}")));
     let (x, y, z) = (x?, y?, z?);
-    let depth = channel(layers, "water.surface.Z")?;
+    let depth = channel(layers, depth)?;
     Ok(picture(layers, |i| match depth[i] < 1.0e9 {
         true => [x[i], y[i], z[i]].map(|v| 0.5 + 0.5 * v),
         false => [0.0; 3],
     }))
+}
+
+/// A share as grey.
+pub fn share(layers: &Layers, name: &str) -> Outcome<RgbImage> {
+    let all = channel(layers, name)?;
+    Ok(picture(layers, |i| [all[i]; 3]))
+}
+
+/// Light, brightest what is `most`.
+pub fn light(layers: &Layers, name: &str, most: f32) -> Outcome<RgbImage> {
+    let [r, g, b] = ["R", "G", "B"].map(|part| channel(layers, &format!("{name}.{part}")));
+    let (r, g, b) = (r?, g?, b?);
+    Ok(picture(layers, |i| [r[i], g[i], b[i]].map(|v| (v / most).powf(1.0 / 2.2))))
 }
 
 /// Iterations from yellow (few) to red (the most), as the thesis has them.

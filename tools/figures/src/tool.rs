@@ -102,6 +102,35 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
+    /// The picture of a sea, of so many diffuse particles. `look`: its table `[diffuse]`.
+    pub fn sea(&self, sea: &str, diffuse: &str, size: &str, look: &str) -> Outcome<RgbImage> {
+        let png = self.draw_sea("png", [sea, diffuse, size, look])?;
+        Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
+    }
+
+    /// The layers of its foam.
+    pub fn sea_layers(&self, sea: &str, diffuse: &str, size: &str) -> Outcome<Layers> {
+        let exr = self.draw_sea("exr", [sea, diffuse, size, ""])?;
+        picture::read(&exr).map_err(|error| error.to_string())
+    }
+
+    fn draw_sea(&self, kind: &str, [sea, diffuse, size, look]: [&str; 4]) -> Outcome<PathBuf> {
+        let (to, toml) = (self.temporary(&format!("sea.{kind}")), self.temporary("sea.toml"));
+        std::fs::write(&toml, format!("[diffuse]\n{look}\n"))
+            .map_err(|error| format!("cannot write {}: {error}", toml.display()))?;
+        self.run(&[
+            "bench".to_owned(),
+            format!("--sea={sea}"),
+            format!("--diffuse={diffuse}"),
+            format!("--size={size}"),
+            "--frames=1".to_owned(),
+            "--warmup=0".to_owned(),
+            format!("--settings={}", toml.display()),
+            format!("--picture={}", to.display()),
+        ])?;
+        Ok(to)
+    }
+
     /// Times of a scene's frames from a moving camera. `frames` are those files and which of them.
     pub fn times(
         &self,

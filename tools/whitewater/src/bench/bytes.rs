@@ -94,11 +94,15 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
             let foam = if drawn.config.foam { 16 + 4 + 4 } else { 0 };
             16 * visible + (24 + apart + foam) * thick
         }
-        // Two depths in and seven words a pixel out, those in again, two images of four floats and one of halves
-        // out; positions, kinds, ages and ids in twice. What atomics move is not counted.
-        "splat" => (8 + 28 + 28 + 32 + 8) * full + 2 * 24 * u64::from(drawn.diffuse),
-        // Depth in and light out; where there is foam its normal in. The samples are not counted.
-        "radiance" => (16 + 8) * full + 8 * foam,
+        // Two depths in and eight words a pixel out, those in again, two images of four floats and one of halves
+        // out; positions, kinds, ages and ids in at each go. What atomics move is not counted.
+        "splat" => {
+            let read = drawn.goes * 24 * u64::from(drawn.diffuse);
+            (8 + 32 + 32 + 32 + 8) * full + read
+        }
+        // Depths in twice, the water's once, and light out; where there is foam its normal in. The samples are not
+        // counted.
+        "radiance" => (16 + 4 + 16 + 8) * full + 8 * foam,
         // Twice: depth and light in, light out; where there is foam its normal in.
         "blur" => 2 * ((16 + 8 + 8) * full + 8 * foam),
         // A copy of half-float colour.

@@ -46,9 +46,12 @@ pub struct BenchArgs {
     /// How the shadow on diffuse particles is sampled [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
-    /// Write the last frame, of a sea and one combination
-    #[arg(long, value_name = "FILE.png", requires = "sea")]
+    /// Write the last frame, of a sea and one combination; an .exr with all layers of its foam
+    #[arg(long, value_name = "FILE", requires = "sea")]
     picture: Option<PathBuf>,
+    /// TOML of settings, whose table [diffuse] says how the foam of a sea looks
+    #[arg(long, value_name = "FILE.toml", requires = "sea")]
+    settings: Option<PathBuf>,
     /// Ways to draw: `default` is what the library chooses on the device
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["default"])]
     path: Vec<Path>,
@@ -183,6 +186,8 @@ pub struct Drawn {
     pub covered: u64,
     /// Diffuse particles, and full-resolution pixels with their foam.
     pub diffuse: u32,
+    /// How often they are gone through.
+    pub goes: u64,
     pub foam: u64,
     /// Active pixels summed over the iterations of the smoothing.
     pub iterations: u64,
@@ -458,6 +463,7 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
         foaming: 0,
         covered,
         diffuse: 0,
+        goes: 0,
         foam: 0,
         iterations: sum as u64,
         most_iterations: most as u32,

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use whitewater::ash::vk;
-use whitewater::foam::{DiffuseConfig, DiffuseLook, Occlusion};
+use whitewater::foam::{DiffuseConfig, DiffuseLook, Occlusion, Reach};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{
     Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Diffuse, Headless,
@@ -23,9 +23,14 @@ use crate::failure::{Failure, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
 use crate::progress::Progress;
+use crate::settings::SettingsFile;
 
 /// Particles that are made and uploaded at a time.
 const PART: u32 = 1 << 20;
+
+/// What of the foam is written beside its picture.
+const LAYERS: &str =
+    "foam,foam.radius,foam.normal,foam.thickness,foam.intensity,foam.shadow,foam.irradiance,scene";
 
 /// How the shadow is sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -114,10 +119,7 @@ pub fn check(args: &BenchArgs) -> Outcome<()> {
             "--picture: expected one combination of sea, count, size and occlusion, found {count}; leave only one"
         )));
     }
-    if Target::new(path, false)?.format != PictureFormat::Png {
-        let path = path.display();
-        return Err(Failure::usage(format!("--picture: expected a .png, found {path}; rename it")));
-    }
+    Target::new(path, false)?;
     output::probe(path)
 }
 
@@ -181,11 +183,19 @@ fn sample(
     headless.scene(&Scene { sun: environment.sun_light(), ..scene }, true)?;
     headless.particles(&[], None)?;
     upload(headless, sea, count)?;
-    let settings = Settings {
-        diffuse: DiffuseLook { radius: sea.radius(count), ..DiffuseLook::default() },
+    let mut settings = Settings {
+        // Of a scene of the source's size the source's reach.
+        diffuse: DiffuseLook {
+            radius: sea.radius(count),
+            reach: Reach::Metres(5.0),
+            ..DiffuseLook::default()
+        },
         light: environment.light(),
         ..Settings::default()
     };
+    if let Some(path) = &args.settings {
+        SettingsFile::read(path)?.diffuse.apply(&mut settings.diffuse);
+    }
     let camera = sea.camera(extent.width as f32 / extent.height as f32);
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
@@ -199,14 +209,23 @@ fn sample(
         foaming: 0,
         covered: 0,
         diffuse: count,
+        goes: if headless.device().enabled.buffer_int64_atomics { 1 } else { 2 },
         foam: foam as u64,
         iterations: 0,
         most_iterations: 0,
     };
     if let Some(path) = &args.picture {
         let size = (extent.width, extent.height);
-        let layers = layers::collect(headless, size, &[], &Lens::new(&camera)?)?;
-        output::write(path, |to| picture::write_png(&layers, environment.exposure(), to))?;
+        let format = Target::new(path, false)?.format;
+        let wanted = match format {
+            PictureFormat::Exr => layers::wanted(LAYERS)?,
+            PictureFormat::Png => Vec::new(),
+        };
+        let layers = layers::collect(headless, size, &wanted, &Lens::new(&camera)?)?;
+        output::write(path, |to| match format {
+            PictureFormat::Exr => picture::write_exr(&layers, to),
+            PictureFormat::Png => picture::write_png(&layers, environment.exposure(), to),
+        })?;
     }
     let template = Row {
         width: extent.width,

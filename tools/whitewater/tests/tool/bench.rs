@@ -102,7 +102,8 @@ fn a_sea_says_what_its_foam_costs() {
         assert!((24 * 20_000..24 * 20_000 + 4096).contains(&input), "{input}");
         assert!(frame["memory"].as_u64().unwrap() > 28 * 160 * 120);
         // The words and images of a pixel and two times a particle's streams, as bytes.rs says.
-        assert_eq!(row("splat")["bytes"], 104 * 160 * 120 + 48 * 20_000);
+        let bytes = row("splat")["bytes"].as_u64().unwrap() - 112 * 160 * 120;
+        assert!([24, 48].contains(&(bytes / 20_000)) && bytes % 20_000 == 0, "{bytes}");
         let each = row("splat")["ns_per_diffuse"].as_f64().unwrap();
         let median = row("splat")["median"].as_f64().unwrap();
         assert!(each > 0.0 && (each * 20_000.0 / (median * 1e6) - 1.0).abs() < 1e-6);
@@ -120,6 +121,17 @@ fn a_sea_says_what_its_foam_costs() {
     let cell = |name: &str| cells[head.iter().position(|h| *h == name).unwrap() - 2];
     assert_eq!([cell("sea"), cell("diffuse"), cell("occlusion")], ["wave", "20000", "fast"]);
     assert!(cell("ns_per_diffuse").parse::<f64>().unwrap() > 0.0);
+    // A look of its own, a tenth as light, and its layers.
+    folder.text("dim.toml", "[diffuse]\nalbedo = [0.09, 0.09, 0.09]\n");
+    folder.run(&format!("{quick} --settings dim.toml --picture dim.exr")).ok();
+    let dim = folder.picture("dim.exr");
+    for layer in ["foam.Z", "foam.shadow", "foam.normal.X", "scene.Z"] {
+        assert!(dim.channel(layer).is_some(), "{layer}");
+    }
+    let intensity = dim.channel("foam.intensity").unwrap();
+    let red = dim.channel("R").unwrap();
+    let thick: Vec<_> = intensity.iter().zip(red).filter(|(i, _)| **i > 0.9).collect();
+    assert!(thick.len() > 20 && thick.iter().all(|(_, red)| **red < 0.5), "{thick:?}");
     // There is foam in the picture, and sea.
     let picture = folder.picture("wave.png");
     assert_eq!((picture.width, picture.height), (160, 120));
@@ -148,7 +160,8 @@ fn what_is_no_sea_is_an_error() {
         ("--sea wave --particles 64k", "--particles"),
         ("--diffuse 20k", "--sea"),
         ("--sea wave,ship --picture a.png", "one combination"),
-        ("--sea wave --picture a.exr", ".png"),
+        ("--sea wave --picture a.jpg", ".png"),
+        ("--settings a.toml", "--sea"),
     ] {
         let run = folder.run(&format!("bench {arguments}"));
         assert_eq!(run.0.status.code(), Some(2), "{arguments}: {}", run.stderr());
