@@ -6,6 +6,10 @@
 #include "frame.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+// 1: each pixel of a block of four by four has a part of the samples, and all are put together, however small the
+// particles and whatever lies between them.
+layout(constant_id = 1) const uint FAST = 0;
+const float BLOCK = FAST == 1u ? 4.0 : 0.0;
 layout(set = 0, binding = 1) uniform sampler2D occluders;
 layout(set = 0, binding = 2) uniform sampler2D normals;
 layout(set = 0, binding = 3) uniform sampler2D radiance;
@@ -28,9 +32,9 @@ void main() {
     }
     float search = texelFetch(normals, pixel, 0).w;
     float first = search * (frame.diffuse_search.x + frame.diffuse_search.y);
-    float radius = 1.5 * 0.5 * first * frame.extent.y;
+    float radius = max(1.5 * 0.5 * first * frame.extent.y, BLOCK);
     // Two radii of the particle.
-    float gap = 2.0 * search * depth / abs(frame.projection.y);
+    float gap = max(2.0 * search / abs(frame.projection.y), 2.0 * BLOCK * abs(frame.slope.y)) * depth;
     int reach = min(int(radius), MOST);
     float narrow = -2.0 / max(radius * radius, 1.0e-6);
     vec4 sum = middle;

@@ -86,7 +86,7 @@ impl Radiance {
         Ok(Self {
             surface: Pipeline::compute(gpu, shader::FOAM_SURFACE_COMP, &[])?,
             gather: Pipeline::compute(gpu, shader::FOAM_RADIANCE_COMP, &constants)?,
-            blur: Pipeline::compute(gpu, shader::FOAM_BLUR_COMP, &[])?,
+            blur: Pipeline::compute(gpu, shader::FOAM_BLUR_COMP, &[(1, fast)])?,
             points: buffer,
             images: Self::images(gpu, config)?,
         })

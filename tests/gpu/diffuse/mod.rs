@@ -153,6 +153,7 @@ impl Diffuse {
             },
             opacities: look.opacity.map(f64::from),
             shadow: look.shadow.map(f64::from),
+            least_blur: 0.0,
         }
     }
 }
@@ -350,7 +351,9 @@ fn shadow_is_the_twins() {
         look.samples = [8, 96];
         look.shadow = [2.0, 0.8, -0.02];
         let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
-        let (front, by) = (seen(&foam), cloud.occlusion());
+        // Of a block of four each pixel has a part of the points.
+        let least_blur = if occlusion == Occluding::Fast { 4.0 } else { 0.0 };
+        let (front, by) = (seen(&foam), Occlusion { least_blur, ..cloud.occlusion() });
         let view = cloud.shot.view(SIZE);
         let of = |i| doubles(&channel(&foam.occluders, i));
         let (opacity, fluid, solid) = (of(1), of(2), of(3));

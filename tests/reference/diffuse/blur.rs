@@ -30,8 +30,10 @@ fn along(
     Image::from_fn(view.width, view.height, |x, y| {
         let Some(seen) = front.at(x, y) else { return values.at(x, y) };
         let radius = 1.5 * 0.5 * settings.search(seen.h, 1) * view.extent().y;
+        let radius = radius.max(settings.least_blur);
         let sigma = 0.5 * radius;
         let gap = 2.0 * seen.h * seen.depth / view.focal().y.abs();
+        let gap = gap.max(2.0 * settings.least_blur * view.c_y() * seen.depth);
         let most = radius.floor().min(WIDEST) as isize;
         let (mut sum, mut weights) = ([0.0; 4], 0.0);
         for i in -most..=most {
