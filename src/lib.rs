@@ -71,7 +71,8 @@
 //! - Equal inputs give equal pictures on one device, whatever the order of the particles, but for the
 //!   additive blending of [`Splat::Raster`](water::Splat): other sums are of integers, or of steps
 //!   that floats hold exactly (where the light's maps lie some hundred spacings from their region's
-//!   middle, nearly).
+//!   middle, nearly). By [`foam::Splat::Raster`] sums beyond 256 are rounded, and of two diffuse particles at one depth
+//!   the first is the frontmost.
 //!
 //! # Demands
 //!

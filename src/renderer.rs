@@ -11,7 +11,7 @@ use crate::contract::{Config, Frame, Host, HostImage, Layer, MemoryUse, Recorded
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
 use crate::foam::Foam;
-use crate::foam::splat;
+use crate::foam::streams::{self, Chunks};
 use crate::frame::{FrameUniforms, Lens};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
@@ -253,7 +253,7 @@ impl Renderer {
             buffers_of(&frame.particles).into_iter().map(given_back).collect();
         if let (Some(diffuse), Some(foam)) = (&frame.diffuse, &self.foam) {
             let back = |handle| buffer(handle, foam.reading(), diffuse.after);
-            buffers.extend(splat::buffers_of(diffuse).into_iter().map(back));
+            buffers.extend(streams::buffers_of(diffuse).into_iter().map(back));
         }
         gpu.barriers(cmd, &release(frame, &uses), &buffers);
         gpu.end_label(cmd);
@@ -506,7 +506,7 @@ impl SlotState {
 
     /// A few sets a pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
-        let diffuse = config.diffuse.map_or(0, |diffuse| splat::chunks(&gpu.limits, &diffuse).1);
+        let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
         110 + 27 * water + 2 * diffuse + diffuse_sets(&gpu.limits, config)
     }

@@ -13,14 +13,12 @@ layout(set = 0, binding = 3) uniform sampler2D water_depth;
 layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
 // Of each chunk its groups, or the corners and instances of its quads; and its particles.
 layout(set = 0, binding = 5, std430) writeonly buffer Arguments { uvec4 arguments[]; };
-
 // The host's own fluid, in the camera's convention.
 layout(set = 0, binding = 6) uniform sampler2D fluid_depth;
 
 layout(push_constant, std430) uniform Push {
     vec4 fluid_at;   // its texels a pixel, of none 0, and the first of them
     ivec2 fluid_end; // after the last
-
     uint count;      // from the host, or the most there may be
     uint from_gpu;
     uint chunks;
@@ -28,12 +26,13 @@ layout(push_constant, std430) uniform Push {
     uint group_size; // 0: quads
 } push;
 
+#include "diffuse_chunks.glsl"
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (gl_GlobalInvocationID.y == 0u && gl_GlobalInvocationID.x < push.chunks) {
         uint chunk = gl_GlobalInvocationID.x;
-        uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;
-        uint own = min(all - min(all, chunk * push.chunk_size), push.chunk_size);
+        uint own = own_of(chunk);
         bool quads = push.group_size == 0u;
         uvec2 groups = uvec2((own + push.group_size - 1u) / max(push.group_size, 1u), 1u);
         arguments[chunk] = quads ? uvec4(4u, own, 0u, 0u) : uvec4(groups, 1u, own);

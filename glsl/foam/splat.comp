@@ -19,9 +19,11 @@ layout(constant_id = 0) const uint FRONTMOST = 0;
 layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
 
-#include "diffuse_cover.glsl"
+#include "diffuse_splat.glsl"
 
-void splat(ivec2 pixel, Diffuse p, Footprint f) {
+void splat(ivec2 pixel, Sprite s) {
+    Diffuse p = s.p;
+    Footprint f = s.f;
     vec2 place;
     float rr = diffuse_place(f, pixel, place);
     if (!(rr < 1.0)) {
@@ -47,6 +49,8 @@ void splat(ivec2 pixel, Diffuse p, Footprint f) {
     }
     thicken(at, p, f, rr, depth);
 }
+
+#include "diffuse_cover.glsl"
 
 void main() {
     cover();

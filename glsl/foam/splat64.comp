@@ -21,9 +21,11 @@ layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments
 // The same memory.
 layout(set = 0, binding = 8, std430) buffer Fronts { uint64_t fronts[]; };
 
-#include "diffuse_cover.glsl"
+#include "diffuse_splat.glsl"
 
-void splat(ivec2 pixel, Diffuse p, Footprint f) {
+void splat(ivec2 pixel, Sprite s) {
+    Diffuse p = s.p;
+    Footprint f = s.f;
     vec2 place;
     float rr = diffuse_place(f, pixel, place);
     if (!(rr < 1.0)) {
@@ -42,6 +44,8 @@ void splat(ivec2 pixel, Diffuse p, Footprint f) {
     }
     thicken(at, p, f, rr, depth);
 }
+
+#include "diffuse_cover.glsl"
 
 void main() {
     cover();

@@ -35,22 +35,16 @@ layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments
 // Where the light meets water first.
 layout(set = 0, binding = 8) uniform sampler2D front;
 
-// Texels of a box that an invocation does by itself.
-const int SMALL = 256;
-
-shared uint large[gl_WorkGroupSize.x];
-shared uint larges;
-
 // A particle as the sun sees it.
-struct Sunned {
+struct Sprite {
     Diffuse p;
     Footprint f;
     float depth; // of its middle, metres along the light
     uint place;  // of its far end, texels along the light
 };
 
-Sunned sunned_at(uint i) {
-    Sunned s;
+Sprite sprite_at(uint i) {
+    Sprite s;
     vec4 world = diffuse_world(i);
     s.p = diffuse_at(i, world);
     vec3 seen = (frame.to_light * vec4(s.p.centre, 1.0)).xyz;
@@ -85,7 +79,7 @@ void add(uint at, uint steps, uint place) {
     }
 }
 
-void splat(ivec2 texel, Sunned s) {
+void splat(ivec2 texel, Sprite s) {
     vec2 place;
     float rr = diffuse_place(s.f, texel, place);
     if (!(rr < 1.0)) {
@@ -107,37 +101,8 @@ ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0, push.first)), min(box.zw, ivec2(int(frame.light_map.x) - 1, push.last)));
 }
 
+#include "diffuse_cover.glsl"
+
 void main() {
-    if (gl_LocalInvocationIndex == 0u) {
-        larges = 0u;
-    }
-    barrier();
-    uint i = gl_GlobalInvocationID.x;
-    if (i < arguments[push.chunk].w) {
-        Sunned s = sunned_at(i);
-        ivec4 box = s.p.life > 0.0 ? inside(s.f.box) : ivec4(0, 0, -1, -1);
-        ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
-        if (size.x * size.y > SMALL) {
-            large[atomicAdd(larges, 1u)] = i;
-        } else {
-            // One loop: lanes with boxes of other shapes end with the largest, not with the widest and the highest.
-            ivec2 at = box.xy;
-            for (int left = size.x * size.y; left > 0; --left) {
-                splat(at, s);
-                bool last = at.x == box.z;
-                at = ivec2(last ? box.x : at.x + 1, last ? at.y + 1 : at.y);
-            }
-        }
-    }
-    barrier();
-    ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
-    for (uint k = 0u; k < larges; ++k) {
-        Sunned s = sunned_at(large[k]);
-        ivec4 box = inside(s.f.box);
-        for (int y = box.y + lane.y; y <= box.w; y += 8) {
-            for (int x = box.x + lane.x; x <= box.z; x += 8) {
-                splat(ivec2(x, y), s);
-            }
-        }
-    }
+    cover();
 }

@@ -15,11 +15,12 @@ layout(push_constant, std430) uniform Push {
     uint group_size;
 } push;
 
+#include "diffuse_chunks.glsl"
+
 void main() {
     uint chunk = gl_GlobalInvocationID.x;
     if (chunk < push.chunks) {
-        uint all = push.from_gpu == 1u ? min(count, push.count) : push.count;
-        uint own = min(all - min(all, chunk * push.chunk_size), push.chunk_size);
+        uint own = own_of(chunk);
         arguments[chunk] = uvec4((own + push.group_size - 1u) / push.group_size, 1u, 1u, own);
     }
 }

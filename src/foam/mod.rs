@@ -6,6 +6,7 @@ mod quads;
 mod radiance;
 pub mod settings;
 pub(crate) mod splat;
+pub(crate) mod streams;
 
 use crate::contract::{Access, Config, DiffuseParticles, Layer};
 use crate::environment::Environment;

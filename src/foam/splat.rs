@@ -11,10 +11,11 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use crate::contract::{Config, Count, DiffuseParticles, Stream};
+use crate::contract::{Config, DiffuseParticles};
 use crate::error::Error;
 use crate::foam::quads::Quads;
 use crate::foam::settings::{DiffuseConfig, Splat};
+use crate::foam::streams::{Chunks, Counting, buffers_of};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
@@ -27,12 +28,10 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::host_images::depth_layout;
-use crate::water::{Recording, Window, capacity, each_once};
+use crate::water::Recording;
 
 /// Bytes of a pixel's words (glsl/include/diffuse_words.glsl).
 const WORDS: u64 = 32;
-/// Groups of a dispatch at most.
-const MOST_GROUPS: u32 = 65_535;
 
 /// The images between frames, and after the pass.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
@@ -42,59 +41,12 @@ pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 struct BeginPush {
     fluid_at: [f32; 4],
     fluid_end: [i32; 2],
-    count: u32,
-    from_gpu: u32,
-    chunks: u32,
-    chunk_size: u32,
-    group_size: u32,
+    counting: Counting,
 }
-shader::assert_layout!(
-    shader::FOAM_BEGIN_COMP,
-    "Push",
-    BeginPush { fluid_at, fluid_end, count, from_gpu, chunks, chunk_size, group_size }
+shader::assert_layout!(shader::FOAM_BEGIN_COMP, "Push", BeginPush { fluid_at, fluid_end });
+const _: () = assert!(
+    std::mem::offset_of!(BeginPush, counting) == shader::FOAM_BEGIN_COMP.offset("Push", "count")
 );
-
-#[repr(C)]
-#[derive(Clone, Copy, NoUninit)]
-struct Push {
-    position_word: u32,
-    position_stride: u32,
-    kind_word: u32,
-    kind_stride: u32,
-    radius_word: u32,
-    radius_stride: u32,
-    age_word: u32,
-    age_stride: u32,
-    id_word: u32,
-    id_stride: u32,
-    chunk_first: u32,
-    chunk: u32,
-}
-shader::assert_layout!(
-    shader::FOAM_SPLAT_COMP,
-    "Push",
-    Push {
-        position_word,
-        position_stride,
-        kind_word,
-        kind_stride,
-        radius_word,
-        radius_stride,
-        age_word,
-        age_stride,
-        id_word,
-        id_stride,
-        chunk_first,
-        chunk,
-    }
-);
-
-/// Particles of a chunk and how many chunks there are.
-pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &DiffuseConfig) -> (u32, u32) {
-    let range = limits.max_storage_buffer_range.saturating_sub(256);
-    let size = (range / config.max_stride).min(64 * MOST_GROUPS).min(config.max_particles).max(1);
-    (size, config.max_particles.div_ceil(size))
-}
 
 /// What depends on the frame's size.
 struct Targets {
@@ -143,9 +95,7 @@ pub struct Sprites {
     resolve: Pipeline,
     arguments: Buffer,
     targets: Targets,
-    chunk_size: u32,
-    chunks: u32,
-    max_particles: u32,
+    chunks: Chunks,
 }
 
 /// The way that a configuration takes.
@@ -156,7 +106,7 @@ pub fn way(gpu: &Gpu, diffuse: &DiffuseConfig) -> Splat {
 
 impl Sprites {
     pub fn new(gpu: &Gpu, config: &Config, diffuse: &DiffuseConfig) -> Result<Self, Error> {
-        let (chunk_size, chunks) = chunks(&gpu.limits, diffuse);
+        let chunks = Chunks::new(&gpu.limits, diffuse);
         let chosen = way(gpu, diffuse);
         let targets = Targets::new(gpu, config, chosen)?;
         let compute = |shader, constants: &[(u32, u32)]| Pipeline::compute(gpu, shader, constants);
@@ -176,16 +126,14 @@ impl Sprites {
             }
         };
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER;
-        let (name, bytes) = ("foam/splat/arguments", 16 * u64::from(chunks));
+        let (name, bytes) = ("foam/splat/arguments", chunks.arguments());
         Ok(Self {
             begin: compute(shader::FOAM_BEGIN_COMP, &[])?,
             way,
             resolve: compute(resolve, &[])?,
             arguments: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
             targets,
-            chunk_size,
             chunks,
-            max_particles: diffuse.max_particles,
         })
     }
 
@@ -297,10 +245,17 @@ impl Sprites {
                     (8, Resource::buffer(words)),
                 ];
                 // Atomics alone, in any order: no barrier between chunks.
-                self.each_chunk(r, pipeline, &own, particles, |at| {
-                    // SAFETY: outside a render pass; the arguments are visible since `begin`.
-                    unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, at) };
-                })?;
+                self.chunks.each(
+                    r,
+                    pipeline,
+                    &own,
+                    particles,
+                    |places| places,
+                    |at| {
+                        // SAFETY: outside a render pass; the arguments are visible since `begin`.
+                        unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, at) };
+                    },
+                )?;
             }
         }
         let images = [occluders, thickness, normal];
@@ -335,11 +290,18 @@ impl Sprites {
         quads.record(r, access::image(thickness, last, COLOR_ATTACHMENT), |pipeline| {
             let Some(particles) = particles else { return Ok(()) };
             let own = [(6, Resource::buffer(words))];
-            self.each_chunk(r, pipeline, &own, particles, |at| {
-                let arguments = self.arguments.handle;
-                // SAFETY: inside a render pass; the arguments are visible since `begin`.
-                unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, at, 1, 16) };
-            })
+            self.chunks.each(
+                r,
+                pipeline,
+                &own,
+                particles,
+                |places| places,
+                |at| {
+                    let arguments = self.arguments.handle;
+                    // SAFETY: inside a render pass; the arguments are visible since `begin`.
+                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, at, 1, 16) };
+                },
+            )
         })?;
         let written = [occluders, normal];
         let hand = |from: Access, to| written.map(|image| access::image(image, from, to));
@@ -370,17 +332,12 @@ impl Sprites {
         water: &Image,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let most = particles.map_or(0, |p| streams(p).map(capacity).fold(u32::MAX, u32::min));
-        let most = most.min(self.max_particles);
-        // Where the host knows the count any buffer will do.
-        let unread = Resource::buffer(&self.targets.words);
-        let (count, from_gpu, host_count) = match particles.map(|p| p.count) {
-            Some(Count::Gpu { buffer, offset }) => {
-                (most, true, Resource::Buffer(buffer, offset, 4))
-            }
-            Some(Count::Cpu(count)) => (count.min(most), false, unread),
-            None => (0, false, unread),
+        let group_size = match &self.way {
+            Way::Compute(goes) => goes[0].local_size[0],
+            Way::Quads(_) => 0,
         };
+        let unread = Resource::buffer(&self.targets.words);
+        let (counting, host_count) = self.chunks.counting(particles, group_size, unread);
         let fluid = particles.and_then(|particles| particles.fluid_depth.as_ref());
         let fluid_at = fluid.map_or([0.0; 4], |image| {
             let vk::Rect2D { offset, extent } = image.rect;
@@ -409,69 +366,10 @@ impl Sprites {
             ),
         ];
         r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
-        self.begin.push(
-            gpu,
-            cmd,
-            &BeginPush {
-                fluid_at,
-                fluid_end,
-                count,
-                from_gpu: u32::from(from_gpu),
-                chunks: self.chunks,
-                chunk_size: self.chunk_size,
-                group_size: match &self.way {
-                    Way::Compute(goes) => goes[0].local_size[0],
-                    Way::Quads(_) => 0,
-                },
-            },
-        );
+        self.begin.push(gpu, cmd, &BeginPush { fluid_at, fluid_end, counting });
         // At least an invocation a chunk.
-        let extent = vk::Extent2D { width: r.extent.width.max(self.chunks), ..r.extent };
+        let extent = vk::Extent2D { width: r.extent.width.max(self.chunks.count), ..r.extent };
         r.dispatch_over(extent, self.begin.local_size);
-        Ok(())
-    }
-
-    /// Binds each chunk's streams and what else there is, and does something by its arguments, which lie there.
-    fn each_chunk(
-        &self,
-        r: &Recording<'_>,
-        pipeline: &Pipeline,
-        own: &[(u32, Resource)],
-        particles: &DiffuseParticles,
-        act: impl Fn(vk::DeviceSize),
-    ) -> Result<(), Error> {
-        let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
-        for chunk in 0..self.chunks {
-            let first = chunk * self.chunk_size;
-            let bound = Window::all(r.gpu, &particles.positions, others, first);
-            // A stream that ends before the chunk has no particles in it: the count was clamped.
-            let Some((positions, [kinds, radii, ages, ids])) = bound else { break };
-            let streams = [
-                (0, r.uniforms),
-                (1, positions.resource),
-                (2, kinds.resource),
-                (3, radii.resource),
-                (4, ages.resource),
-                (5, ids.resource),
-            ];
-            r.descriptors.bind(r.gpu, r.cmd, pipeline, &[&streams[..], own].concat())?;
-            let push = Push {
-                position_word: positions.word,
-                position_stride: positions.stride,
-                kind_word: kinds.word,
-                kind_stride: kinds.stride,
-                radius_word: radii.word,
-                radius_stride: radii.stride,
-                age_word: ages.word,
-                age_stride: ages.stride,
-                id_word: ids.word,
-                id_stride: ids.stride,
-                chunk_first: first,
-                chunk,
-            };
-            pipeline.push(r.gpu, r.cmd, &push);
-            act(16 * u64::from(chunk));
-        }
         Ok(())
     }
 
@@ -484,21 +382,4 @@ impl Sprites {
         }
         (images, words.size + self.arguments.size)
     }
-}
-
-/// The streams that there are, with the bytes of a value.
-fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)> {
-    let all = [
-        (Some(&particles.positions), 12),
-        (particles.kinds.as_ref(), 4),
-        (particles.radii.as_ref(), 4),
-        (particles.ages.as_ref(), 4),
-        (particles.ids.as_ref(), 4),
-    ];
-    all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
-}
-
-/// The host's buffers, each once: interleaved streams share one.
-pub fn buffers_of(particles: &DiffuseParticles) -> Vec<vk::Buffer> {
-    each_once(streams(particles), particles.count, None)
 }

@@ -13,10 +13,10 @@ use gpu_allocator::MemoryLocation;
 
 use super::map_desc;
 use super::maps::{AFTER, Maps};
-use crate::contract::{Count, DiffuseParticles, Stream};
+use crate::contract::DiffuseParticles;
 use crate::error::Error;
 use crate::foam::settings::DiffuseConfig;
-use crate::foam::splat::{buffers_of, chunks};
+use crate::foam::streams::{Chunks, Places, buffers_of};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, COPY_WRITE, INDIRECT, buffer,
@@ -26,64 +26,19 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::image::Image;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
-use crate::water::{Recording, Window, capacity};
+use crate::water::Recording;
 
 /// Bytes of a texel's words (glsl/include/light_diffuse.glsl).
 const WORDS: u64 = 16;
 
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct BeginPush {
-    count: u32,
-    from_gpu: u32,
-    chunks: u32,
-    chunk_size: u32,
-    group_size: u32,
-}
-shader::assert_layout!(
-    shader::LIGHT_DIFFUSE_BEGIN_COMP,
-    "Push",
-    BeginPush { count, from_gpu, chunks, chunk_size, group_size }
-);
-
-#[repr(C)]
-#[derive(Clone, Copy, NoUninit)]
 struct Push {
-    position_word: u32,
-    position_stride: u32,
-    kind_word: u32,
-    kind_stride: u32,
-    radius_word: u32,
-    radius_stride: u32,
-    age_word: u32,
-    age_stride: u32,
-    id_word: u32,
-    id_stride: u32,
-    chunk_first: u32,
-    chunk: u32,
+    places: Places,
     first: i32,
     last: i32,
 }
-shader::assert_layout!(
-    shader::LIGHT_DIFFUSE_COMP,
-    "Push",
-    Push {
-        position_word,
-        position_stride,
-        kind_word,
-        kind_stride,
-        radius_word,
-        radius_stride,
-        age_word,
-        age_stride,
-        id_word,
-        id_stride,
-        chunk_first,
-        chunk,
-        first,
-        last,
-    }
-);
+shader::assert_layout!(shader::LIGHT_DIFFUSE_COMP, "Push", Push { first, last });
 
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -107,16 +62,14 @@ pub struct Diffuse {
     words: Buffer,
     /// The result.
     pub image: Image,
-    chunk_size: u32,
-    chunks: u32,
-    max_particles: u32,
+    chunks: Chunks,
     /// Rows whose words can be bound at once.
     rows: u32,
 }
 
 impl Diffuse {
     pub fn new(gpu: &Gpu, diffuse: &DiffuseConfig, edge: u32) -> Result<Self, Error> {
-        let (chunk_size, chunks) = chunks(&gpu.limits, diffuse);
+        let chunks = Chunks::new(&gpu.limits, diffuse);
         let made = |name, bytes, usage| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | usage;
             Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
@@ -131,12 +84,10 @@ impl Diffuse {
             begin: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_BEGIN_COMP, &[])?,
             splat: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_COMP, &[])?,
             resolve: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_RESOLVE_COMP, &[])?,
-            arguments: made("light/diffuse/arguments", 16 * u64::from(chunks), arguments)?,
+            arguments: made("light/diffuse/arguments", chunks.arguments(), arguments)?,
             words: made("light/diffuse/words", words, fill)?,
             image: Image::new(gpu, &desc)?,
-            chunk_size,
             chunks,
-            max_particles: diffuse.max_particles,
             rows: rows(&gpu.limits, edge),
         })
     }
@@ -209,47 +160,13 @@ impl Diffuse {
         let words = self.words_of(rows);
         let [first_row, last_row] = rows.map(u32::cast_signed);
         let front = Resource::Sampled(maps.front.image().view, gpu.samplers.nearest);
-        let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
+        let own = [(6, words), (7, Resource::buffer(&self.arguments)), (8, front)];
         // Atomics alone, in any order: no barrier between chunks.
-        for chunk in 0..self.chunks {
-            let first = chunk * self.chunk_size;
-            let bound = Window::all(gpu, &particles.positions, others, first);
-            // A stream that ends before the chunk has no particles in it: the count was clamped.
-            let Some((positions, [kinds, radii, ages, ids])) = bound else { break };
-            let resources = [
-                (0, r.uniforms),
-                (1, positions.resource),
-                (2, kinds.resource),
-                (3, radii.resource),
-                (4, ages.resource),
-                (5, ids.resource),
-                (6, words),
-                (7, Resource::buffer(&self.arguments)),
-                (8, front),
-            ];
-            r.descriptors.bind(gpu, cmd, &self.splat, &resources)?;
-            let push = Push {
-                position_word: positions.word,
-                position_stride: positions.stride,
-                kind_word: kinds.word,
-                kind_stride: kinds.stride,
-                radius_word: radii.word,
-                radius_stride: radii.stride,
-                age_word: ages.word,
-                age_stride: ages.stride,
-                id_word: ids.word,
-                id_stride: ids.stride,
-                chunk_first: first,
-                chunk,
-                first: first_row,
-                last: last_row,
-            };
-            self.splat.push(gpu, cmd, &push);
-            let groups = 16 * u64::from(chunk);
+        let push = |places| Push { places, first: first_row, last: last_row };
+        self.chunks.each(r, &self.splat, &own, particles, push, |at| {
             // SAFETY: outside a render pass; the arguments are visible since `begin`.
-            unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, groups) };
-        }
-        Ok(())
+            unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, at) };
+        })
     }
 
     fn record_resolve(&self, r: &Recording<'_>) -> Result<(), Error> {
@@ -282,23 +199,13 @@ impl Diffuse {
 
     fn record_begin(&self, r: &Recording<'_>, particles: &DiffuseParticles) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let most = streams(particles).map(capacity).fold(self.max_particles, u32::min);
-        let (count, from_gpu, host_count) = match particles.count {
-            Count::Gpu { buffer, offset } => (most, true, Resource::Buffer(buffer, offset, 4)),
-            // Any buffer will do: it is not read.
-            Count::Cpu(count) => (count.min(most), false, Resource::buffer(&self.words)),
-        };
-        let resources = [(1, host_count), (2, Resource::buffer(&self.arguments))];
+        let unread = Resource::buffer(&self.words);
+        let group_size = self.splat.local_size[0];
+        let (counting, count) = self.chunks.counting(Some(particles), group_size, unread);
+        let resources = [(1, count), (2, Resource::buffer(&self.arguments))];
         r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
-        let push = BeginPush {
-            count,
-            from_gpu: u32::from(from_gpu),
-            chunks: self.chunks,
-            chunk_size: self.chunk_size,
-            group_size: self.splat.local_size[0],
-        };
-        self.begin.push(gpu, cmd, &push);
-        let groups = self.chunks.div_ceil(self.begin.local_size[0]);
+        self.begin.push(gpu, cmd, &counting);
+        let groups = self.chunks.count.div_ceil(self.begin.local_size[0]);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
         Ok(())
@@ -321,17 +228,5 @@ fn rows(limits: &vk::PhysicalDeviceLimits, edge: u32) -> u32 {
 pub fn sets(limits: &vk::PhysicalDeviceLimits, diffuse: &DiffuseConfig, edge: u32) -> u32 {
     let rows = rows(limits, edge);
     let own = if rows < edge { rows - 2 } else { edge };
-    1 + edge.div_ceil(rows) * chunks(limits, diffuse).1 + edge.div_ceil(own)
-}
-
-/// The streams that there are, with the bytes of a value.
-fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)> {
-    let all = [
-        (Some(&particles.positions), 12),
-        (particles.kinds.as_ref(), 4),
-        (particles.radii.as_ref(), 4),
-        (particles.ages.as_ref(), 4),
-        (particles.ids.as_ref(), 4),
-    ];
-    all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
+    1 + edge.div_ceil(rows) * Chunks::new(limits, diffuse).count + edge.div_ceil(own)
 }

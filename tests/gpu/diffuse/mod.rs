@@ -1,5 +1,6 @@
 //! Passes `splat`, `radiance` and `blur`: foam of diffuse particles against the twin, and the picture with it.
 
+mod fluid;
 mod ways;
 
 use ash::vk;
@@ -7,18 +8,16 @@ use glam::{DVec3, Vec3};
 use whitewater::foam::{
     DiffuseConfig, DiffuseLook, Irradiance, Mixing, Occlusion as Occluding, Reach, Splat, Submerged,
 };
+use whitewater::headless;
 use whitewater::water::{Shading, Shadows};
 use whitewater::{Config, Count, DiffuseParticles, HostImage, Region, Renderer, Settings};
 
 use crate::light::even as mask;
-use crate::reference::diffuse::{
-    self, Attenuation, Kind, Layers, Occlusion, Particle, Seen, foam_bounds,
-};
-use crate::reference::{EMPTY, Image, motion};
+use crate::reference::diffuse::{self, Layers, Occlusion, Particle, Seen, foam_bounds};
+use crate::reference::{EMPTY, Image};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::host::HOST_WRITE;
-use crate::support::rig::{Diffused, Drawn, Rig, Shot, config, extent, stream};
+use crate::support::rig::{Diffused, Drawn, Rig, Shot, attenuation, config, extent, stream, twins};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::Between;
 
@@ -88,42 +87,31 @@ impl Diffuse {
         }
     }
 
+    fn input(&self) -> headless::Diffuse<'_> {
+        headless::Diffuse {
+            positions: &self.positions,
+            kinds: Some(&self.kinds),
+            radii: self.radii.as_deref(),
+            ages: Some(&self.ages),
+            ids: self.ids.as_deref(),
+        }
+    }
+
     fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let data = |bytes: &[u8]| rig.stub.data(bytes, usage);
-        let cloud = rig.particles(&self.shot);
-        let positions = data(bytemuck::cast_slice(&self.positions));
-        let kinds = data(bytemuck::cast_slice(&self.kinds));
-        let radii = self.radii.as_ref().map(|all| data(bytemuck::cast_slice(all)));
-        let ages = data(bytemuck::cast_slice(&self.ages));
-        let ids = self.ids.as_ref().map(|all| data(bytemuck::cast_slice(all)));
-        let count = Count::Cpu(self.positions.len() as u32);
+        let (water, cloud) = (rig.particles(&self.shot), rig.diffuse(&self.input()));
         let fluid = self.fluid.as_ref().map(|shot| (rig.scene(shot).1, shot));
         let particles = DiffuseParticles {
             fluid_depth: fluid.as_ref().map(|(texture, shot)| HostImage {
                 rect: shot.with_margin(shot.depth_extent).1,
                 ..texture.host_image()
             }),
-            kinds: Some(stream(&kinds, 0, 4)),
-            radii: radii.as_ref().map(|all| stream(all, 0, 4)),
-            ages: Some(stream(&ages, 0, 4)),
-            ids: ids.as_ref().map(|all| stream(all, 0, 4)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(stream(&positions, 0, 12), count)
+            ..cloud.particles()
         };
-        rig.draw_diffuse(&self.shot, &cloud.particles(), Some(particles))
+        rig.draw_diffuse(&self.shot, &water.particles(), Some(particles))
     }
 
     fn particles(&self) -> Vec<Particle> {
-        let particle = |(i, position): (usize, &[f32; 3])| Particle {
-            position: Vec3::from(*position).as_dvec3(),
-            kind: Kind::of(self.kinds[i]),
-            radius: self.radii.as_ref().map(|all| f64::from(all[i])),
-            age: f64::from(self.ages[i]),
-            id: self.ids.as_ref().map_or(i as u32, |all| all[i]),
-        };
-        self.positions.iter().enumerate().map(particle).collect()
+        twins(&self.input())
     }
 
     fn twin_settings(&self) -> diffuse::Settings {
@@ -131,12 +119,7 @@ impl Diffuse {
         diffuse::Settings {
             radius: f64::from(look.radius),
             spacing: f64::from(water.spacing),
-            attenuation: match look.submerged {
-                Submerged::Water => Attenuation::Water,
-                Submerged::Falloff { most, n, m } => {
-                    Attenuation::Falloff { max: most.into(), n: n.into(), m: m.into() }
-                }
-            },
+            attenuation: attenuation(look.submerged),
         }
     }
 
@@ -224,90 +207,6 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
             }
         }
         assert!(told > 300, "{lens:?}: {told} pixels can tell");
-    }
-}
-
-/// The fluid that shades foam is the smoothed surface where there is one near the spheres, in near views too.
-#[test]
-fn the_fluid_round_foam_is_smooth() {
-    let gpu = Gpu::shared();
-    for (lens, smoothing_level) in [(Lens::Standard, 1), (Lens::OffAxis, 0), (Lens::Reversed, 2)] {
-        let config = Config { smoothing_level, max_particles: 20_000, ..diffusing(SIZE) };
-        let mut rig = Rig::lit(&gpu, &config, 1);
-        let mut cloud = Diffuse::new(lens);
-        let block = scenes::block(3, 0.2, [30, 20, 4], [-3.0, -2.0, 4.0]);
-        cloud.shot.positions = scenes::world(&cloud.shot.camera, &block);
-        let drawn = cloud.draw(&mut rig);
-        let fluid = channel(&drawn.diffuse.as_ref().expect("diffuse particles").occluders, 2);
-        let surface = (&drawn.surface, drawn.levels.finer().texel[2] as usize);
-        let falloff = cloud.shot.falloff();
-        let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
-            let sphere = drawn.depth.at(x, y);
-            if f64::from(sphere) >= EMPTY {
-                return f64::from(sphere);
-            }
-            motion::smoothed_at(surface, (x, y), sphere, falloff)
-        });
-        let off = |(smooth, sphere): (&f64, &f32)| (smooth - f64::from(*sphere)).abs();
-        let moved = expected.data.iter().zip(&drawn.depth.data).map(off).filter(|off| *off > 0.01);
-        let moved = moved.count();
-        // Weights and a mean of four: 8 roundings of what is at most the falloff, and one of the depth.
-        let ulp = f64::from(f32::EPSILON);
-        compare::close("diffuse-fluid", &fluid, &expected, 0, |_, _, v| {
-            8.0 * ulp * f64::from(falloff) + ulp * v
-        });
-        assert!(moved > 500, "{lens:?}: {moved} pixels moved by the smoothing");
-    }
-}
-
-/// A fluid of the host's, of another size than the frame and a part of its image, is the surface that foam is before or
-/// behind; the nearer one where there is water of ours too.
-#[test]
-fn foam_is_told_by_a_fluid_of_the_hosts() {
-    let gpu = Gpu::shared();
-    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
-    for lens in LENSES {
-        let mut cloud = Diffuse::new(lens);
-        cloud.shot.settings.diffuse.submerged = Submerged::Falloff { most: 1.5, n: 2.0, m: 4.0 };
-        let mut sea = cloud.shot.clone();
-        (sea.depth_extent, sea.margin) = (extent(40, 50), [3, 0, 5, 2]);
-        sea.scene_depth(|x, y| (y > 9).then_some(4.0 + 0.02 * f64::from(x) + 0.05 * f64::from(y)));
-        let both = Diffuse { fluid: Some(sea.clone()), ..cloud.clone() }.draw(&mut rig);
-        let nearest = channel(&both.diffuse.as_ref().expect("diffuse particles").occluders, 2);
-        cloud.shot.positions.clear();
-        cloud.fluid = Some(sea.clone());
-        let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
-        let view = cloud.shot.view(SIZE);
-        let (fluid, scene) = (channel(&foam.occluders, 2), cloud.shot.scene_at(SIZE, 0));
-        let (sea, falloff) = (sea.scene_at(SIZE, 0), f64::from(cloud.shot.falloff()));
-        let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
-            if sea.at(x, y) < scene.at(x, y) { sea.at(x, y).min(EMPTY) } else { EMPTY }
-        });
-        // A depth is the inverse of a sum of two terms, each rounded, that is 1 at the near plane.
-        let off = |v: f64| 4.0 * f64::from(f32::EPSILON) * v * (1.0 + v / view.near());
-        let most = |_, _, v: f64| if v < EMPTY { off(v) } else { 0.0 };
-        compare::close("diffuse-host", &fluid, &expected, 0, most);
-        let hosts = expected.data.iter().filter(|v| **v < EMPTY).count();
-        let mut ours = 0;
-        for (i, sphere) in both.depth.data.iter().map(|v| f64::from(*v)).enumerate() {
-            let (found, host) = (f64::from(nearest.data[i]), f64::from(fluid.data[i]));
-            // The nearer of both, where the smoothing can't turn them round.
-            if (sphere - host).abs() > 2.0 * falloff {
-                assert!(
-                    (found < host) == (sphere < host),
-                    "{lens:?}: {found} of {sphere} and {host}"
-                );
-                ours += usize::from(sphere < host);
-            }
-        }
-        assert!(ours > 200, "{lens:?}: {ours} pixels with water of ours");
-        assert!(hosts > 1000, "{lens:?}: {hosts} pixels with the host's fluid");
-        let settings = cloud.twin_settings();
-        let bounds = foam_bounds(&cloud.particles(), &view, &settings, &scene, &doubles(&fluid));
-        for (i, sum) in bounds.sums.iter().enumerate() {
-            let name = format!("diffuse-host-sum-{i}");
-            compare::between(&name, &channel(&foam.thickness, i), sum);
-        }
     }
 }
 

@@ -4,16 +4,17 @@
 use ash::vk;
 use glam::Vec3;
 use whitewater::foam::{DiffuseConfig, Occlusion, Submerged};
+use whitewater::headless::Diffuse;
 use whitewater::{Config, Count, DiffuseParticles, Region, Stream};
 
 use crate::foam::Foamy;
 use crate::reference::Image;
-use crate::reference::diffuse::{Attenuation, Kind, Particle, Settings, intensity};
+use crate::reference::diffuse::{Kind, Particle, Settings, intensity};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
 use crate::support::limits::{Claims, claim};
-use crate::support::rig::{Drawn, Rig, Shot, config, stream};
+use crate::support::rig::{Drawn, Rig, Shot, attenuation, config, stream, twins};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::spy;
 
@@ -59,24 +60,19 @@ impl Cloud {
         cloud
     }
 
+    fn input(&self) -> Diffuse<'_> {
+        Diffuse {
+            positions: &self.positions,
+            kinds: Some(&self.kinds),
+            radii: Some(&self.radii),
+            ages: Some(&self.ages),
+            ids: Some(&self.ids),
+        }
+    }
+
     fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
-        let data = |bytes: &[u8]| rig.stub.data(bytes, vk::BufferUsageFlags::STORAGE_BUFFER);
-        let positions = data(bytemuck::cast_slice(&self.positions));
-        let kinds = data(bytemuck::cast_slice(&self.kinds));
-        let radii = data(bytemuck::cast_slice(&self.radii));
-        let ages = data(bytemuck::cast_slice(&self.ages));
-        let ids = data(bytemuck::cast_slice(&self.ids));
-        let count = Count::Cpu(self.positions.len() as u32);
-        let particles = DiffuseParticles {
-            kinds: Some(stream(&kinds, 0, 4)),
-            radii: Some(stream(&radii, 0, 4)),
-            ages: Some(stream(&ages, 0, 4)),
-            ids: Some(stream(&ids, 0, 4)),
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-            ..DiffuseParticles::new(stream(&positions, 0, 12), count)
-        };
-        self.draw_with(rig, Some(particles))
+        let cloud = rig.diffuse(&self.input());
+        self.draw_with(rig, Some(cloud.particles()))
     }
 
     /// With other particles than its own.
@@ -94,24 +90,12 @@ impl Cloud {
     }
 
     fn particles(&self) -> Vec<Particle> {
-        let particle = |i: usize| Particle {
-            position: wide(self.positions[i]),
-            kind: Kind::of(self.kinds[i]),
-            radius: Some(f64::from(self.radii[i])),
-            age: f64::from(self.ages[i]),
-            id: self.ids[i],
-        };
-        (0..self.positions.len()).map(particle).collect()
+        twins(&self.input())
     }
 
     fn twin_settings(&self) -> Settings {
         let (look, water) = (&self.case.shot.settings.diffuse, &self.case.shot.settings.water);
-        let attenuation = match look.submerged {
-            Submerged::Water => Attenuation::Water,
-            Submerged::Falloff { most, n, m } => {
-                Attenuation::Falloff { max: most.into(), n: n.into(), m: m.into() }
-            }
-        };
+        let attenuation = attenuation(look.submerged);
         Settings { attenuation, ..Settings::new(f64::from(water.spacing)) }
     }
 }

@@ -1,5 +1,6 @@
 //! A renderer in a host: the host stub with the images and buffers of a frame.
 
+mod diffuse;
 mod drawn;
 mod shot;
 
@@ -13,6 +14,7 @@ use whitewater::{
 use super::device::Gpu;
 use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 
+pub use diffuse::{attenuation, twins};
 pub use drawn::{Diffused, Drawn, Foaming, Sheets};
 pub use shot::{AROUND, Shot};
 

@@ -192,7 +192,7 @@ impl<'d> Cells<'d> {
             room: Room::default(),
             chunks: Vec::new(),
             view: Buffer::with(device, "view", bytemuck::bytes_of(&view))?,
-            scene: Buffer::with(device, "scene", bytemuck::cast_slice(&input.depths(&lens)))?,
+            scene: Buffer::with(device, "scene", bytemuck::cast_slice(&input.depths()))?,
             tiles: on_device("tiles", 16 * tiles)?,
             starts: on_device("starts", 4 * tiles)?,
             blocks: on_device("blocks", 4 * (tiles.div_ceil(BLOCK) + 1))?,

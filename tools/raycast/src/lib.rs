@@ -84,13 +84,6 @@ pub enum SceneDepth {
     /// Nothing.
     #[default]
     Nothing,
-    /// A plane: of points p with normal · p = offset (world space, scene units).
-    Plane {
-        /// Normal, of any length.
-        normal: [f32; 3],
-        /// Distance from the origin times the normal's length.
-        offset: f32,
-    },
     /// Positive eye depth of each pixel, row 0 on top; [`EMPTY`] of nothing.
     Depths(Vec<f32>),
 }
@@ -235,22 +228,11 @@ impl Input<'_> {
     }
 
     /// Eye depth of the scene in each pixel.
-    fn depths(&self, lens: &Lens) -> Vec<f32> {
+    fn depths(&self) -> Vec<f32> {
         let [width, height] = self.size;
-        let slope = lens.slope(self.size);
         match self.scene {
             SceneDepth::Nothing => vec![EMPTY; width as usize * height as usize],
             SceneDepth::Depths(depths) => depths.clone(),
-            SceneDepth::Plane { normal: [x, y, z], offset } => {
-                let plane = lens.view.inverse().transpose() * Vec4::new(*x, *y, *z, -offset);
-                let depth = |i: u32| {
-                    let [px, py] = [i % width, i / width].map(|v| v as f32 + 0.5);
-                    let [sx, sy] = [px * slope.x + slope.z, py * slope.y + slope.w];
-                    let depth = -plane.w / (plane.x * sx + plane.y * sy - plane.z);
-                    if depth > 0.0 { depth.min(EMPTY) } else { EMPTY }
-                };
-                (0..width * height).map(depth).collect()
-            }
         }
     }
 }

@@ -143,7 +143,6 @@ impl Twin {
         match &self.scene {
             SceneDepth::Nothing => EMPTY.into(),
             SceneDepth::Depths(depths) => depths[(y * self.size[0] + x) as usize].into(),
-            SceneDepth::Plane { .. } => unimplemented!("its depths are handed in"),
         }
     }
 

@@ -106,6 +106,7 @@ fn diffuse_particles_are_made_of_the_water() {
     let made = "--whitewater generate --write-whitewater made_%d.bgeo.gz";
     let run = folder.run(&format!("{common} {made} -o a_%d.exr -o a_%d.png --validate")).ok();
     assert!(run.stderr().contains("trapped air") && run.stderr().contains("diffuse particles"));
+    assert!(!run.stderr().contains("there is room for"), "{}", run.stderr());
     let amount =
         |name: &str| folder.picture(name).channel("foam.thickness").unwrap().iter().sum::<f32>();
     let amounts = [1, 2, 3, 4].map(|frame| amount(&format!("a_{frame}.exr")));
@@ -122,6 +123,12 @@ fn diffuse_particles_are_made_of_the_water() {
     let again = common.replace("--overwrite", "");
     folder.run(&format!("{again} {keep}")).ok();
     assert!(folder.exists("kept_4.ply"));
+    // What there is no room for is told, once.
+    let rates = "[generate]\nmax_particles = 50\nrates = [4000.0, 4000.0]\n";
+    folder.text("full.toml", rates);
+    let full = common.replace("look.toml", "full.toml");
+    let run = folder.run(&format!("{full} --whitewater generate -o f_%d.png")).ok();
+    assert_eq!(run.stderr().matches("there is room for 50 diffuse particles").count(), 1);
     // A frame by itself.
     folder.run(&format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate -o d.exr")).ok();
     assert!(amount("d.exr") > 0.0);

@@ -1,0 +1,39 @@
+// Diffuse particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
+// diffuse_words.glsl. Reads: words. Writes: words.
+
+struct Sprite {
+    Diffuse p;
+    Footprint f;
+};
+
+Sprite sprite_at(uint i) {
+    Diffuse p = diffuse_at(i);
+    return Sprite(p, footprint_of(p));
+}
+
+ivec4 inside(ivec4 box) {
+    return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(frame.extent.xy) - 1));
+}
+
+// All in one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not
+// they have something to add. What comes to a word that is half full is taken out again.
+void add(uint word, uvec3 steps) {
+    do {
+        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x < HALF_FULL;
+        steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
+        word += over ? 0u : 1u;
+        bool next = !over && steps.x == 0u;
+        steps = next ? uvec3(steps.yz, 0u) : steps;
+        word += next ? 1u : 0u;
+    } while (any(notEqual(steps, uvec3(0u))));
+}
+
+// What it adds to a pixel's thickness, at such a place in it.
+void thicken(uint at, Diffuse p, Footprint f, float rr, float depth) {
+    float amount = diffuse_amount(p, f, rr);
+    vec3 shares = diffuse_shares(amount, depth, uintBitsToFloat(words[at + FLUID]));
+    uvec3 steps = uvec3(min(shares * STEPS + 0.5, vec3(1.0e9)));
+    if (any(notEqual(steps, uvec3(0u)))) {
+        add(at + SUMS, steps);
+    }
+}

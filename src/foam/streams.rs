@@ -1,0 +1,178 @@
+//! The host's streams of diffuse particles, as every pass over them takes them: in chunks that the device can bind, of
+//! a count that the host or the GPU knows.
+
+use ash::vk;
+use bytemuck::NoUninit;
+
+use crate::contract::{Count, DiffuseParticles, Stream};
+use crate::error::Error;
+use crate::foam::settings::DiffuseConfig;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+use crate::water::{Recording, Window, capacity, each_once};
+
+/// Groups of a dispatch at most.
+const MOST_GROUPS: u32 = 65_535;
+
+/// Where a chunk's streams begin, and their strides: 0 of one that is not there (glsl/include/diffuse_streams.glsl).
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+pub struct Places {
+    position_word: u32,
+    position_stride: u32,
+    kind_word: u32,
+    kind_stride: u32,
+    radius_word: u32,
+    radius_stride: u32,
+    age_word: u32,
+    age_stride: u32,
+    id_word: u32,
+    id_stride: u32,
+    chunk_first: u32,
+    chunk: u32,
+}
+macro_rules! assert_places {
+    ($($shader:ident),+ $(,)?) => {
+        $(shader::assert_layout!(
+            shader::$shader,
+            "Push",
+            Places {
+                position_word,
+                position_stride,
+                kind_word,
+                kind_stride,
+                radius_word,
+                radius_stride,
+                age_word,
+                age_stride,
+                id_word,
+                id_stride,
+                chunk_first,
+                chunk,
+            }
+        );)+
+    };
+}
+assert_places!(FOAM_SPLAT_COMP, FOAM_SPLAT64_COMP, FOAM_SPLAT_VERT, LIGHT_DIFFUSE_COMP);
+
+/// What tells how many there are in each chunk (glsl/include/diffuse_chunks.glsl).
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+pub struct Counting {
+    count: u32,
+    from_gpu: u32,
+    chunks: u32,
+    chunk_size: u32,
+    group_size: u32,
+}
+shader::assert_layout!(
+    shader::LIGHT_DIFFUSE_BEGIN_COMP,
+    "Push",
+    Counting { count, from_gpu, chunks, chunk_size, group_size }
+);
+
+/// All particles that a frame may have, in parts.
+#[derive(Clone, Copy)]
+pub struct Chunks {
+    /// How many parts.
+    pub count: u32,
+    size: u32,
+    max_particles: u32,
+}
+
+impl Chunks {
+    pub fn new(limits: &vk::PhysicalDeviceLimits, config: &DiffuseConfig) -> Self {
+        let max_particles = config.max_particles;
+        let range = limits.max_storage_buffer_range.saturating_sub(256);
+        let size = (range / config.max_stride).min(64 * MOST_GROUPS).min(max_particles).max(1);
+        Self { count: max_particles.div_ceil(size), size, max_particles }
+    }
+
+    /// Bytes of what dispatches or draws them, 16 a chunk.
+    pub fn arguments(&self) -> vk::DeviceSize {
+        16 * u64::from(self.count)
+    }
+
+    /// How many there are, for groups of a size (0: quads), and the buffer that says so where the GPU knows; else
+    /// `unread` is bound, any buffer.
+    pub fn counting(
+        &self,
+        particles: Option<&DiffuseParticles>,
+        group_size: u32,
+        unread: Resource,
+    ) -> (Counting, Resource) {
+        let most =
+            particles.map_or(0, |p| streams(p).map(capacity).fold(self.max_particles, u32::min));
+        let (count, from_gpu, buffer) = match particles.map(|p| p.count) {
+            Some(Count::Gpu { buffer, offset }) => (most, 1, Resource::Buffer(buffer, offset, 4)),
+            Some(Count::Cpu(count)) => (count.min(most), 0, unread),
+            None => (0, 0, unread),
+        };
+        let (chunks, chunk_size) = (self.count, self.size);
+        (Counting { count, from_gpu, chunks, chunk_size, group_size }, buffer)
+    }
+
+    /// Binds each chunk's streams and what else there is, pushes its places or what is made of them, and does
+    /// something by its arguments, which lie at so many bytes.
+    pub fn each<P: NoUninit>(
+        &self,
+        r: &Recording<'_>,
+        pipeline: &Pipeline,
+        own: &[(u32, Resource)],
+        particles: &DiffuseParticles,
+        push: impl Fn(Places) -> P,
+        act: impl Fn(vk::DeviceSize),
+    ) -> Result<(), Error> {
+        let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
+        for chunk in 0..self.count {
+            let first = chunk * self.size;
+            let bound = Window::all(r.gpu, &particles.positions, others, first);
+            // A stream that ends before the chunk has no particles in it: the count was clamped.
+            let Some((positions, [kinds, radii, ages, ids])) = bound else { break };
+            let streams = [
+                (0, r.uniforms),
+                (1, positions.resource),
+                (2, kinds.resource),
+                (3, radii.resource),
+                (4, ages.resource),
+                (5, ids.resource),
+            ];
+            r.descriptors.bind(r.gpu, r.cmd, pipeline, &[&streams[..], own].concat())?;
+            let places = Places {
+                position_word: positions.word,
+                position_stride: positions.stride,
+                kind_word: kinds.word,
+                kind_stride: kinds.stride,
+                radius_word: radii.word,
+                radius_stride: radii.stride,
+                age_word: ages.word,
+                age_stride: ages.stride,
+                id_word: ids.word,
+                id_stride: ids.stride,
+                chunk_first: first,
+                chunk,
+            };
+            pipeline.push(r.gpu, r.cmd, &push(places));
+            act(16 * u64::from(chunk));
+        }
+        Ok(())
+    }
+}
+
+/// The streams that there are, with the bytes of a value.
+fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)> {
+    let all = [
+        (Some(&particles.positions), 12),
+        (particles.kinds.as_ref(), 4),
+        (particles.radii.as_ref(), 4),
+        (particles.ages.as_ref(), 4),
+        (particles.ids.as_ref(), 4),
+    ];
+    all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
+}
+
+/// The host's buffers, each once: interleaved streams share one.
+pub fn buffers_of(particles: &DiffuseParticles) -> Vec<vk::Buffer> {
+    each_once(streams(particles), particles.count, None)
+}
