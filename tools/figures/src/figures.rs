@@ -13,7 +13,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 13] = [
+pub const ALL: [(&str, Figure); 15] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -23,7 +23,9 @@ pub const ALL: [(&str, Figure); 13] = [
     ("foam", foam),
     ("sheets", sheets),
     ("zoom", zoom),
-    ("flights", flights),
+    ("flight-waterfall", |tool, docs| flight(tool, docs, "waterfall")),
+    ("flight-corridor", |tool, docs| flight(tool, docs, "corridor")),
+    ("flight-bamboo", |tool, docs| flight(tool, docs, "bamboo")),
     ("seas", diffuse::seas),
     ("diffuse-layers", diffuse::layers),
     ("diffuse-look", diffuse::looks),
@@ -221,15 +223,12 @@ fn zoom(tool: &Tool, docs: &Path) -> Outcome<()> {
     curves::plot("Zoom, waterfall", "from 10 m to 1 m", &curves, &pictures(docs, "cost-zoom.svg"))
 }
 
-/// Figures 5.10 to 5.12: the scenes' own camera ways, every fifteenth frame.
-fn flights(tool: &Tool, docs: &Path) -> Outcome<()> {
-    for scene in ["waterfall", "corridor", "bamboo"] {
-        let folder = tool.scene(scene)?;
-        let more = ["--frames=15-240", "--every=15"].map(str::to_owned);
-        let frames = [&[sequence(&folder, scene)][..], &more].concat();
-        let curves = measure(tool, scene, &frames, &folder.join("camera.json"))?;
-        let to = pictures(docs, &format!("cost-{scene}.svg"));
-        curves::plot(&format!("Fly-through, {scene}"), "frame / 15", &curves, &to)?;
-    }
-    Ok(())
+/// Figures 5.10 to 5.12: a scene's own camera way, every fifteenth frame.
+fn flight(tool: &Tool, docs: &Path, scene: &str) -> Outcome<()> {
+    let folder = tool.scene(scene)?;
+    let more = ["--frames=15-240", "--every=15"].map(str::to_owned);
+    let frames = [&[sequence(&folder, scene)][..], &more].concat();
+    let curves = measure(tool, scene, &frames, &folder.join("camera.json"))?;
+    let to = pictures(docs, &format!("cost-{scene}.svg"));
+    curves::plot(&format!("Fly-through, {scene}"), "frame / 15", &curves, &to)
 }
