@@ -168,7 +168,9 @@
 //! Against Akinci et al. (2013), whose foam of diffuse particles it is:
 //!
 //! - Particles smaller than a pixel and a half are widened, and their light is kept exactly, wherever between the
-//!   pixels they lie, and face the eye: far foam does not sparkle.
+//!   pixels they lie: far foam does not sparkle. Their normal is not their spheres', of which a pixel's middle hits
+//!   a place by chance, but where the occlusion's samples find the space about them open: the sum of λ (ω − hidden) s
+//!   over all samples s of their spheres.
 //! - What is behind the water's surface lies in the water, at its mean depth, and loses light as all in it does; the
 //!   source's falloff is there as [`foam::Submerged::Falloff`].
 //! - A sample is hidden by how far its occluder stands before the sample itself; the print has the fragment's depth.

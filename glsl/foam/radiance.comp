@@ -2,11 +2,15 @@
 // Pass `radiance`: how much less light comes to the foam of a pixel for what stands round it, and what of the
 // environment's it gathers (Akinci et al. 2013, Sec. 2.4; pass 6). Occlusion in as many spheres as there are
 // passes, each wider, of points that all pixels share.
-// The sun's light and its shadows, which the source has not, are ours.
+// The sun's light and its shadows, which the source has not, are ours. So is the normal of what is smaller than a
+// pixel, whose middle hits a sphere where chance will have it: lit by that far foam is salt and pepper. It is where
+// the same samples find the space open, so that a plume is lit as the body that it is.
 // Reads: foam depth and intensity beside the depths of fluid and scene, foam normal, points, irradiance,
-// environment, what sunlight.glsl reads. Writes: foam radiance.
+// environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
 
 #include "frame.glsl"
+#include "falloff.glsl"
+#include "diffuse.glsl"
 #include "convolution.glsl"
 #include "intensity.glsl"
 #include "sunlight.glsl"
@@ -18,9 +22,12 @@ layout(constant_id = 0) const uint SAMPLED = 0;
 // 1: each pixel of a block has a sixteenth of all points, and `blur` puts them together. All of them whatever the
 // spheres' size, so that foam does not change with the distance: the first few points lie to one side.
 layout(constant_id = 1) const uint FAST = 0;
+// Of which as few as tell half a sphere to 0.02.
+const float FAST_SAMPLES = 320.0;
 
 layout(set = 0, binding = 1) uniform sampler2D occluders;
-layout(set = 0, binding = 2) uniform sampler2D normals;
+// With the search radius.
+layout(set = 0, binding = 2, rgba16f) uniform image2D normals;
 // Points of a unit sphere, and how much each counts.
 layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
 // Octahedral, with a border of a texel.
@@ -29,18 +36,23 @@ layout(set = 0, binding = 5) uniform samplerCube environment;
 // Light, shadow.
 layout(set = 0, binding = 6, rgba16f) uniform writeonly image2D radiance;
 
-// How much of a sample is hidden, over the most it may be: occluders that are too far before it don't count.
-float hidden(vec4 there, float depth, float reach) {
+// What a direction to the eye counts beside that to where it is open: haze has no side.
+const float TO_EYE = 0.02;
+
+// How much of a sample is hidden, over the most it may be: occluders that are too far before it don't count. And
+// however far they are.
+vec2 hidden(vec4 there, float depth, float reach) {
     vec3 opacity = vec3(there.y, frame.diffuse_opacity.xy);
     vec3 before = depth - there.xzw;
     vec3 near = max(1.0 - before / reach, 0.0);
-    return min(dot(mix(vec3(0.0), near * near * opacity, greaterThan(before, vec3(0.0))), vec3(1.0)), 1.0);
+    opacity = mix(vec3(0.0), opacity, greaterThan(before, vec3(0.0)));
+    return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
 }
 
 // Points of a sphere so many pixels wide: the first of them, and after the last.
 uvec2 samples_of(float pixels, ivec2 pixel) {
     if (FAST == 1u) {
-        uint count = max(uint(frame.diffuse_samples.y) / 16u, 1u);
+        uint count = max(uint(min(frame.diffuse_samples.y, FAST_SAMPLES)) / 16u, 1u);
         // Runs of the sequence, each of which fills the sphere; those of neighbours lie far from each other in it.
         uvec2 p = uvec2(pixel);
         uint x = p.x ^ p.y;
@@ -78,11 +90,14 @@ void main() {
         imageStore(radiance, pixel, vec4(0.0));
         return;
     }
-    vec4 with = texelFetch(normals, pixel, 0);
+    vec4 with = imageLoad(normals, pixel);
     vec3 position = vec3(ray_slope(vec2(pixel) + 0.5, frame.slope) * depth, -depth);
     float metres = depth / abs(frame.projection.y); // of half the picture's height
     uint passes = uint(frame.diffuse_search.z);
-    vec2 sum = vec2(0.0);
+    vec3 sum = vec3(0.0);
+    // Of what is hidden however far, and of all, the same times the points.
+    vec3 dark = vec3(0.0);
+    vec3 whole = vec3(0.0);
     uvec2 first = uvec2(0u, 1u);
     for (uint pass = 1u; pass <= passes; ++pass) {
         float search = with.w * (frame.diffuse_search.x + frame.diffuse_search.y * float(pass));
@@ -98,15 +113,25 @@ void main() {
                 && all(lessThan(at, frame.extent.xy));
             if (seen) {
                 vec4 there = texelFetch(occluders, ivec2(at), 0);
-                sum += point.w * vec2(hidden(there, -s.z, reach), 1.0);
+                vec2 parts = hidden(there, -s.z, reach);
+                sum += point.w * vec3(parts, 1.0);
+                dark += point.w * parts.y * point.xyz;
+                whole += point.w * point.xyz;
             }
         }
     }
+    vec2 parts = sum.z > 0.0 ? sum.xy / sum.z : vec2(0.0);
+    // What is hidden lies to one side: that much less than its part of all lies to the other.
+    vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
+    float told = told_of(0.5 * with.w * frame.extent.y);
+    vec3 normal = normalize(mix(mat3(frame.world) * normalize(open), with.xyz, told));
+    if (told < 1.0) {
+        imageStore(normals, pixel, vec4(normal, with.w));
+    }
     // The environment is without the sun. Foam is soft: it is lit beyond where it is turned away.
-    float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, with.xyz);
+    float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.diffuse_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
-    vec3 light = gathered(with.xyz, first) + sun;
-    float part = sum.y > 0.0 ? sum.x / sum.y : 0.0;
-    float shadow = pow(max(part * frame.diffuse_opacity.z, 1.0e-20), frame.diffuse_opacity.w) + frame.diffuse_shadow.w;
+    vec3 light = gathered(normal, first) + sun;
+    float shadow = pow(max(parts.x * frame.diffuse_opacity.z, 1.0e-20), frame.diffuse_opacity.w) + frame.diffuse_shadow.w;
     imageStore(radiance, pixel, vec4(light, clamp(shadow, 0.0, 1.0)));
 }

@@ -36,7 +36,7 @@ void splat(ivec2 pixel, Sprite s) {
     uint front = words[at + FRONT];
     if (FRONTMOST == 1u) {
         if (bits == front && front < words[at + SCENE]) {
-            atomicMin(words[at + WITH], with_of(p.radius, -p.centre.z, diffuse_normal(f, place, w)));
+            atomicMin(words[at + WITH], with_of(p.radius, -p.centre.z, vec3(place, w)));
         }
         return;
     }

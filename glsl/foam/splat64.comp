@@ -40,7 +40,7 @@ void splat(ivec2 pixel, Sprite s) {
     }
     // Most lose: a read is cheaper than an atomic.
     if (bits <= words[at + FRONT]) {
-        atomicMin(fronts[at / 2u], uint64_t(bits) << 32 | with_of(p.radius, -p.centre.z, diffuse_normal(f, place, w)));
+        atomicMin(fronts[at / 2u], uint64_t(bits) << 32 | with_of(p.radius, -p.centre.z, vec3(place, w)));
     }
     thicken(at, p, f, rr, depth);
 }

@@ -42,6 +42,11 @@ float diffuse_mean(uint kind) {
 // Least half-axis in pixels: over half a pixel's diagonal.
 const float LEAST_REACH = 0.75;
 
+// How much of a particle so many pixels wide is told by its shape.
+float told_of(float pixels) {
+    return smoothstep(1.0, 2.0, pixels);
+}
+
 struct Footprint {
     vec2 middle; // in pixels
     vec2 reach;  // half-axes in pixels
@@ -64,7 +69,7 @@ Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     f.middle = clamp(middle, vec2(-1.0e6), vec2(1.0e6));
     vec2 room = min(f.reach, vec2(1.0e6));
     f.box = ivec4(ceil(f.middle - room - 0.5), floor(f.middle + room - 0.5));
-    f.own = smoothstep(1.0, 2.0, min(f.reach.x, f.reach.y));
+    f.own = told_of(min(f.reach.x, f.reach.y));
     f.even = 0.0;
     if (f.own < 1.0) {
         float sum = 0.0;
@@ -84,12 +89,6 @@ Footprint footprint_of(Diffuse p) {
     float depth = -p.centre.z;
     vec2 middle = (p.centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     return footprint_at(middle, p.radius / (depth * frame.texel.xy), p.kind);
-}
-
-// Its normal where it is met, eye space, of any length. Of one smaller than a pixel the mean, which faces the eye: the place
-// that a pixel's middle hits is chance, and lit by it far foam is salt and pepper. Not in the source.
-vec3 diffuse_normal(Footprint f, vec2 place, float w) {
-    return mix(vec3(0.0, 0.0, 1.0), vec3(place, w), f.own);
 }
 
 // What a pixel gets of its thickness, at such a square of the distance.

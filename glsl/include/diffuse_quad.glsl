@@ -31,7 +31,7 @@ Met meet() {
     vec2 place;
     m.rr = diffuse_place(m.f, pixel, place);
     float w = sqrt(max(1.0 - m.rr, 0.0));
-    m.normal = diffuse_normal(m.f, place, w);
+    m.normal = vec3(place, w);
     m.depth = sprite.x - w * sprite.y;
     m.at = words_of(pixel);
     if (!(m.rr < 1.0) || !(floatBitsToUint(m.depth) < words[m.at + SCENE])) {

@@ -3,7 +3,7 @@
 //!
 //! The samples are the source's, points of a sphere of the Halton sequence, in spheres of growing radius: the same for
 //! every pixel in the reference mode, shared out among the pixels of a block in the fast one, whose blur puts them
-//! together.
+//! together. Where they find the space open is the normal of what is smaller than a pixel, which is not the source's.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -131,7 +131,7 @@ impl Radiance {
         let [image, half] = &self.images;
         let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
         let linear = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
-        let (occluders, normals) = (sampled(sprites.occluders()), sampled(sprites.normal()));
+        let occluders = sampled(sprites.occluders());
         let scope = r.begin(c"radiance");
         let both = COMPUTE_READ_WRITE;
         let before = AFTER.and(COPY_READ).discarded();
@@ -144,6 +144,7 @@ impl Radiance {
                 depth,
                 smoothed,
                 access::image(sprites.occluders(), AFTER, both),
+                access::image(sprites.normal(), AFTER, both),
                 access::image(image, before, COMPUTE_WRITE),
             ],
             &[],
@@ -163,7 +164,7 @@ impl Radiance {
         let resources = [
             (0, r.uniforms),
             (1, occluders),
-            (2, normals),
+            (2, Resource::storage(sprites.normal())),
             (3, Resource::buffer(&self.points)),
             (4, linear(&environment.irradiance)),
             (5, linear(&environment.cube)),
@@ -176,6 +177,7 @@ impl Radiance {
         ];
         r.descriptors.bind(gpu, cmd, &self.gather, &resources)?;
         r.dispatch_over(r.extent, self.gather.local_size);
+        gpu.barriers(cmd, &[access::image(sprites.normal(), both, AFTER)], &[]);
         r.end(scope);
 
         let scope = r.begin(c"blur");
@@ -188,7 +190,7 @@ impl Radiance {
             let resources = [
                 (0, r.uniforms),
                 (1, occluders),
-                (2, normals),
+                (2, sampled(sprites.normal())),
                 (3, sampled(from)),
                 (4, Resource::storage(to)),
             ];

@@ -60,8 +60,8 @@ pub enum Splat {
 pub enum Occlusion {
     /// As printed: as many points as the spheres hold pixels, the same in every pixel.
     Reference,
-    /// A sixteenth of the most points ([`DiffuseLook::samples`]) in each pixel of a block of sixteen, which the blur
-    /// puts together, in spheres of any size. Default.
+    /// A sixteenth of the most points ([`DiffuseLook::samples`]), of 320 at most, in each pixel of a block of sixteen,
+    /// which the blur puts together, in spheres of any size. Default.
     Fast,
 }
 

@@ -100,7 +100,11 @@ impl GenerateSettings {
     }
 
     /// Checks the ranges; the message names the field.
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    /// What each step checks: for a host that wants to know before.
+    ///
+    /// # Errors
+    /// What is not in the range that its field tells.
+    pub fn check(&self) -> Result<(), Error> {
         let most = 1.0e18;
         range("GenerateSettings.spacing", self.spacing, 1.0e-18, 1.0e18)?;
         for (field, limits) in [

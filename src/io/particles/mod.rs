@@ -46,7 +46,7 @@ pub use columns::{Attribute, AttributeType};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
 pub use spacing::{estimate_densities, estimate_spacing};
-pub use write::write;
+pub use write::{write, write_to};
 
 /// One frame of particles as read from a file.
 ///

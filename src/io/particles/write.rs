@@ -18,6 +18,7 @@ use super::{Particles, WriteFormat};
 /// what the system says.
 pub fn write(path: &Path, particles: &Particles, format: WriteFormat) -> Result<(), WriteError> {
     static COUNTER: AtomicU64 = AtomicU64::new(0);
+    // Before there is a file.
     check(particles, format)?;
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     let temporary = path.with_file_name(format!(
@@ -27,8 +28,38 @@ pub fn write(path: &Path, particles: &Particles, format: WriteFormat) -> Result<
     ));
     let guard = Temporary(temporary);
     let io = |reason| WriteError::Io { path: path.to_path_buf(), reason };
-    write_to(&guard.0, particles, format).map_err(io)?;
+    create(&guard.0, particles, format).map_err(io)?;
     std::fs::rename(&guard.0, path).map_err(io)
+}
+
+fn create(path: &Path, particles: &Particles, format: WriteFormat) -> io::Result<()> {
+    let mut file = BufWriter::new(std::fs::File::create(path)?);
+    write_to(&mut file, particles, format)?;
+    file.into_inner().map_err(io::IntoInnerError::into_error)?;
+    Ok(())
+}
+
+/// Writes the same to what the caller has opened.
+///
+/// # Errors
+/// Those of [`write()`]; particles that can't be written are [`io::ErrorKind::InvalidInput`], and nothing is.
+pub fn write_to(
+    out: &mut (impl Write + io::Seek),
+    particles: &Particles,
+    format: WriteFormat,
+) -> io::Result<()> {
+    check(particles, format).map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
+    match format {
+        WriteFormat::Bgeo { gzip: false } => bgeo(out, particles),
+        WriteFormat::Bgeo { gzip: true } => {
+            let mut packed = flate2::write::GzEncoder::new(out, flate2::Compression::fast());
+            bgeo(&mut packed, particles)?;
+            packed.finish().map(drop)
+        }
+        WriteFormat::Vtu => vtu(out, particles),
+        WriteFormat::Ply => ply(out, particles),
+        WriteFormat::Npz => npz(out, particles),
+    }
 }
 
 /// Takes the temporary file away where writing failed; after the renaming there is none.
@@ -130,23 +161,6 @@ fn attributes(p: &Particles) -> Vec<(&'static str, Values<'_>)> {
         list.push(("type", Values::Int(v)));
     }
     list
-}
-
-fn write_to(path: &Path, particles: &Particles, format: WriteFormat) -> io::Result<()> {
-    let mut file = BufWriter::new(std::fs::File::create(path)?);
-    match format {
-        WriteFormat::Bgeo { gzip: false } => bgeo(&mut file, particles)?,
-        WriteFormat::Bgeo { gzip: true } => {
-            let mut packed = flate2::write::GzEncoder::new(&mut file, flate2::Compression::fast());
-            bgeo(&mut packed, particles)?;
-            packed.finish()?;
-        }
-        WriteFormat::Vtu => vtu(&mut file, particles)?,
-        WriteFormat::Ply => ply(&mut file, particles)?,
-        WriteFormat::Npz => npz(&mut file, particles)?,
-    }
-    file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    Ok(())
 }
 
 fn bgeo(out: &mut impl Write, p: &Particles) -> io::Result<()> {

@@ -24,6 +24,8 @@ use crate::support::tolerance::Between;
 const SIZE: vk::Extent2D = vk::Extent2D { width: 93, height: 61 };
 /// A rounding to half precision: Vulkan leaves it whether to the nearest or towards zero.
 const HALF: f64 = 1.0 / 1024.0;
+/// A normal as it is kept: octahedral in two bytes, half a step of 1/127 both ways, stretched by 3 at most; halves.
+const TURNED: f64 = 3.0 * std::f64::consts::SQRT_2 * 0.5 / 127.0 + 2.0 * HALF;
 
 fn diffusing(size: vk::Extent2D) -> Config {
     let diffuse = DiffuseConfig { occlusion: Occluding::Reference, ..DiffuseConfig::new(4096) };
@@ -195,15 +197,15 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
             for x in 0..seen.width {
                 let Some(Seen { depth, h, normal }) = seen.at(x, y) else { continue };
                 let candidates = bounds.candidates.at(x, y);
-                // Octahedral in two bytes: half a step of 1/127 both ways, stretched by 3 at most; halves.
-                let turned = 3.0 * 2.0_f64.sqrt() * 0.5 / 127.0 + 2.0 * HALF;
+                // That of smaller ones is made of what stands round them.
+                let shaped = 0.5 * h * view.extent().y >= 2.0;
                 let fits = candidates.iter().any(|one| {
                     (one.depth.v - depth).abs() <= one.depth.e
                         && (one.h.v - h).abs() <= one.h.e + HALF * one.h.v
-                        && (one.normal.v - normal).length() <= one.normal.e + turned
+                        && (!shaped || (one.normal.v - normal).length() <= one.normal.e + TURNED)
                 });
                 assert!(fits, "{lens:?} ({x}, {y}): {depth} {h} {normal} of {candidates:?}");
-                told += usize::from(candidates.len() == 1);
+                told += usize::from(shaped && candidates.len() == 1);
             }
         }
         assert!(told > 300, "{lens:?}: {told} pixels can tell");
@@ -268,6 +270,7 @@ fn shadow_is_the_twins() {
             let zeta = omega.map(|o| [o.map_or(0.0, |o| by.zeta(end(&o))), 0.0, 0.0, 0.0]);
             diffuse::blur(&zeta, &front, &view, &by).map(|v| v[0])
         };
+        facings_are_the_twins(&cloud, &foam, &front, &omega);
         let pow = 4.0e-6;
         let bounds = Between {
             low: blurred(|o| o.low).map(|v| v * (1.0 - 3.0 * HALF) - pow),
@@ -275,6 +278,39 @@ fn shadow_is_the_twins() {
         };
         compare::between("diffuse-shadow", &channel(&foam.light, 3), &bounds);
     }
+}
+
+/// Normals of all sizes: a sphere's, and of small ones where the space about them is open.
+fn facings_are_the_twins(
+    cloud: &Diffuse,
+    foam: &Diffused,
+    front: &Image<Option<Seen>>,
+    omega: &Image<Option<diffuse::Omega>>,
+) {
+    let view = cloud.shot.view(SIZE);
+    let scene = cloud.shot.scene_at(SIZE, 0);
+    let fluid = doubles(&channel(&foam.occluders, 2));
+    let bounds = foam_bounds(&cloud.particles(), &view, &cloud.twin_settings(), &scene, &fluid);
+    // Those told by the space about them alone, in part, by their spheres alone.
+    let mut told = [0; 3];
+    for (x, y) in (0..front.height).flat_map(|y| (0..front.width).map(move |x| (x, y))) {
+        let (Some(seen), Some(omega)) = (front.at(x, y), omega.at(x, y)) else { continue };
+        let [one] = &bounds.candidates.at(x, y)[..] else { continue };
+        let kept = (one.normal.v, one.normal.e + TURNED);
+        let (facing, e) = omega.facing(&view, seen.h, kept);
+        // Halves.
+        let off = (seen.normal - facing).length();
+        assert!(
+            off <= e + 2.0 * HALF,
+            "({x}, {y}): {} is {off} from {facing}, of {e}",
+            seen.normal
+        );
+        let pixels = 0.5 * seen.h * view.extent().y;
+        if e < 0.2 {
+            told[usize::from(pixels > 1.0) + usize::from(pixels >= 2.0)] += 1;
+        }
+    }
+    assert!(told.iter().all(|count| *count > 100), "{told:?} can tell");
 }
 
 /// Foam of a size in pixels on an endless wall: half of each sphere lies behind that, whatever the foam's size and

@@ -269,11 +269,11 @@ fn foam_is_in_the_shade_of_foam() {
     let left = |rho: f64| 1.0 - intensity(rho, look.half.into(), look.exponent.into());
     let mut random = Random(9);
     let mut at = |middle: f32, by: f32| middle + random.between(-by, by);
-    let few: Vec<_> = (0..80).map(|_| [at(3.1, 0.4), at(0.5, 0.1), at(0.2, 0.4)]).collect();
+    let few: Vec<_> = (0..120).map(|_| [at(3.1, 0.4), at(0.5, 0.1), at(0.2, 0.4)]).collect();
     let alone = Cloud::of(cloud.case.clone(), few, 0.03);
     let both = [alone.positions.clone(), cloud.positions.clone()].concat();
     let mut both = Cloud::of(cloud.case.clone(), both, 0.15);
-    both.radii[..80].fill(0.03);
+    both.radii[..120].fill(0.03);
     let (open, low) = sun_on_foam(&gpu, &alone, &config);
     let (shaded, depth) = sun_on_foam(&gpu, &both, &config);
     let mut seen = 0;

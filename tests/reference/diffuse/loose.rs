@@ -107,12 +107,9 @@ impl LooseSprite {
         }
         let sure =
             self.sure && square.v + square.e < 1.0 && depth.v + depth.e < scene * (1.0 - 8.0 * U);
-        let [x, y] = [self.told * u, self.told * v];
-        let z = exact(1.0) - self.told + self.told * w;
-        // Between two unit vectors at a right angle at most: no shorter than the root of a half.
         let normal = Off {
-            v: (DVec2::new(x.v, y.v) * self.facing).extend(z.v).normalize(),
-            e: 2.0_f64.sqrt() * DVec3::new(x.e, y.e, z.e).length(),
+            v: (DVec2::new(u.v, v.v) * self.facing).extend(w.v),
+            e: DVec3::new(u.e, v.e, w.e).length(),
         };
         let even = (exact(1.0) - self.told) * self.even * q;
         let shape = self.told * self.shape(square.clamp(0.0, 1.0));

@@ -2,8 +2,8 @@
 //! radii, each looked up in the picture.
 
 use super::super::foam::ray_off;
-use super::super::{Image, View};
-use super::{Seen, has_fluid};
+use super::super::{Image, View, smoothstep};
+use super::{Seen, TOLD, has_fluid};
 use crate::support::rounded::Rounded;
 use crate::support::tolerance::U;
 use glam::{DVec2, DVec3};
@@ -76,6 +76,26 @@ pub struct Omega {
     pub low: f64,
     /// At most.
     pub high: f64,
+    /// Where it is open, in eye space, of any length, and the length of the error.
+    pub open: (DVec3, f64),
+}
+
+/// What a direction to the eye counts beside that to where it is open.
+const TO_EYE: f64 = 0.02;
+
+impl Omega {
+    /// The normal that foam is lit by, in the world: that of its sphere, and the smaller that is, the more the one
+    /// to where the space about it is open. And the length of the error.
+    pub fn facing(&self, view: &View, h: f64, normal: (DVec3, f64)) -> (DVec3, f64) {
+        let told = smoothstep(TOLD.0, TOLD.1, 0.5 * h * view.extent().y);
+        let (open, open_e) = self.open;
+        let length = open.length();
+        let world = view.view.inverse().transform_vector3(open / length);
+        let sum = world.lerp(normal.0, told);
+        // Two vectors that are so much apart are no more than twice that over the length apart as unit vectors.
+        let e = (1.0 - told) * (2.0 * open_e / length).min(2.0) + told * normal.1 + 64.0 * U;
+        (sum.normalize(), (2.0 * e / sum.length()).min(2.0))
+    }
 }
 
 /// By the definition, at least, at most.
@@ -120,14 +140,21 @@ impl Occlusion {
         (1.0 - behind / reach).max(0.0).powi(2)
     }
 
-    /// How much of a sample at a depth, give or take, is hidden by what is seen in a pixel.
-    fn hidden(&self, layers: &Layers<'_>, at: (usize, usize), d: (f64, f64), radius: f64) -> Ends {
+    /// How much of a sample at a depth, give or take, is hidden by what is seen in a pixel, and how much however far
+    /// that is.
+    fn hidden(
+        &self,
+        layers: &Layers<'_>,
+        at: (usize, usize),
+        d: (f64, f64),
+        radius: f64,
+    ) -> [Ends; 2] {
         let (x, y) = at;
         let foam = layers.front.at(x, y).map(|seen| (seen.depth, layers.opacity.at(x, y)));
         let [fluid, solid] = [layers.fluid, layers.solid].map(|image| image.at(x, y));
         let [fluid_opacity, solid_opacity] = self.opacities;
         let fluid = has_fluid(fluid).then_some((fluid, fluid_opacity));
-        let mut sums = [0.0; 3];
+        let (mut sums, mut blocked) = ([0.0; 3], [0.0; 3]);
         for (depth, opacity) in [foam, fluid, Some((solid, solid_opacity))].into_iter().flatten() {
             // Depths are made of the projection, 8u. The radius 16u, the quotient, the difference,
             // the square: less than 48u of no more than 1.
@@ -138,15 +165,19 @@ impl Occlusion {
             sums[0] += if behind > 0.0 { part(behind) } else { 0.0 };
             sums[1] += if near > 0.0 { (part(far) - own).max(0.0) } else { 0.0 };
             sums[2] += if far > 0.0 { part(near.max(0.0)) + own } else { 0.0 };
+            let e = 2.0 * U * opacity;
+            blocked[0] += if behind > 0.0 { opacity } else { 0.0 };
+            blocked[1] += if near > 0.0 { opacity - e } else { 0.0 };
+            blocked[2] += if far > 0.0 { opacity + e } else { 0.0 };
         }
-        sums.map(|sum| sum.min(1.0))
+        [sums, blocked].map(|sums| sums.map(|sum| sum.min(1.0)))
     }
 
-    /// What a sample adds to both sums.
-    fn sample(&self, layers: &Layers<'_>, view: &View, s: &Sample) -> [Ends; 2] {
+    /// What a sample adds to the three sums: what is hidden of it, what is however far, and all.
+    fn sample(&self, layers: &Layers<'_>, view: &View, s: &Sample) -> [Ends; 3] {
         let (near, d) = (view.near(), -s.at.z);
         if d + s.e <= near * (1.0 - 8.0 * U) {
-            return [[0.0; 3]; 2];
+            return [[0.0; 3]; 3];
         }
         let sure = d - s.e > near * (1.0 + 8.0 * U);
         let place = view.project(s.at);
@@ -160,30 +191,34 @@ impl Occlusion {
         let own = U * (32.0 * (1.0 - length) + 8.0 * lambda);
         let lambdas = [lambda, (lambda - own).max(0.0), lambda + own];
 
-        let mut hidden = [0.0, f64::INFINITY, 0.0];
+        let mut hidden = [[0.0, f64::INFINITY, 0.0]; 2];
         let mut counted = [0.0, if sure { lambdas[1] } else { 0.0 }, 0.0];
         let (low, high) = ((place - e).floor(), (place + e).floor());
         for y in low.y as i64..=high.y as i64 {
             for x in low.x as i64..=high.x as i64 {
                 let Some(at) = inside(DVec2::new(x as f64, y as f64)) else {
-                    hidden[1] = 0.0;
+                    hidden.iter_mut().for_each(|hidden| hidden[1] = 0.0);
                     counted[1] = 0.0;
                     continue;
                 };
                 let found = self.hidden(layers, at, (d, s.e), s.radius);
-                hidden[1] = hidden[1].min(found[1] * lambdas[1]);
-                hidden[2] = hidden[2].max(found[2] * lambdas[2]);
+                for (hidden, found) in hidden.iter_mut().zip(found) {
+                    hidden[1] = hidden[1].min(found[1] * lambdas[1]);
+                    hidden[2] = hidden[2].max(found[2] * lambdas[2]);
+                }
                 counted[2] = lambdas[2];
             }
         }
         if let Some(at) = inside(place).filter(|_| d > near) {
-            hidden[0] = lambda * self.hidden(layers, at, (d, 0.0), s.radius)[0];
+            let found = self.hidden(layers, at, (d, 0.0), s.radius);
+            hidden.iter_mut().zip(found).for_each(|(hidden, found)| hidden[0] = lambda * found[0]);
             counted[0] = lambda;
         }
         if !sure {
-            hidden[1] = 0.0;
+            hidden.iter_mut().for_each(|hidden| hidden[1] = 0.0);
         }
-        [hidden, counted]
+        let [hidden, blocked] = hidden;
+        [hidden, blocked, counted]
     }
 
     /// How much is hidden about the nearest foam of a pixel, if there is any. `points`: at least as
@@ -199,7 +234,9 @@ impl Occlusion {
         let focal = view.focal().y.abs();
         let ray = ray_off(view, x, y);
         let (at, at_e) = (ray.v * seen.depth, (ray.e + U * ray.v.length()) * seen.depth);
-        let (mut hidden, mut counted, mut terms) = ([0.0; 3], [0.0; 3], 0.0);
+        let ([mut hidden, mut blocked, mut counted], mut terms) = ([[0.0; 3]; 3], 0.0);
+        // The last two times the points, and the lengths of their errors.
+        let (mut dark, mut whole) = ((DVec3::ZERO, 0.0), (DVec3::ZERO, 0.0));
         for pass in 1..=self.passes {
             let h = self.search(seen.h, pass);
             let h_px = 0.5 * h * view.extent().y;
@@ -211,27 +248,45 @@ impl Occlusion {
                 let moved = radius * *unit;
                 let e = at_e + U * (19.0 * moved.length() + at.length());
                 let sample = Sample { unit: *unit, radius, at: at + moved, e };
-                let [h, c] = self.sample(layers, view, &sample);
                 let here = [i < count, i < ends[0], true];
-                for j in (0..3).filter(|j| here[*j]) {
-                    hidden[j] += h[j];
-                    counted[j] += c[j];
+                let all = self.sample(layers, view, &sample);
+                let [h, b, c] =
+                    all.map(|ends| [0, 1, 2].map(|j| if here[j] { ends[j] } else { 0.0 }));
+                for (sums, ends) in [(&mut hidden, h), (&mut blocked, b), (&mut counted, c)] {
+                    sums.iter_mut().zip(ends).for_each(|(sum, end)| *sum += end);
                 }
+                let add = |sum: &mut (DVec3, f64), ends: Ends| {
+                    sum.0 += ends[0] * *unit;
+                    sum.1 += (ends[2] - ends[0]).max(ends[0] - ends[1]) * unit.length();
+                };
+                add(&mut dark, b);
+                add(&mut whole, c);
                 terms += 1.0;
             }
         }
         // Two sums of so many and a quotient.
         let rounding = (2.0 * terms + 5.0) * U;
         let over = |a: f64, b: f64| if b > 0.0 { a / b } else { 0.0 };
-        Some(Omega {
-            value: over(hidden[0], counted[0]),
-            low: over(hidden[1], counted[2]) * (1.0 - rounding),
-            high: match counted[1] > 0.0 {
-                true => (hidden[2] / counted[1] * (1.0 + rounding)).min(1.0 + rounding),
+        let share = |sums: Ends| -> Ends {
+            let high = match counted[1] > 0.0 {
+                true => (sums[2] / counted[1] * (1.0 + rounding)).min(1.0 + rounding),
                 false if counted[2] > 0.0 => 1.0,
                 false => 0.0,
-            },
-        })
+            };
+            [over(sums[0], counted[0]), over(sums[1], counted[2]) * (1.0 - rounding), high]
+        };
+        let off = |[value, low, high]: Ends| (high - value).max(value - low);
+        let [value, low, high] = share(hidden);
+        // What is hidden lies to one side: that much less than its part of what is counted lies to the other.
+        let part = share(blocked);
+        let open = part[0] * whole.0 - dark.0 + (TO_EYE * counted[0]).max(1e-6) * DVec3::Z;
+        let e = part[0] * whole.1
+            + off(part) * (whole.0.length() + whole.1)
+            + dark.1
+            + TO_EYE * off(counted);
+        // Each of the sums is of no more than so much.
+        let e = e + rounding * (blocked[0] + part[0] * counted[0]);
+        Some(Omega { value, low, high, open: (open, e) })
     }
 }
 

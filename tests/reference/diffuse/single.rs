@@ -88,7 +88,7 @@ fn single(
             let nearest: &mut Nearest = front.at_mut(x, y);
             if nearest.is_none_or(|(_, there, _, _)| depth < there) {
                 let uv = (Vec2::new(x as f32 + 0.5, y as f32 + 0.5) - at) / half;
-                let normal = Vec3::Z.lerp((uv * focal.signum()).extend(w), told).normalize();
+                let normal = (uv * focal.signum()).extend(w);
                 let normal = to_eye.inverse().transform_vector3(normal);
                 *nearest = Some((index, depth, r * focal.y.abs() / d, normal));
             }

@@ -34,7 +34,7 @@ pub(super) struct Sprite {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fragment {
     pub(super) depth: f64,
-    /// (u, v, w), the sphere's normal in eye space; of one that is not told by its shape it faces the eye.
+    /// (u, v, w), the sphere's normal in eye space.
     pub(super) normal: DVec3,
     /// What it adds to the thickness.
     pub(super) amount: f64,
@@ -79,7 +79,7 @@ impl Sprite {
             let shape = self.told * self.kind.shape(square.sqrt());
             Fragment {
                 depth: self.depth - w * self.radius,
-                normal: DVec3::Z.lerp((q * self.facing).extend(w), self.told).normalize(),
+                normal: (q * self.facing).extend(w),
                 amount: self.lifetime * (even + shape),
             }
         })

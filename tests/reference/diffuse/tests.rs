@@ -283,6 +283,44 @@ fn a_flat_sheet_hides_half() {
     near(Occlusion::default().zeta(0.1), 0.0, 0.0);
 }
 
+/// The normal of foam that is a tilted sheet, and of the sheet, in the world; the foam's spheres point elsewhere.
+fn facing(slope: DVec2, opacity: f64, h: f64) -> (DVec3, DVec3) {
+    let view = View { view: DMat4::from_rotation_x(0.4), ..square(129) };
+    // At depth 5 in the middle of the picture: n . p is the same everywhere.
+    let depth = |x: usize, y: usize| 5.0 / (1.0 - slope.dot(view.ray(x, y).truncate()));
+    let front =
+        Image::from_fn(129, 129, |x, y| Some(Seen { depth: depth(x, y), h, normal: DVec3::X }));
+    let (opacity, none) = (front.map(|_| opacity), front.map(|_| EMPTY));
+    let layers = Layers { front: &front, opacity: &opacity, fluid: &none, solid: &none };
+    let settings = Occlusion { counts: [20_000.0; 2], ..Occlusion::default() };
+    let omega = settings.omega(&layers, &view, &points(20_001), (64, 64)).expect("foam");
+    let (facing, _) = omega.facing(&view, h, (DVec3::X, 0.0));
+    let eye = slope.extend(1.0).normalize();
+    (facing, view.view.inverse().transform_vector3(eye))
+}
+
+#[test]
+fn small_foam_faces_where_it_is_open() {
+    // Spheres of half a pixel, whose samples reach over four to eleven.
+    let h = 0.5 / 64.5;
+    for slope in [DVec2::ZERO, DVec2::new(0.8, 0.0), DVec2::new(-0.3, 0.6)] {
+        let (facing, sheet) = facing(slope, 1.0, h);
+        // Of the points of one side the mean by their weights is n/8 from that of all, and the eye's 0.02:
+        // int r^3 (1-r)^2 dr = 1/60, over 1/30 that is 1/2, times the mean cosine of a half, 1/2, times 1/2.
+        let eye = DMat4::from_rotation_x(-0.4).transform_vector3(DVec3::Z);
+        let expected = (sheet / 8.0 + 0.02 * eye).normalize();
+        let angle = facing.angle_between(expected);
+        assert!(angle < 0.02, "{slope}: {facing} of {expected}, {angle} apart");
+    }
+    // Haze has no side.
+    let (facing_haze, sheet) = facing(DVec2::new(0.8, 0.0), 0.01, h);
+    let eye = DMat4::from_rotation_x(-0.4).transform_vector3(DVec3::Z);
+    assert!(facing_haze.angle_between(eye) < 0.2 * sheet.angle_between(eye), "{facing_haze}");
+    // What is told by its shape is its sphere.
+    let (large, _) = facing(DVec2::new(0.8, 0.0), 1.0, 2.0 / 64.5);
+    near((large - DVec3::X).length(), 0.0, 1e-12);
+}
+
 #[test]
 fn samples_go_by_the_pixels() {
     let settings = Occlusion::default();

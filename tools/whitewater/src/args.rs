@@ -80,7 +80,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
     /// Frames a second of the sequence, by which foam comes and goes and the motion layer is made
-    /// [default: found from positions and velocities]
+    /// [default: found from positions and velocities; without velocities, which are found by it, 30]
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
     /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the

@@ -26,6 +26,8 @@ const LEAST: f32 = 0.1;
 const FLOORS: [f32; 3] = [15.0, 4.0, 4.0];
 /// Particles a second of one at most: more are a cloud round it.
 const MOST_RATE: f64 = 4000.0;
+/// Of a table that does not say, or not yet.
+const ANY: Limits = Limits { least: 0.0, most: 1.0 };
 /// How far beyond the water spray may fly, of its width.
 const ASIDE: f32 = 0.1;
 
@@ -42,13 +44,17 @@ pub struct Generate {
 
 impl Generate {
     /// `bounds`: of the water, as far as it is looked at. `seconds`: of the sequence, in which they are made.
+    /// Fails where the table can't be meant so.
     pub fn new(
         table: GenerateTable,
         spacing: f32,
         bounds: &Bounds,
         seconds: f32,
         probes: Vec<Particles>,
-    ) -> Self {
+    ) -> Outcome<Self> {
+        let mut settings = GenerateSettings::new(spacing, [ANY; 3], 0.0);
+        table.apply(&mut settings);
+        settings.check()?;
         // Nothing else keeps spray in: as far as the water itself ever comes, and a little farther; up as it may.
         let size = bounds.max - bounds.min;
         let aside = Vec3::new(ASIDE * size.x, 0.0, ASIDE * size.z) + spacing;
@@ -56,7 +62,7 @@ impl Generate {
         let bounds = [bounds.min - aside, bounds.max + aside + up].map(|corner| corner.to_array());
         let moving = |frame: &Particles| frame.velocities.is_some();
         let probes = probes.into_iter().filter(moving).collect();
-        Self { table, spacing, bounds, seconds, probes, found: None }
+        Ok(Self { table, spacing, bounds, seconds, probes, found: None })
     }
 
     /// Most diffuse particles at a time.
@@ -97,8 +103,7 @@ impl Generate {
     }
 
     fn find(&self, headless: &mut Headless) -> Outcome<GenerateSettings> {
-        let any = Limits { least: 0.0, most: 1.0 };
-        let mut settings = GenerateSettings::new(self.spacing, [any; 3], 0.0);
+        let mut settings = GenerateSettings::new(self.spacing, [ANY; 3], 0.0);
         settings.bounds = Some(self.bounds);
         self.table.apply(&mut settings);
         let mut potentials: Vec<[f32; 4]> = Vec::new();

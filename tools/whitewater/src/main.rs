@@ -17,6 +17,7 @@ mod layers;
 mod out;
 mod output;
 mod progress;
+mod reader;
 mod render;
 mod session;
 mod settings;

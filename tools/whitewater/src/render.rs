@@ -7,7 +7,7 @@ use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 use whitewater::water::FoamLook;
 
-use crate::args::{Foaming, RenderArgs, SprayArg, Up, Whitewater};
+use crate::args::{Foaming, RenderArgs, SprayArg, Whitewater};
 use crate::bounds::{self, Bounds};
 use crate::camera::CameraFile;
 use crate::diffuse;
@@ -15,9 +15,9 @@ use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::foam;
 use crate::generate::Generate;
-use crate::layers;
 use crate::output;
 use crate::progress::Progress;
+use crate::reader::{DEFAULT_FPS, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
 use crate::stage;
@@ -72,11 +72,20 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         return Ok(());
     }
     let steps = progress.steps();
-    let mut probes = steps.during("reading", || Probes::read(args, &all, &left))?;
-    let settings = settings.unwrap_or_default();
     let sequence = Sequence { is: all.len() > 1, motion: session::has_motion(&checked) };
-    let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let made = args.whitewater == [Whitewater::Generate];
+    let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
+    let moving = made || foams || sequence.motion;
+    let fps = moving.then(|| args.fps.unwrap_or(DEFAULT_FPS));
+    let mut reader = Reader::new(&all, args.up_axis, fps);
+    let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
+    if reader.found_velocities {
+        progress.say(
+            "velocities are not in the files: found by where particles are from frame to frame",
+        );
+    }
+    let settings = settings.unwrap_or_default();
+    let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
     let files = diffuse::Files::find(files, args.up_axis, single)?;
     if let Some(line) = files.as_ref().and_then(|f| f.missing(all.iter().map(|f| f.number))) {
@@ -92,7 +101,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     session.up = args.up_axis;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     for frame in &left {
-        match draw(args, &mut session, &all, frame, &progress) {
+        match draw(&mut reader, &mut session, &all, frame, &progress) {
             Ok(line) => progress.advance(&line),
             Err(failure) if failure.kind == Kind::Input => {
                 progress.advance(&format!("frame {}: {}", frame.number, failure.message));
@@ -111,9 +120,14 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     report(left.len(), failed)
 }
 
+/// Where nothing is said: diffuse particles take the place of the water's own foam.
+fn foaming(args: &RenderArgs) -> Foaming {
+    if args.whitewater.is_empty() { Foaming::Auto } else { Foaming::None }
+}
+
 /// One frame from file to file.
 fn draw(
-    args: &RenderArgs,
+    reader: &mut Reader<'_>,
     session: &mut Session<'_>,
     all: &[Frame],
     frame: &Frame,
@@ -121,12 +135,12 @@ fn draw(
 ) -> Outcome<String> {
     let began = std::time::Instant::now();
     let number = frame.number;
-    let particles = session.times.step("read", number, || read(args, frame))?;
+    let particles = session.times.step("read", number, || reader.read(frame))?;
     for warning in &particles.warnings {
         progress.say(&format!("{}: {warning}", frame.path.display()));
     }
     if session.remembers() {
-        remember(args, session, all, frame, particles.positions.len())?;
+        remember(reader, session, all, frame, particles.positions.len())?;
     }
     let before = all.iter().map(|f| f.number).filter(|n| *n < number).max();
     session.frame(number, before, &frame.path.display().to_string(), &particles)?;
@@ -143,7 +157,7 @@ fn draw(
 /// Lets foam come and go by the frames before one, from the first of the sequence on: how it is cut into
 /// jobs does not show. Those that can't be read are left out.
 fn remember(
-    args: &RenderArgs,
+    reader: &mut Reader<'_>,
     session: &mut Session<'_>,
     all: &[Frame],
     frame: &Frame,
@@ -155,7 +169,7 @@ fn remember(
             f.number < frame.number && session.passed().is_none_or(|last| f.number > last)
         };
         let Some(next) = all.iter().find(next) else { return Ok(()) };
-        match read(args, next) {
+        match reader.read(next) {
             // With more room foam begins anew.
             Ok(particles) if particles.positions.len() > session.room() => {
                 room = particles.positions.len();
@@ -164,23 +178,6 @@ fn remember(
             Err(_) => session.skip(next.number),
         }
     }
-}
-
-fn read(args: &RenderArgs, frame: &Frame) -> Outcome<Particles> {
-    let mut particles = particles::read(&frame.path)?;
-    if args.up_axis == Up::Z {
-        let Particles { positions, velocities, .. } = &mut particles;
-        layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
-    }
-    let far = bounds::count_far(&particles.positions);
-    if far > 0 {
-        particles.warnings.push(format!(
-            "{far} of {} positions are absurdly far from the rest, or from the origin; camera, ground \
-             and light are found without them",
-            particles.positions.len()
-        ));
-    }
-    Ok(particles)
 }
 
 /// The end of a run in which all frames had their turn.
@@ -216,14 +213,14 @@ struct Probes {
 }
 
 impl Probes {
-    fn read(args: &RenderArgs, all: &[Frame], left: &[Frame]) -> Outcome<Self> {
+    fn read(reader: &mut Reader<'_>, all: &[Frame], left: &[Frame]) -> Outcome<Self> {
         let mut picks: Vec<usize> =
             (0..PROBES).map(|i| i * (all.len() - 1) / (PROBES - 1)).collect();
         picks.dedup();
         let (mut frames, mut numbers) = (Vec::new(), Vec::new());
         let mut first_failure = None;
         for pick in picks {
-            match read(args, &all[pick]) {
+            match reader.read(&all[pick]) {
                 Ok(particles) => {
                     frames.push(particles);
                     numbers.push(all[pick].number);
@@ -233,7 +230,7 @@ impl Probes {
         }
         // All of them are bad: whichever can be read, or the reason why none can.
         if frames.is_empty() {
-            let readable = left.iter().find_map(|frame| read(args, frame).ok());
+            let readable = left.iter().find_map(|frame| reader.read(frame).ok());
             match (readable, first_failure) {
                 (Some(particles), _) => {
                     frames.push(particles);
@@ -245,7 +242,8 @@ impl Probes {
         }
         let middle = (all.len() - 1) / 2;
         let fps = match &all[middle..] {
-            [a, b, ..] => match [read(args, a), read(args, b)] {
+            // Of velocities that are found by it the rate is what they say.
+            [a, b, ..] if !reader.found_velocities => match [reader.read(a), reader.read(b)] {
                 [Ok(first), Ok(second)] => foam::seconds(&first, &second)
                     .map(|seconds| (b.number - a.number) as f32 / seconds),
                 _ => None,
@@ -280,9 +278,6 @@ impl Probes {
 /// Of spray, where densities are guessed: walls, which are in no file, are missing from the sums, so that
 /// a layer on a floor reads low.
 const GUESSED_DENSITIES: [f32; 3] = [0.42, 0.5, 0.6];
-
-/// Where they can't be found.
-const DEFAULT_FPS: f32 = 30.0;
 
 /// What time is needed for.
 #[derive(Clone, Copy)]
@@ -386,7 +381,7 @@ fn look(
     let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
-    let foam = args.draw.foam.unwrap_or(if diffused { Foaming::None } else { Foaming::Auto });
+    let foam = args.draw.foam.unwrap_or(foaming(args));
     let foam = foam::settings(foam, &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {
         progress.say(&format!(
@@ -397,7 +392,8 @@ fn look(
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
     let made = args.whitewater == [Whitewater::Generate];
     if made && !probes.frames.iter().any(|frame| frame.velocities.is_some()) {
-        let why = "--whitewater generate: expected velocities in the files, found none";
+        let why = "--whitewater generate: expected velocities in the files, or a sequence whose particles have ids or \
+             keep their order, found neither";
         return Err(Failure::input(why));
     }
     if made && file.generate.max_particles == Some(0) {
@@ -417,12 +413,16 @@ fn look(
     let shadows = file.shadows().map_err(Failure::input)?;
     let rate = fps.filter(|_| vectors);
     let fps = fps.filter(|_| remembers);
-    let diffuse = made.then(|| {
-        let probes = std::mem::take(&mut probes.frames);
-        let seconds = seconds.last().copied().unwrap_or(0.0);
-        let generate = Generate::new(file.generate.clone(), spacing, &bounds, seconds, probes);
-        diffuse::Diffusing::Made(Box::new(generate))
-    });
+    let diffuse = match made {
+        true => {
+            let probes = std::mem::take(&mut probes.frames);
+            let seconds = seconds.last().copied().unwrap_or(0.0);
+            let table = file.generate.clone();
+            let generate = Generate::new(table, spacing, &bounds, seconds, probes)?;
+            Some(diffuse::Diffusing::Made(Box::new(generate)))
+        }
+        false => None,
+    };
     Ok(Look {
         camera,
         settings,

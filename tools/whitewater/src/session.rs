@@ -502,10 +502,9 @@ impl<'a> Session<'a> {
             ),
             ..Particles::from_positions(made.positions)
         };
-        let path = keep.path(number);
-        times
-            .step("write", number, || particles::write(&path, &particles, keep.format))
-            .map_err(|error| Failure::new(Kind::Output, format!("{}: {error}", path.display())))
+        times.step("write", number, || {
+            output::write(&keep.path(number), |to| particles::write_to(to, &particles, keep.format))
+        })
     }
 
     fn write(&self, format: PictureFormat, path: &std::path::Path, layers: &Layers) -> Outcome<()> {

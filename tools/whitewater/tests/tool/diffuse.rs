@@ -134,6 +134,52 @@ fn diffuse_particles_are_made_of_the_water() {
     assert!(amount("d.exr") > 0.0);
 }
 
+/// The same water without its velocities, with its ids or in its order: they are found, and what is made of it is
+/// much the same.
+#[test]
+fn velocities_are_found_from_frame_to_frame() {
+    let folder = Folder::new();
+    torn(&folder, 3);
+    for frame in 1..=3 {
+        let text = std::fs::read_to_string(folder.path(&format!("torn_{frame}.csv"))).unwrap();
+        let columns = |which: &'static [usize]| {
+            let row = move |line: &str| {
+                let all: Vec<_> = line.split(',').collect();
+                which.iter().map(|i| all[*i]).collect::<Vec<_>>().join(",") + "\n"
+            };
+            text.lines().map(row).collect::<String>()
+        };
+        folder.text(&format!("id_{frame}.csv"), &columns(&[0, 1, 2, 6]));
+        folder.text(&format!("order_{frame}.csv"), &columns(&[0, 1, 2]));
+    }
+    // A speed up that is not in the positions counts little.
+    let limits = "trapped_air = [1.0, 10.0]\nwave_crest = [1.0, 4.0]\nenergy = [1.0, 8.0]";
+    folder.text(
+        "look.toml",
+        &format!("[diffuse]\nradius = 0.1\n[generate]\n{limits}\nrates = [500.0, 500.0]\n"),
+    );
+    let amount = |name: &str| {
+        let look = format!("{SMALL} {FRONT} --settings look.toml --fps 30 --whitewater generate");
+        let run =
+            folder.run(&format!("render {name}_%d.csv {look} --frames 3 -o {name}_%d.exr")).ok();
+        let told = run.stderr().contains("velocities are not in the files");
+        assert_eq!(told, name != "torn", "{}", run.stderr());
+        folder
+            .picture(&format!("{name}_3.exr"))
+            .channel("foam.thickness")
+            .unwrap()
+            .iter()
+            .sum::<f32>()
+    };
+    let [own, by_id, by_order] = ["torn", "id", "order"].map(amount);
+    assert!(own > 0.0 && (by_id / own - 1.0).abs() < 0.5, "{own} {by_id}");
+    assert!((by_order / by_id - 1.0).abs() < 0.1, "{by_id} {by_order}");
+    // One that is alone has none.
+    folder
+        .run(&format!("render id_1.csv {SMALL} --whitewater generate -o alone.png"))
+        .fails(3, &["velocities", "ids"]);
+}
+
 #[test]
 fn mistakes_in_making_diffuse_particles_are_named() {
     let folder = Folder::new();
