@@ -5,7 +5,8 @@
 // counted in a second one, as exact. Any number of particles may lie on one spot.
 // A second time for the front of two sheets and the window between them: for few spheres, those that
 // do not lie well behind every boundary near.
-// Reads: Counts, visible, scene depth, boundaries, blocks. Writes: sums (UNITS of the amplitude).
+// Reads: Counts, visible, scene depth, with foam that and the frontmost foam's from its words, boundaries, blocks.
+// Writes: sums (UNITS of the amplitude).
 
 #include "frame.glsl"
 #include "sphere.glsl"
@@ -29,6 +30,11 @@ layout(set = 0, binding = 4, std430) buffer Sums { uint sums[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
+
+// With foam: of each texel what the compute path of `foam` has, first bits of the depths of the frontmost foam, or
+// of the scene where there is none before it, and of the scene. Read sooner than texels of two images.
+layout(constant_id = 10) const uint FOAM_WORDS = 5;
+layout(set = 0, binding = 8, std430) readonly buffer FoamWords { uint foam_words[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
@@ -75,15 +81,24 @@ void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
     if (rho2 > 1.0) {
         return;
     }
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(texel) + 0.5) * frame.thick_extent.z), 0).x);
+    uint at = uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x);
+    float scene;
+    float foam = EMPTY;
+    if (FOAM == 1u) {
+        scene = uintBitsToFloat(foam_words[FOAM_WORDS * at + 1u]);
+        if (APART == 0u) {
+            float front = uintBitsToFloat(foam_words[FOAM_WORDS * at]);
+            foam = front < scene ? front : EMPTY;
+        }
+    } else {
+        scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(texel) + 0.5) * frame.thick_extent.z), 0).x);
+    }
     if (scene > 0.0 && -sphere.z >= scene) {
         return;
     }
     float amount = thickness_kernel(rho2) * scale;
-    uint at = uint(texel.y) * uint(frame.thick_extent.x) + uint(texel.x);
     uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     if (APART == 0u) {
-        float foam = FOAM == 1u ? foam_at(texel) : EMPTY;
         add(at, amount, at + texels, foam < EMPTY ? amount * share_before(-sphere.z, foam) : 0.0);
         return;
     }

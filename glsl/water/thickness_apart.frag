@@ -7,6 +7,7 @@
 #include "frame.glsl"
 #include "kernel.glsl"
 #include "foam_share.glsl"
+#include "foam_front.glsl"
 #include "sheets.glsl"
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;

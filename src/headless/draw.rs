@@ -100,6 +100,9 @@ impl Headless {
         }
         self.renderer.collect(Slot(0));
         self.gpu.bury();
+        if result.is_err() {
+            self.forget_scene();
+        }
         result
     }
 

@@ -18,6 +18,7 @@ impl Headless {
     /// What Vulkan reports.
     pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
         let source = EnvironmentSource::Sky(*sky);
+        self.forget_scene();
         self.run(|this, cmd| {
             // SAFETY: cmd is recording; the slot's earlier work is done (every run waits).
             unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
@@ -35,6 +36,7 @@ impl Headless {
         scale: f32,
         turn: f32,
     ) -> Result<(), Error> {
+        self.forget_scene();
         let most = self.gpu.limits.max_image_dimension2_d;
         if extent.width > most || extent.height > most {
             let found = format!("{}x{}", extent.width, extent.height);

@@ -6,15 +6,47 @@ use ash::vk;
 
 use super::scene::bake::Baked;
 use super::scene::{Scene, SceneFrame, SceneRenderer};
-use super::{COLOR_FORMAT, DEPTH_FORMAT, Headless};
-use crate::contract::{Camera, Slot};
+use super::{COLOR_FORMAT, COLOR_REST, DEPTH_FORMAT, DEPTH_REST, Headless, transfer};
+use crate::contract::{Access, Camera, Slot};
 use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access;
 use crate::gpu::descriptors::Descriptors;
+use crate::gpu::image::{Image, ImageDesc};
 
 /// The stand-in scene with the sets of its frame.
 pub(super) struct Stage {
     pub renderer: SceneRenderer,
     descriptors: Descriptors,
+    /// Its last picture, for a camera that rests.
+    kept: Option<Kept>,
+}
+
+/// Colour and depth of the scene from a camera, without the water.
+struct Kept {
+    color: Image,
+    depth: Image,
+    /// `None`: of none yet, or a frame failed.
+    camera: Option<Camera>,
+}
+
+/// The kept images between frames.
+const KEPT_REST: Access = access::COPY_READ;
+
+impl Kept {
+    fn new(gpu: &Gpu, extent: vk::Extent2D) -> Result<Self, Error> {
+        let image = |name, format| {
+            let usage = vk::ImageUsageFlags::SAMPLED
+                | vk::ImageUsageFlags::TRANSFER_SRC
+                | vk::ImageUsageFlags::TRANSFER_DST;
+            Image::new(gpu, &ImageDesc::new(name, extent, format, usage))
+        };
+        Ok(Self {
+            color: image("headless/kept/color", COLOR_FORMAT)?,
+            depth: image("headless/kept/depth", DEPTH_FORMAT)?,
+            camera: None,
+        })
+    }
 }
 
 impl Headless {
@@ -55,7 +87,8 @@ impl Headless {
             None => SceneRenderer::new(gpu, scene, color, depth, antialias),
         };
         let made = made.and_then(|renderer| {
-            Ok(Stage { descriptors: Descriptors::new(gpu, renderer.sets())?, renderer })
+            let descriptors = Descriptors::new(gpu, renderer.sets())?;
+            Ok(Stage { descriptors, renderer, kept: None })
         });
         if made.is_err() {
             // Nothing was submitted with what was made before the failure.
@@ -71,7 +104,14 @@ impl Headless {
         Ok(())
     }
 
-    /// Draws it into colour and depth.
+    /// Its picture is another one now: a new sky, or a frame failed.
+    pub(super) fn forget_scene(&mut self) {
+        if let Some(kept) = self.scene.as_mut().and_then(|stage| stage.kept.as_mut()) {
+            kept.camera = None;
+        }
+    }
+
+    /// Draws it into colour and depth, or takes what was drawn from the same camera.
     pub(super) fn draw_scene(
         &mut self,
         cmd: vk::CommandBuffer,
@@ -80,7 +120,17 @@ impl Headless {
         let Some(stage) = &mut self.scene else {
             return Err(Error::bad("Background::Scene", "no scene was handed in"));
         };
-        stage.descriptors.reset(&self.gpu)?;
+        let gpu = &self.gpu;
+        let kept = match &mut stage.kept {
+            Some(kept) => kept,
+            kept => kept.insert(Kept::new(gpu, self.color.extent)?),
+        };
+        if kept.camera == Some(*camera) {
+            transfer::copy(gpu, cmd, (&kept.color, KEPT_REST), (&self.color, COLOR_REST));
+            transfer::copy(gpu, cmd, (&kept.depth, KEPT_REST), (&self.depth, DEPTH_REST));
+            return Ok(());
+        }
+        stage.descriptors.reset(gpu)?;
         let frame = SceneFrame {
             slot: Slot(0),
             descriptors: &stage.descriptors,
@@ -88,8 +138,12 @@ impl Headless {
             color: &self.color,
             depth: &self.depth,
             environment: self.renderer.environment_view(),
-            sampler: self.gpu.samplers.linear,
+            sampler: gpu.samplers.linear,
         };
-        stage.renderer.record(&self.gpu, cmd, &frame)
+        stage.renderer.record(gpu, cmd, &frame)?;
+        transfer::copy(gpu, cmd, (&self.color, COLOR_REST), (&kept.color, KEPT_REST));
+        transfer::copy(gpu, cmd, (&self.depth, DEPTH_REST), (&kept.depth, KEPT_REST));
+        kept.camera = Some(*camera);
+        Ok(())
     }
 }

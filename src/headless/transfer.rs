@@ -28,6 +28,39 @@ pub fn staging(gpu: &Gpu, bytes: &[u8]) -> Result<Buffer, Error> {
     Ok(buffer)
 }
 
+/// Copies an image over another of the same size and format; each is left as it was found.
+pub fn copy(gpu: &Gpu, cmd: vk::CommandBuffer, from: (&Image, Access), to: (&Image, Access)) {
+    let ((from, from_rest), (to, to_rest)) = (from, to);
+    let before = [
+        access::image(from, from_rest, COPY_READ),
+        access::image(to, to_rest.discarded(), COPY_WRITE),
+    ];
+    gpu.barriers(cmd, &before, &[]);
+    let layers = vk::ImageSubresourceLayers {
+        aspect_mask: aspect_of(from.format),
+        mip_level: 0,
+        base_array_layer: 0,
+        layer_count: 1,
+    };
+    let region = vk::ImageCopy::default()
+        .src_subresource(layers)
+        .dst_subresource(layers)
+        .extent(from.extent.into());
+    // SAFETY: both images are in their transfer layouts, of one format and size.
+    unsafe {
+        gpu.device.cmd_copy_image(
+            cmd,
+            from.handle,
+            vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+            to.handle,
+            vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+            &[region],
+        );
+    }
+    let after = [access::image(from, COPY_READ, from_rest), access::image(to, COPY_WRITE, to_rest)];
+    gpu.barriers(cmd, &after, &[]);
+}
+
 impl Headless {
     /// Copies a staging buffer over a whole image.
     pub(super) fn upload(

@@ -164,6 +164,12 @@ fn lit(config: &Config) -> bool {
     config.cast.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }
 
+/// Words that the compute path has of each texel; the first two are bits of depths, of the frontmost or, where there
+/// is none before it, of the scene, and of that.
+pub fn words_of(config: &Config) -> u32 {
+    if lit(config) { 6 } else { 5 }
+}
+
 /// What the compute path has.
 struct Splats {
     /// Of the depth and of the thickness.
@@ -194,8 +200,8 @@ impl Splats {
     fn sized(gpu: &Gpu, config: &Config) -> Result<(Image, Image, Buffer), Error> {
         let image = |kind| Image::new(gpu, &desc(config, kind));
         let (depth, thickness) = (image(Kind::Depth)?, image(Kind::Thickness)?);
-        let bytes = if lit(config) { 24 } else { 20 };
-        let bytes = bytes * u64::from(depth.extent.width) * u64::from(depth.extent.height);
+        let texels = u64::from(depth.extent.width) * u64::from(depth.extent.height);
+        let bytes = 4 * u64::from(words_of(config)) * texels;
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let words = Buffer::new(gpu, "water/foam/words", bytes, usage, MemoryLocation::GpuOnly)?;
         Ok((depth, thickness, words))
@@ -309,6 +315,14 @@ impl Foam {
         match &self.path {
             Path::Raster(both) => &both[0].target.image,
             Path::Compute(splats) => &splats.depth,
+        }
+    }
+
+    /// [`words_of`] each texel, COMPUTE_READ after the pass; the raster path has none.
+    pub fn words(&self) -> Option<&Buffer> {
+        match &self.path {
+            Path::Raster(_) => None,
+            Path::Compute(splats) => Some(&splats.words),
         }
     }
 

@@ -226,8 +226,8 @@ impl Water {
         if let Some(gaps) = gaps {
             gaps.record(r, &self.front.list, &self.cull.list)?;
         }
+        self.thickness.record(r, &self.cull.list, gaps, self.foam.as_ref())?;
         let foam = self.foam.as_ref().map(foam::Foam::depth);
-        self.thickness.record(r, &self.cull.list, gaps, foam)?;
         let spray = self.spray.as_ref().map(spray::Spray::image);
         let diffuse = diffuse.map(|(foam, _)| foam.layers()[0]);
         let depths = reduce::Depths { water: &self.depth.image, foam, spray, diffuse };

@@ -10,7 +10,7 @@
 //! round the boundary: water there says that they are one.
 //! With foam there is a second channel, of the water before the frontmost (the source asks once a
 //! particle, Listing A.14; here it is once a fragment).
-//! Reads: the list of `cull`, scene depth, boundaries, foam depth. Writes: thickness, R32F or RG32F;
+//! Reads: the list of `cull`, scene depth, boundaries, foam depth or the words of `foam`. Writes: thickness, R32F or RG32F;
 //! sheets, RGBA32F (front, back, window).
 
 use ash::vk;
@@ -19,6 +19,7 @@ use gpu_allocator::MemoryLocation;
 use super::Recording;
 use super::cull::SphereList;
 use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};
+use super::foam::{self, Foam};
 use super::gaps::{self, Gaps};
 use crate::contract::Config;
 use crate::error::Error;
@@ -80,7 +81,8 @@ impl Thickness {
         let sheets = Self::sheets(gpu, config)?;
         let foam = u32::from(config.foam);
         let compute = |shader, large, apart| {
-            Pipeline::compute(gpu, shader, &[(0, large), (1, apart), (9, foam)])
+            let words = (10, foam::words_of(config));
+            Pipeline::compute(gpu, shader, &[(0, large), (1, apart), (9, foam), words])
         };
         let path = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
@@ -222,7 +224,7 @@ impl Thickness {
         r: &mut Recording<'_>,
         list: &SphereList,
         gaps: Option<&Gaps>,
-        foam: Option<&Image>,
+        foam: Option<&Foam>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"thickness");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -234,8 +236,12 @@ impl Thickness {
         // Where there are none they are not read: any buffer will do. The same of the image.
         let boundaries =
             gaps.map_or(Resource::buffer(&list.counts), |gaps| Resource::buffer(&gaps.boundaries));
-        let foam =
-            foam.map_or(r.scene_depth, |foam| Resource::Sampled(foam.view, gpu.samplers.nearest));
+        // Both splat alike, so that where this is the compute path there are words.
+        let words = foam.and_then(Foam::words);
+        let words = words.map_or(Resource::buffer(&list.counts), Resource::buffer);
+        let foam = foam.map_or(r.scene_depth, |foam| {
+            Resource::Sampled(foam.depth().view, gpu.samplers.nearest)
+        });
         match &self.path {
             Path::Raster { points, quads, pass, framebuffer } => {
                 gpu.barriers(cmd, &hand(BEFORE.discarded(), COLOR_ATTACHMENT), &[]);
@@ -259,7 +265,7 @@ impl Thickness {
                     (3, r.scene_depth),
                     (4, Resource::buffer(sums)),
                     (5, blocks),
-                    (7, foam),
+                    (8, words),
                     (11, boundaries),
                 ];
                 dispatch_sprites(r, list, small, large, &bound)?;

@@ -4,10 +4,11 @@
 use std::sync::{Arc, Mutex};
 
 use ash::vk;
+use glam::{Mat4, Vec3};
 use whitewater::headless::scene::{Material, Mesh, Scene, Texture};
 use whitewater::headless::{Background, Device, Headless};
 use whitewater::water::FoamSettings;
-use whitewater::{Config, Error};
+use whitewater::{Camera, Config, Error, Sky};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Shot, config, extent};
@@ -153,6 +154,10 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
         let draw = |headless: &mut Headless| {
             headless.render(&shot.camera, &shot.settings, &Background::Scene)
         };
+        // From elsewhere: what is kept of the scene is no good.
+        let aside = beside(&shot.camera);
+        let draw_aside =
+            |headless: &mut Headless| headless.render(&aside, &shot.settings, &Background::Scene);
         draw(&mut headless).expect("a frame");
         let expected = headless.color().expect("read back");
         let live = spy::live();
@@ -161,7 +166,7 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
                 spy::reset();
                 function.fail(k, NO_MEMORY);
                 let name = format!("{antialias}, {} call {k}", function.name.to_string_lossy());
-                match draw(&mut headless) {
+                match draw_aside(&mut headless) {
                     Err(error) if is_memory_error(&error) => {}
                     Err(error) => wrong.push(format!("{name}: {error}")),
                     Ok(()) => wrong.push(format!("{name}: no error")),
@@ -180,6 +185,54 @@ fn a_failed_frame_of_a_scene_can_be_repeated() {
         wrong.extend(device.take_messages());
     }
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// The same camera a little to the side.
+fn beside(camera: &Camera) -> Camera {
+    Camera { view: Mat4::from_translation(Vec3::X * 0.3) * camera.view, ..*camera }
+}
+
+/// For a camera that rests the scene is drawn once, and anew for whatever changes it.
+#[test]
+fn a_camera_that_rests_keeps_the_scene() {
+    let (_gpu, device) = spied();
+    let mut headless = Headless::new(device, &config(SIZE)).expect("headless");
+    let camera = scenes::camera(Lens::Standard, SIZE);
+    let settings = scenes::settings(0.2);
+    let world = |points: &[[f32; 3]]| scenes::world(&camera, points);
+    headless.scene(&scene(), false).expect("scene");
+    let frame = |headless: &mut Headless, camera: &Camera, points: &[[f32; 3]]| {
+        headless.particles(points, None).expect("particles");
+        spy::reset();
+        headless.render(camera, &settings, &Background::Scene).expect("a frame");
+        // The scene's are made a frame.
+        let made = spy::CREATE_FRAMEBUFFER.calls();
+        let depth = headless.scene_depth().expect("read back");
+        (made, headless.color().expect("read back"), depth)
+    };
+    let few = world(&scenes::block(3, 0.25, [4, 4, 2], [-0.5, -0.5, 3.0]));
+    let (first, color, depth) = frame(&mut headless, &camera, &few);
+    let (second, with_more, _) = frame(&mut headless, &camera, &world(&[[0.0, 0.0, 3.0]]));
+    assert!(second < first, "{second} framebuffers, {first}");
+    assert_ne!(color, with_more, "other water");
+    let (again, same, same_depth) = frame(&mut headless, &camera, &few);
+    assert!(again == second && same == color && same_depth == depth);
+    // Another view, and back.
+    let (moved, other, _) = frame(&mut headless, &beside(&camera), &few);
+    let (back, same, _) = frame(&mut headless, &camera, &few);
+    assert!([moved, back] == [first; 2] && other != color && same == color);
+    // Another sky, another scene.
+    headless.sky(&Sky { intensity: 5.0, ..Sky::default() }).expect("sky");
+    let (anew, hazy, _) = frame(&mut headless, &camera, &few);
+    assert!(anew == first && hazy != color);
+    let Scene { mut meshes, .. } = scene();
+    meshes.truncate(1);
+    headless.scene(&Scene { meshes, ..Scene::default() }, false).expect("scene");
+    let (anew, _, other_depth) = frame(&mut headless, &camera, &few);
+    assert!(anew == first && other_depth != depth);
+    let device = headless.finish().expect("finish");
+    assert_eq!(spy::live(), Vec::<String>::new());
+    assert_eq!(device.take_messages(), Vec::<String>::new());
 }
 
 /// Foam by a step of the state: of velocities, ids and time; new particles have none until then.

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use crate::Outcome;
+use crate::curves::{Function, functions};
 use crate::figures::pictures;
-use crate::panels::{amount, depth, grid, light, normals, share};
+use crate::panels::{amount, channel, depth, grid, light, normals, share};
 use crate::tool::Tool;
 
 /// Figures 1 and 8, upper row: the seas, each with as many particles as the source's.
@@ -18,7 +19,7 @@ pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
 /// Figure 3: what each pass leaves.
 pub fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     let (sea, count, size) = ("wave", "820k", "480x360");
-    let layers = &tool.sea_layers(sea, count, size)?;
+    let layers = &tool.sea_layers(sea, count, size, "")?;
     let panels = [
         depth(layers, "foam.Z")?,
         normals(layers, "foam.normal", "foam.Z")?,
@@ -32,14 +33,63 @@ pub fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels, 2, &pictures(docs, "diffuse-layers.png"))
 }
 
+/// Figures 4 to 6: the kinds' shapes and the intensity, by the formula and as they are drawn.
+pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
+    const SIZE: u32 = 240;
+    const RADIUS: f64 = 112.0;
+    let (mut discs, mut all) = (Vec::new(), Vec::new());
+    let kinds = [
+        ("spray", 1.5, "spray, f(x, 1, 1.5, 1)"),
+        ("foam", 2.25, "foam, f(x, 1, 2.25, 1)"),
+        ("bubble", 2.0, "bubble, 1 - f(x, 1, 2, 1)"),
+    ];
+    for (kind, power, name) in kinds {
+        let layers = tool.particle(kind, SIZE, RADIUS)?;
+        discs.push(share(&layers, "foam.thickness")?);
+        let shape = |x: f64| if kind == "bubble" { x.powf(power) } else { 1.0 - x.powf(power) };
+        let line = (0..=100).map(|i| f64::from(i) / 100.0).map(|x| (x, shape(x))).collect();
+        // A row beside the middle, every eighth pixel.
+        let (row, values) = (SIZE / 2, channel(&layers, "foam.thickness")?);
+        let dot = |x: u32| {
+            let away = (f64::from(x - row) + 0.5).hypot(0.5) / RADIUS;
+            (away, f64::from(values[(row * SIZE + x) as usize]))
+        };
+        let dots = (row..SIZE).step_by(8).map(dot).filter(|(x, _)| *x < 1.0).collect();
+        all.push(Function { name: name.to_owned(), line, dots });
+    }
+    grid(&discs, 3, &pictures(docs, "diffuse-kinds.png"))?;
+    let axes = ["distance from the middle, radii", "thickness"];
+    functions("Shapes", axes, [1.0, 1.05], &all, &pictures(docs, "diffuse-shapes.svg"))?;
+
+    let mut all = Vec::new();
+    for (half, exponent) in [(1.0_f64, 1.25_f64), (3.0, 1.25), (3.0, 3.0)] {
+        let look = format!("half = {half:.1}\nexponent = {exponent:.2}");
+        let layers = tool.sea_layers("wave", "200k", "320x240", &look)?;
+        let (thickness, intensity) =
+            (channel(&layers, "foam.thickness")?, channel(&layers, "foam.intensity")?);
+        let sigmoid = |rho: f64| rho.powf(exponent) / (half + rho.powf(exponent));
+        let line = (0..=120).map(|i| f64::from(i) / 10.0).map(|x| (x, sigmoid(x))).collect();
+        // A pixel for each half of a unit of thickness.
+        let near = |rho: f32| {
+            let off = |i: &usize| (thickness[*i] - rho).abs();
+            (0..thickness.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        let dot = |i: usize| (f64::from(thickness[i]), f64::from(intensity[i]));
+        let dots = (1..24_u8).filter_map(|i| near(0.5 * f32::from(i))).map(dot).collect();
+        all.push(Function { name: format!("{half}, {exponent}"), line, dots });
+    }
+    let axes = ["thickness", "intensity"];
+    functions("Intensity", axes, [12.0, 1.0], &all, &pictures(docs, "diffuse-intensity.svg"))
+}
+
 /// Figure 7: what the parameters do.
 pub fn looks(tool: &Tool, docs: &Path) -> Outcome<()> {
     let looks = [
         "",
-        "half = 0.5",
-        "half = 20.0",
-        "shadow = [1.0, 3.0, -0.05]",
-        "shadow = [3.0, 1.0, 0.0]",
+        "half = 1.0",
+        "half = 5.0",
+        "shadow = [0.1, 1.5, -0.05]",
+        "shadow = [2.0, 1.5, -0.05]",
         "shadow_color = [0.6, 0.3, 0.0]",
     ];
     let panels: Result<Vec<_>, String> =

@@ -13,7 +13,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 15] = [
+pub const ALL: [(&str, Figure); 16] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -28,6 +28,7 @@ pub const ALL: [(&str, Figure); 15] = [
     ("flight-bamboo", |tool, docs| flight(tool, docs, "bamboo")),
     ("seas", diffuse::seas),
     ("diffuse-layers", diffuse::layers),
+    ("diffuse-shapes", diffuse::shapes),
     ("diffuse-look", diffuse::looks),
 ];
 
@@ -162,7 +163,7 @@ const WAYS: [(&str, &str); 4] = [
 ];
 
 /// Runs over each way, in turn, so that what else the machine does at a time is no one way's.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 3;
 
 fn measure(tool: &Tool, scene: &str, frames: &[String], camera: &Path) -> Outcome<Vec<Curve>> {
     let mut best: [Vec<Times>; WAYS.len()] = Default::default();

@@ -73,7 +73,8 @@ pub fn mean_of(layers: &Layers, name: &str) -> Outcome<f64> {
     Ok(all.iter().map(|v| f64::from(*v)).sum::<f64>() / all.len().max(1) as f64)
 }
 
-fn channel<'a>(layers: &'a Layers, name: &str) -> Outcome<&'a [f32]> {
+/// A layer's values.
+pub fn channel<'a>(layers: &'a Layers, name: &str) -> Outcome<&'a [f32]> {
     layers.channel(name).ok_or_else(|| format!("the frame has no layer {name}"))
 }
 

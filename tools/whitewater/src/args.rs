@@ -161,9 +161,10 @@ pub struct DrawArgs {
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
     pub smoothing_level: u32,
-    /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
-    pub thickness_level: u32,
+    /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth of what is drawn [default: half of the
+    /// picture's, so 2 with --supersample 2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=3))]
+    pub thickness_level: Option<u32>,
     /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
@@ -194,6 +195,9 @@ pub struct DrawArgs {
     /// Write the time of each pass to a .csv or .json; at Ctrl-C, of the frames until then
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
+    /// Draws each frame so many times, all of which go to --timings
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub repeat: NonZeroUsize,
     /// Write a trace for Perfetto or chrome://tracing (.json); at Ctrl-C, until then
     #[arg(long, value_name = "FILE")]
     pub trace: Option<PathBuf>,
@@ -206,6 +210,13 @@ pub struct DrawArgs {
     /// Draw frames of a sequence again that are there already [default: they are skipped]
     #[arg(long)]
     pub overwrite: bool,
+}
+
+impl DrawArgs {
+    /// Times that the thickness is halved: what supersampling adds to it does not show.
+    pub fn thickness_level(&self) -> u32 {
+        self.thickness_level.unwrap_or(1 + self.supersample.ilog2())
+    }
 }
 
 #[derive(Args, Debug)]

@@ -79,6 +79,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         region,
         fps,
         rate,
+        fullest: count,
     };
     let mut progress = Progress::new(1, "frames");
     let mut session = Session::new(&args.draw, checked, look, progress.steps())?;

@@ -413,6 +413,7 @@ fn look(
     let shadows = file.shadows().map_err(Failure::input)?;
     let rate = fps.filter(|_| vectors);
     let fps = fps.filter(|_| remembers);
+    let fullest = probes.frames.iter().map(|f| f.positions.len()).max().unwrap_or(0);
     let diffuse = match made {
         true => {
             let probes = std::mem::take(&mut probes.frames);
@@ -437,6 +438,7 @@ fn look(
         region,
         fps,
         rate,
+        fullest,
     })
 }
 

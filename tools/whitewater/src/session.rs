@@ -46,6 +46,8 @@ pub struct Look {
     pub fps: Option<f32>,
     /// Frames a second by which the motion layer is made; none: nothing moves.
     pub rate: Option<f32>,
+    /// Particles of the fullest frame that was looked at: there is room for them from the first one on.
+    pub fullest: usize,
 }
 
 /// Numbers of the frames by which foam came and went.
@@ -227,7 +229,7 @@ impl<'a> Session<'a> {
     }
 
     fn make_room_with(&mut self, count: usize, diffuse: usize) -> Outcome<()> {
-        let count = u32::try_from(count)
+        let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
         let diffuse = diffuse::counted(diffuse)?;
         let made = match &self.look.diffuse {
@@ -252,7 +254,7 @@ impl<'a> Session<'a> {
         let [width, height] =
             [args.size.0, args.size.1].map(|n| n.saturating_mul(args.supersample));
         let extent = vk::Extent2D { width, height };
-        // Sequences grow: a quarter more than is needed now.
+        // Frames between those that were looked at may hold more: a quarter.
         let room = |count: u32| count.saturating_add(count / 4).max(1024);
         let before = there.as_ref();
         let diffuse = room(diffuse).max(before.map_or(0, most));
@@ -260,7 +262,7 @@ impl<'a> Session<'a> {
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
         config.smoothing_level = args.smoothing_level;
-        config.thickness_level = args.thickness_level;
+        config.thickness_level = args.thickness_level();
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
@@ -293,7 +295,7 @@ impl<'a> Session<'a> {
                 made.map_err(|error| bad_picture(error, &args.environment))
             }
         })?;
-        times.step("scene", number, || headless.scene(&self.look.scene, true))?;
+        times.step("scene", number, || headless.scene(&self.look.scene, args.supersample == 1))?;
         if args.shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
@@ -448,13 +450,17 @@ impl<'a> Session<'a> {
         let camera = camera_file.camera(self.args.size)?;
         let lens = Lens::new(&camera)?;
         if !self.look.scene.rests_between(self.staged, number) {
-            times.step("scene", number, || headless.scene_frame(&self.look.scene, true))?;
+            times.step("scene", number, || {
+                headless.scene_frame(&self.look.scene, self.args.supersample == 1)
+            })?;
             self.staged = number;
         }
-        times.step("draw", number, || {
-            headless.render(&camera, &self.look.settings, &Background::Scene)
-        })?;
-        times.passes(number, headless.timings());
+        for _ in 0..self.args.repeat.get() {
+            times.step("draw", number, || {
+                headless.render(&camera, &self.look.settings, &Background::Scene)
+            })?;
+            times.passes(number, headless.timings());
+        }
         let layers = times.step("read back", number, || {
             let mut layers = layers::collect(headless, self.args.size, &self.wanted, &lens)?;
             if self.wanted.contains(&layers::LADDER) {
