@@ -15,12 +15,15 @@ use crate::support::scenes::{self, LENSES, Lens};
 #[test]
 fn all_ways_are_the_same() {
     let gpu = Gpu::shared();
+    let others = ways(&gpu).into_iter().filter(|way| *way != Splat::Compute);
+    let rig = |way| Rig::lit(&gpu, &by(way, SIZE), 1);
+    let (mut first, mut others) =
+        (rig(Splat::Compute), others.map(|way| (way, rig(way))).collect::<Vec<_>>());
     for lens in LENSES {
         let cloud = Diffuse::new(lens);
-        let draw = |way| cloud.draw(&mut Rig::lit(&gpu, &by(way, SIZE), 1));
-        let expected = draw(Splat::Compute);
-        for way in ways(&gpu) {
-            same(way, &draw(way), &expected);
+        let expected = cloud.draw(&mut first);
+        for (way, rig) in &mut others {
+            same(*way, &cloud.draw(rig), &expected);
         }
     }
 }

@@ -66,18 +66,18 @@ pub struct Function {
 
 /// Functions in one diagram from 0 on, as SVG; `most`: of both axes, whose names are `axes`.
 pub fn functions(
-    title: &str,
+    (title, legend): (&str, SeriesLabelPosition),
     axes: [&str; 2],
     most: [f64; 2],
     all: &[Function],
     to: &Path,
 ) -> Outcome<()> {
-    draw_functions(title, axes, most, all, to)
+    draw_functions((title, legend), axes, most, all, to)
         .map_err(|error| format!("cannot write {}: {error}", to.display()))
 }
 
 fn draw_functions(
-    title: &str,
+    (title, legend): (&str, SeriesLabelPosition),
     axes: [&str; 2],
     most: [f64; 2],
     all: &[Function],
@@ -100,11 +100,7 @@ fn draw_functions(
         let dots = function.dots.iter().filter(|(x, y)| *x <= most[0] && *y <= most[1]);
         chart.draw_series(dots.map(|dot| Circle::new(*dot, 3, color.filled())))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::LowerRight)
-        .background_style(WHITE.mix(0.8))
-        .draw()?;
+    chart.configure_series_labels().position(legend).background_style(WHITE.mix(0.8)).draw()?;
     root.present()?;
     Ok(())
 }

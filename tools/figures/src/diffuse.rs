@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use plotters::prelude::SeriesLabelPosition;
+
 use crate::Outcome;
 use crate::curves::{Function, functions};
 use crate::figures::pictures;
@@ -59,7 +61,8 @@ pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
     }
     grid(&discs, 3, &pictures(docs, "diffuse-kinds.png"))?;
     let axes = ["distance from the middle, radii", "thickness"];
-    functions("Shapes", axes, [1.0, 1.05], &all, &pictures(docs, "diffuse-shapes.svg"))?;
+    let title = ("Shapes", SeriesLabelPosition::MiddleLeft);
+    functions(title, axes, [1.0, 1.05], &all, &pictures(docs, "diffuse-shapes.svg"))?;
 
     let mut all = Vec::new();
     for (half, exponent) in [(1.0_f64, 1.25_f64), (3.0, 1.25), (3.0, 3.0)] {
@@ -79,7 +82,8 @@ pub fn shapes(tool: &Tool, docs: &Path) -> Outcome<()> {
         all.push(Function { name: format!("{half}, {exponent}"), line, dots });
     }
     let axes = ["thickness", "intensity"];
-    functions("Intensity", axes, [12.0, 1.0], &all, &pictures(docs, "diffuse-intensity.svg"))
+    let title = ("Intensity", SeriesLabelPosition::LowerRight);
+    functions(title, axes, [12.0, 1.0], &all, &pictures(docs, "diffuse-intensity.svg"))
 }
 
 /// Figure 7: what the parameters do.
