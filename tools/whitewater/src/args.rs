@@ -161,10 +161,9 @@ pub struct DrawArgs {
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
     pub smoothing_level: u32,
-    /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth of what is drawn [default: half of the
-    /// picture's, so 2 with --supersample 2]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=3))]
-    pub thickness_level: Option<u32>,
+    /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
+    pub thickness_level: u32,
     /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: u32,
@@ -210,13 +209,6 @@ pub struct DrawArgs {
     /// Draw frames of a sequence again that are there already [default: they are skipped]
     #[arg(long)]
     pub overwrite: bool,
-}
-
-impl DrawArgs {
-    /// Times that the thickness is halved: what supersampling adds to it does not show.
-    pub fn thickness_level(&self) -> u32 {
-        self.thickness_level.unwrap_or(1 + self.supersample.ilog2())
-    }
 }
 
 #[derive(Args, Debug)]

@@ -262,7 +262,7 @@ impl<'a> Session<'a> {
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
         config.smoothing_level = args.smoothing_level;
-        config.thickness_level = args.thickness_level();
+        config.thickness_level = args.thickness_level;
         config.sheets = args.sheets;
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
