@@ -1,7 +1,7 @@
 #version 460
 // Pass `composite`, compute: shades the pixels with water of the tiles' groups, where the
 // source draws one quad over the screen (thesis Sec. 4.9.3). A tile is 16 texels
-// of its level wide, up to 512 pixels: groups of 8x8 pixels share it. Tiles lie in the second and the
+// of the first level wide, up to 64 pixels: groups of 8x8 pixels share it. Tiles lie in the second and the
 // third dimension of the dispatch: one may be too short for all, and a loop over tiles round all this
 // took one driver ten seconds to compile.
 // Reads: what shade.glsl reads, tile list and arguments. Writes: output.
@@ -38,14 +38,13 @@ void shade_pixel(ivec2 pixel) {
 
 void shade_block(int tile, int block) {
     ivec2 texel = ivec2(tile % levels.atlas.z, tile / levels.atlas.z) * 16;
-    Level level = levels.level[level_of(texel)];
-    int edge = int(level.texel.z);
-    ivec2 corner = (texel - level.rect.xy) * edge + 8 * ivec2(block % (2 * edge), block / (2 * edge));
+    int edge = int(levels.level[0].texel.z);
+    ivec2 corner = texel * edge + 8 * ivec2(block % (2 * edge), block / (2 * edge));
     shade_pixel(corner + ivec2(gl_LocalInvocationID.xy));
 }
 
 void main() {
-    uint tiles = arguments[(CONFIGURED == 1u ? 8u : 12u) + 2u * FOAM + SHEETS - 1u].w;
+    uint tiles = arguments[8u + 4u * NEAR + 2u * FOAM + SHEETS - 1u].w;
     uint i = gl_WorkGroupID.z * gl_NumWorkGroups.y + gl_WorkGroupID.y;
     // The last row of tiles may be short.
     if (i < tiles) {

@@ -12,8 +12,7 @@ layout(push_constant, std430) uniform Push { uint first; } push; // of the list
 void main() {
     int tile = int(list[push.first + gl_InstanceIndex]);
     ivec2 texel = ivec2(tile % levels.atlas.z, tile / levels.atlas.z) * 16;
-    Level level = levels.level[level_of(texel)];
-    texel += 16 * ivec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) - level.rect.xy;
-    vec2 pixel = min(vec2(texel) * level.texel.z, frame.extent.xy);
+    texel += 16 * ivec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
+    vec2 pixel = min(vec2(texel) * levels.level[0].texel.z, frame.extent.xy);
     gl_Position = vec4(pixel / frame.extent.xy * 2.0 - 1.0, 0.5, 1.0);
 }

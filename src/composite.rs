@@ -44,9 +44,8 @@ pub struct Surroundings {
     pub environment: Resource,
 }
 
-/// Of each kind of tiles at the configured level, and at any other; in the order of the arguments of
-/// `split`. None of what the configuration rules out.
-type Pipelines = [Option<Pipeline>; 2 * KINDS as usize];
+/// Of each kind of tiles, in the order of the arguments of `split`. None of what the configuration rules out.
+type Pipelines = [Option<Pipeline>; KINDS as usize];
 
 enum Path {
     Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
@@ -75,10 +74,10 @@ fn pipelines(
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();
     for (i, pipeline) in (0..).zip(&mut all) {
-        let (configured, foam, sheets) = (u32::from(i < KINDS), i >> 1 & 1, 1 + (i & 1));
-        let coarse = configured == 1 || coarsening(config) > 0;
-        if coarse && sheets <= config.sheets && foam <= u32::from(config.foam) {
-            let own = [(0, thickness), (2, configured), (8, sheets), (9, foam)];
+        let (near, foam, sheets) = (i >> 2, i >> 1 & 1, 1 + (i & 1));
+        let kept = near == 0 || coarsening(config) > 0;
+        if kept && sheets <= config.sheets && foam <= u32::from(config.foam) {
+            let own = [(0, thickness), (2, near), (8, sheets), (9, foam)];
             *pipeline = Some(make(&[&own[..], &beside, &light].concat())?);
         }
     }
@@ -173,7 +172,7 @@ impl Composite {
             (4, around.scene_color),
             (5, r.scene_depth),
             (6, around.environment),
-            (7, layers.level.resource()),
+            (7, r.levels),
             (8, Resource::Storage(around.output)),
             (9, Resource::buffer(&layers.split.lists)),
             (10, Resource::buffer(&layers.split.arguments)),
@@ -193,8 +192,7 @@ impl Composite {
             light_diffuse,
         ];
         let arguments = layers.split.arguments.handle;
-        let first = |i: u32| layers.split.most * (i % KINDS);
-        // Of the pipelines half have nothing to do at the level.
+        let first = |i: u32| layers.split.most * i;
         match &self.path {
             Path::Raster { pass, pipelines } => {
                 gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);

@@ -101,11 +101,10 @@ pub struct Config {
     pub rule: Rule,
     /// Most iterations of the smoothing, 1 to 256 (default 256, as the source).
     pub max_iterations: u32,
-    /// Levels coarser than [`smoothing_level`](Self::smoothing_level) that the smoothing may go in
-    /// near views, where more than a sixteenth of the picture would pass the most iterations: 0 to
-    /// 3 (default 3: water is smooth to an eighth of the distance). The GPU decides, frame by
-    /// frame, and fades. For [`Rule::ConstantWidth`] alone; 0 saves a third of the memory of the
-    /// smoothing.
+    /// Levels coarser than [`smoothing_level`](Self::smoothing_level) that water is smoothed at where it is so
+    /// near that it would pass the most iterations: 0 to 3 (default 3: it is smooth to an eighth of the
+    /// distance). Each pixel shows the level that its distance asks for, or between two of them something of
+    /// both. For [`Rule::ConstantWidth`] alone; 0 saves up to a third of the memory of the smoothing.
     pub coarsening: u32,
     /// Sheets of water that are told apart where one stands before another with air between, as a
     /// drop before a pool: 1 as the source, or 2 (default). Each has its own thickness, the farther
@@ -615,7 +614,7 @@ pub struct Layer {
     /// Its format.
     pub format: vk::Format,
     /// Its size; may be a reduced one. `water.surface` and `water.iterations`: of the configured
-    /// level; where the frame was smoothed coarser, and for the back sheet, [`Recorded::levels`] says
+    /// level; what is near is smoothed coarser, there and for the back sheet [`Recorded::levels`] says
     /// what lies where.
     pub extent: vk::Extent2D,
     /// Its state after `record`.
@@ -633,11 +632,10 @@ pub struct Recorded {
     pub active_samples: Option<(vk::Buffer, u32)>,
     /// What became of the particles.
     pub counts: Option<ParticleCounts>,
-    /// A buffer with one [`SmoothingLevels`]: at which resolutions the frame was smoothed. Transfer
-    /// source; last written by a compute shader, read as a uniform buffer.
-    pub levels: Option<vk::Buffer>,
+    /// At which resolutions the frame was smoothed.
+    pub levels: Option<SmoothingLevels>,
     /// A buffer of 259 times four `u32`, the work of the smoothing: in the first the second word is
-    /// how many 16×16 tiles (of its texels, of all levels in use) hold water; the fourth word of
+    /// how many 16×16 tiles (of its texels, of all levels) hold water; the fourth word of
     /// number i, 1 to 257, how many iteration i runs over. Transfer source; last written by a compute
     /// shader, read as indirect arguments.
     pub tiles: Option<vk::Buffer>,
@@ -647,36 +645,49 @@ pub struct Recorded {
     pub sheets: Option<vk::Buffer>,
 }
 
-/// Where the levels of the smoothing lie in the images `water.surface` and `water.iterations`. Of
-/// the first two one has weight 1, or both have a part while the coarser one fades in. The third
-/// is the back sheet's, with weight 1 where [`Config::sheets`] is 2, else 0.
+/// Where the levels of the smoothing lie in the images `water.surface` and `water.iterations`, and how near
+/// what each shows is.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct SmoothingLevels {
-    /// The second below the first, the third to the right of the second.
-    pub level: [SmoothingLevel; 3],
-    /// Size of the images, tiles a row, first row of the second level.
+    /// Four of the front sheet, each half of the one before, then three of the back sheet from the second on; of
+    /// those that are not used all is 0. A texel of a coarser one holds something where its level shows near by,
+    /// round that it is empty (1e10), farther away it may be of a frame before.
+    pub level: [SmoothingLevel; 7],
+    /// Size of the images, tiles a row, levels coarser than the first.
     pub atlas: [i32; 4],
+    /// Iterations of the first level at depth 1 on the axis over a quarter of the cap; what a pixel is wide by what it
+    /// is high, squared; most difference of depth on one surface in metres; 0.
+    pub near: [f32; 4],
 }
 
 /// Where one of them lies, and what its texels are.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct SmoothingLevel {
     /// First texel (x, y) and size, in texels.
     pub rect: [i32; 4],
     /// From a point of the level (texel centres at +0.5) to the slope of its ray: scale, offset.
     pub slope: [f32; 4],
-    /// World size of a texel per depth in x and y; its edge in pixels of the output; weight in the
-    /// picture, 0 to 1.
+    /// World size of a texel per depth in x and y; its edge in pixels of the output; 0.
     pub texel: [f32; 4],
 }
 
 impl SmoothingLevels {
-    /// The finer level of the front sheet's in use.
-    pub fn finer(&self) -> &SmoothingLevel {
-        let [a, b, _] = &self.level;
-        if b.texel[3] > 0.0 && (a.texel[3] == 0.0 || b.texel[2] < a.texel[2]) { b } else { a }
+    /// Which of the front sheet's levels a point at an eye depth and with the slope of its ray shows, and
+    /// how far the next one has faded in, 0 to 1. The back sheet shows the same, at least the second.
+    pub fn shown(&self, depth: f32, slope: [f32; 2]) -> (usize, f32) {
+        let [iterations, shape, ..] = self.near;
+        let foreshortened = 1.0 + slope[0].powi(2) + (1.0 + slope[1].powi(2)) * shape;
+        let doubled = (iterations * foreshortened / (depth * depth)).max(1.0).log2();
+        let level = (0.5 * doubled).floor();
+        let part = (doubled - 2.0 * level).min(1.0);
+        let coarsest = self.atlas[3] as usize;
+        match part * part * (3.0 - 2.0 * part) {
+            _ if level as usize >= coarsest => (coarsest, 0.0),
+            1.0 => (level as usize + 1, 0.0),
+            fade => (level as usize, fade),
+        }
     }
 }
 

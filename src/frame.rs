@@ -29,7 +29,6 @@ pub struct FrameUniforms {
     pub extent: [f32; 4],
     pub thick_extent: [f32; 4],
     pub slope: [f32; 4],
-    pub reduced_slope: [f32; 4],
     pub thick_slope: [f32; 4],
     pub texel: [f32; 4],
     pub scene_depth: [f32; 4],
@@ -94,7 +93,6 @@ shader::assert_layout!(
         extent,
         thick_extent,
         slope,
-        reduced_slope,
         thick_slope,
         texel,
         scene_depth,
@@ -223,6 +221,12 @@ impl Lens {
         Vec4::new(x, y, (self.p.z - 1.0) / self.p.x, (self.p.w - 1.0) / self.p.y)
     }
 
+    /// World size of a pixel per depth.
+    pub fn pixel(&self, full: vk::Extent2D) -> [f32; 2] {
+        let of = |texels: u32, p: f32| 2.0 / (texels as f32 * p.abs());
+        [of(full.width, self.p.x), of(full.height, self.p.y)]
+    }
+
     /// Device depth of nothing: of the far end.
     pub fn nothing(&self) -> f32 {
         // Eye depth of device depth 1: the near plane's where depth is reversed.
@@ -256,10 +260,8 @@ impl FrameUniforms {
     /// Fills the block for a frame.
     pub fn new(lens: &Lens, frame: &Frame<'_>, config: &Config) -> Self {
         let full = frame.output.rect.extent;
-        let level = config.smoothing_level;
-        let small = reduced(full, level);
+        let small = reduced(full, config.smoothing_level);
         let thick = reduced(full, config.thickness_level);
-        let scale = (1 << level) as f32;
         let water = &frame.settings.water;
         let light = &frame.settings.light;
         let radius = water.radius();
@@ -270,10 +272,7 @@ impl FrameUniforms {
             }
             Amplitude::Source => 0.8 * 2.0 * axis,
         };
-        let (c_x, c_y) = (
-            2.0 / (full.width as f32 * lens.p.x.abs()),
-            2.0 / (full.height as f32 * lens.p.y.abs()),
-        );
+        let [c_x, c_y] = lens.pixel(full);
         let ratio = |part: vk::Rect2D| {
             let (x, y) = (part.extent.width as f32, part.extent.height as f32);
             [x / full.width as f32, y / full.height as f32, x, y]
@@ -323,12 +322,11 @@ impl FrameUniforms {
                 thick.width as f32,
                 thick.height as f32,
                 (1 << config.thickness_level) as f32,
-                scale,
+                0.0,
             ],
             slope: lens.slope(full, 1.0).to_array(),
-            reduced_slope: lens.slope(full, scale).to_array(),
             thick_slope: lens.slope(full, (1 << config.thickness_level) as f32).to_array(),
-            texel: [c_x, c_y, c_x * scale, c_y * scale],
+            texel: [c_x, c_y, 0.0, 0.0],
             scene_depth: ratio(frame.scene_depth.rect),
             scene_color: ratio(scene_color),
             scene_origin: [depth_at[0], depth_at[1], color_at[0], color_at[1]],

@@ -97,7 +97,8 @@
 //! |---|---|---|---|
 //! | depth | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | smoothing, two images, and the plan, at half resolution | 3 w h | 2.6 MiB | 5.9 MiB |
-//! | the same a level coarser, for near views (`coarsening`) and the farther sheet | 1½ w h | 1.3 MiB | 3.0 MiB |
+//! | the same coarser, for what is near (`coarsening`) | 1½ w h | 1.3 MiB | 3.0 MiB |
+//! | the same of the farther sheet (`sheets`) | ¾ w h | 0.7 MiB | 1.5 MiB |
 //! | thickness and its sums at quarter resolution | ¾ w h | 0.7 MiB | 1.5 MiB |
 //! | two sheets: thickness of each, boundaries, depth of the farther (`sheets`) | 2½ w h | 2.2 MiB | 4.9 MiB |
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
@@ -129,8 +130,8 @@
 //! - The smoothing is mean curvature flow of the perspective surface itself
 //!   ([`Rule::ConstantWidth`](water::Rule)); the thesis' formula leaves the ray's slope out and
 //!   is right on the optical axis only. Its form is there as [`Rule::Source`](water::Rule).
-//! - Where the cap of iterations would leave near water rough, the whole image is smoothed a level
-//!   coarser, chosen on the GPU.
+//! - Where the cap of iterations would leave near water rough, it is smoothed a level coarser, each pixel by
+//!   its own distance.
 //! - Iterations are planned per pixel before the first, so that all forms do the same work; the
 //!   occlusion query's decision stays on the GPU.
 //! - Thickness is in metres of water: the integral of a sprite is the particle's volume.

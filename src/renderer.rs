@@ -7,7 +7,9 @@ use gpu_allocator::MemoryLocation;
 
 use crate::check;
 use crate::composite::{Composite, Surroundings};
-use crate::contract::{Config, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot};
+use crate::contract::{
+    Config, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot, SmoothingLevels,
+};
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
 use crate::foam::Foam;
@@ -25,6 +27,9 @@ use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
 use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
 use crate::water::{Recording, Water, buffers_of};
+
+/// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
+const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
 
 /// What one frame in flight owns.
 struct SlotState {
@@ -173,8 +178,12 @@ impl Renderer {
         slot.framebuffer = framebuffer;
         self.retired.recorded(frame.slot.0);
         let uniforms = FrameUniforms::new(&lens, frame, &self.config);
-        slot.uniforms.mapped_mut()[..size_of::<FrameUniforms>()]
-            .copy_from_slice(bytemuck::bytes_of(&uniforms));
+        let extent = frame.output.rect.extent;
+        let levels = SmoothingLevels::new(&self.config, &lens, extent, &frame.settings.water);
+        let mapped = slot.uniforms.mapped_mut();
+        mapped[..size_of::<FrameUniforms>()].copy_from_slice(bytemuck::bytes_of(&uniforms));
+        mapped[LEVELS..][..size_of::<SmoothingLevels>()]
+            .copy_from_slice(bytemuck::bytes_of(&levels));
 
         gpu.begin_label(cmd, c"whitewater");
         slot.timer.reset(gpu, cmd);
@@ -198,8 +207,13 @@ impl Renderer {
             cmd,
             descriptors: &slot.descriptors,
             timer: &mut slot.timer,
-            extent: frame.output.rect.extent,
+            extent,
             uniforms,
+            levels: Resource::Buffer(
+                slot.uniforms.handle,
+                LEVELS as u64,
+                size_of::<SmoothingLevels>() as u64,
+            ),
             scene_depth,
             sunlight: sunlight(frame, from, gpu, (scene_depth, uniforms)),
             read_back,
@@ -267,7 +281,7 @@ impl Renderer {
             ),
             active_samples: self.water.query_results(),
             counts: Some(self.water.counts()),
-            levels: Some(self.water.levels()),
+            levels: Some(levels),
             tiles: Some(self.water.tiles()),
             sheets: self.water.boundaries(),
         };
@@ -495,7 +509,7 @@ impl SlotState {
             uniforms: Buffer::new(
                 gpu,
                 "slot/uniforms",
-                size_of::<FrameUniforms>() as u64,
+                (LEVELS + size_of::<SmoothingLevels>()) as u64,
                 vk::BufferUsageFlags::UNIFORM_BUFFER,
                 MemoryLocation::CpuToGpu,
             )?,

@@ -11,11 +11,10 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 depth;         // device depth z -> x / (z + y); near, far
     vec4 planes[6];     // inward planes of the frustum, eye space
     vec4 extent;        // full width, height; reduced width, height
-    vec4 thick_extent;  // thickness width, height; its pixels' size, the reduced pixels' size
+    vec4 thick_extent;  // thickness width, height; its pixels' size; 0
     vec4 slope;         // full pixel -> slope: scale xy, offset zw
-    vec4 reduced_slope; // reduced pixel -> slope
     vec4 thick_slope;   // thickness pixel -> slope
-    vec4 texel;         // C_x C_y full, C_x C_y reduced: world size of a pixel per depth
+    vec4 texel;         // C_x C_y: world size of a pixel per depth; 0 0
     vec4 scene_depth;   // pixels of the scene's depth per full pixel, size of its part
     vec4 scene_color;   // the same of its colour
     vec4 scene_origin;  // first pixel of the part: of the scene's depth, of its colour

@@ -1,26 +1,54 @@
-// The resolutions of the smoothing (pass `level` writes them). Two of the front sheet share the
-// smoothing images and the plan, one above the other; mostly only the first is in use. The third,
-// of the back sheet, lies to the right of the second. Needs nothing. Reads: levels.
+// The resolutions of the smoothing. A pixel shows the one that its distance asks for: of the front sheet up to four,
+// each half of the one before, of the back sheet up to three from the second on. All lie in the smoothing images and
+// the plan, apart by whole tiles. Needs frame.glsl. Reads: levels.
 
 struct Level {
-    ivec4 rect;  // in the images: first texel, size
+    ivec4 rect;  // in the images: first texel, size; of what is not used 0
     vec4 slope;  // texel of the level, from its own corner -> slope: scale xy, offset zw
-    vec4 texel;  // C_x C_y: world size of a texel per depth; its edge in full pixels; weight
+    vec4 texel;  // C_x C_y: world size of a texel per depth; its edge in full pixels; 0
 };
 
+const uint LEVELS = 7u;
+const uint BACK = 4u; // the first of the back sheet
+
 layout(set = 0, binding = 7, std140) uniform Levels {
-    Level level[3];
-    ivec4 atlas; // size of the images; tiles a row; first row of the second level
+    Level level[7];
+    ivec4 atlas; // size of the images; tiles a row; levels coarser than the first
+    // Iterations of the first level at depth 1 on the axis, over a quarter of the cap; (C_x / C_y)^2 ; falloff; 0.
+    vec4 near;
 } levels;
 
-// The level that a texel of the images belongs to.
+// The level that a texel of the images belongs to; LEVELS: none.
 uint level_of(ivec2 texel) {
-    return texel.y < levels.atlas.w ? 0u : texel.x < levels.level[2].rect.x ? 1u : 2u;
+    uint own = LEVELS;
+    for (uint i = 0u; i < LEVELS; ++i) {
+        ivec2 at = texel - levels.level[i].rect.xy;
+        bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, levels.level[i].rect.zw));
+        own = inside ? i : own;
+    }
+    return own;
 }
 
-// The finer one of the front sheet's in use.
-uint finer_level() {
-    vec2 weight = vec2(levels.level[0].texel.w, levels.level[1].texel.w);
-    vec2 edge = vec2(levels.level[0].texel.z, levels.level[1].texel.z);
-    return weight.y > 0.0 && (weight.x == 0.0 || edge.y < edge.x) ? 1u : 0u;
+// Off the axis a pixel sees the surface foreshortened, flat pixels are nearer to each other in y: more,
+// smaller steps keep the smoothing stable.
+float foreshortened(vec2 slope) {
+    return 1.0 + slope.x * slope.x + (1.0 + slope.y * slope.y) * levels.near.y;
+}
+
+// The iterations of the first level at a depth, over a quarter of the cap. From 1 on the next level fades in, from
+// 2 on it is alone, until at 4 the one after it begins: a level coarser needs a quarter of the iterations.
+float nearness(float z, vec2 slope) {
+    return levels.near.x * foreshortened(slope) / (z * z);
+}
+
+// The level that a point shows, and how far the next one has faded in. By the distance, not by time: a
+// frame looks the same however it was come to.
+uint shown_level(float near, out float fade) {
+    float doubled = log2(max(near, 1.0));
+    float level = floor(0.5 * doubled);
+    float part = min(doubled - 2.0 * level, 1.0);
+    fade = part * part * (3.0 - 2.0 * part);
+    level += fade == 1.0 ? 1.0 : 0.0;
+    fade = fade == 1.0 || level >= float(levels.atlas.w) ? 0.0 : fade;
+    return min(uint(level), uint(levels.atlas.w));
 }

@@ -10,9 +10,8 @@
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
-// 1: the surface is smoothed at the configured level alone. A pipeline each, not a branch: a CPU
-// would run both sides.
-layout(constant_id = 2) const uint CONFIGURED = 1;
+// 1: coarser levels of the smoothing may show. A pipeline each, not a branch: a CPU would run both sides.
+layout(constant_id = 2) const uint NEAR = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -51,7 +50,7 @@ vec2 thickness_at(Surface s, Level level, vec2 pixel, float threshold, out ivec2
         return texelFetch(thickness, base, 0).xy;
     }
     ivec2 last = ivec2(frame.thick_extent.xy) - 1;
-    if (THICKNESS == 2u || (CONFIGURED == 0u && level.texel.z != frame.thick_extent.z)) {
+    if (THICKNESS == 2u || (NEAR == 1u && level.texel.z != frame.thick_extent.z)) {
         vec2 h = pixel / frame.thick_extent.z - 0.5;
         base = ivec2(floor(h));
         vec2 f = h - vec2(base);
@@ -427,23 +426,32 @@ Sheet between(Foam foam, vec2 pixel, float t) {
     return Sheet(t * length(vec3(ray_slope(pixel, frame.slope), 1.0)), vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
 }
 
+// A surface on the way to the same one at the next coarser level.
+Surface towards(Surface surface, Surface other, float fade) {
+    surface.z = mix(surface.z, other.z, fade);
+    surface.dz = mix(surface.dz, other.dz, fade);
+    surface.found = mix(surface.found, other.found, fade);
+    surface.widened = surface.widened || other.widened;
+    return surface;
+}
+
 // Colour of scene, water and foam at a pixel (its centre, at +0.5).
 vec3 layers_at(vec2 pixel, float front) {
     float threshold = frame.surface.w;
-    uint finer = CONFIGURED == 1u ? 0u : finer_level();
-    Level level = levels.level[finer];
+    vec2 slope = ray_slope(pixel, frame.slope);
+    float fade = 0.0;
+    uint shown = NEAR == 1u ? shown_level(nearness(front, slope), fade) : 0u;
+    Level level = levels.level[shown];
     Surface surface = surface_at(level, pixel, front, threshold);
     ivec2 base;
     vec4 weights;
     vec2 all = thickness_at(surface, level, pixel, threshold, base, weights);
     float t = all.x;
-    Level coarser = levels.level[1u - finer];
-    if (CONFIGURED == 0u && coarser.texel.w > 0.0) {
-        Surface other = surface_at(coarser, pixel, front, threshold);
-        surface.z = mix(surface.z, other.z, coarser.texel.w);
-        surface.dz = mix(surface.dz, other.dz, coarser.texel.w);
-        surface.found = mix(surface.found, other.found, coarser.texel.w);
-        surface.widened = surface.widened || other.widened;
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    bool fading = NEAR == 1u && fade > 0.0;
+    while (fading) {
+        surface = towards(surface, surface_at(levels.level[shown + 1u], pixel, front, threshold), fade);
+        fading = false;
     }
 
     Sheet back = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
@@ -458,7 +466,18 @@ vec3 layers_at(vec2 pixel, float front) {
         share = covers ? thick.yz : thick.yw;
     }
     if (SHEETS == 2u) {
-        Surface other = surface_at(levels.level[2], pixel, covers ? -1.0 : front, threshold);
+        // Its first level is the front sheet's second.
+        uint behind_shown = NEAR == 1u ? shown_level(nearness(covers ? boundary : front, slope), fade) : 0u;
+        fade = behind_shown > 0u ? fade : 0.0;
+        behind_shown = BACK + max(behind_shown, 1u) - 1u;
+        Surface other = surface_at(levels.level[behind_shown], pixel, covers ? -1.0 : front, threshold);
+        bool fading = NEAR == 1u && fade > 0.0;
+        while (fading) {
+            Surface next = surface_at(levels.level[behind_shown + 1u], pixel, covers ? -1.0 : front, threshold);
+            other.covered = mix(other.covered, next.covered, fade);
+            other = towards(other, next, fade);
+            fading = false;
+        }
         if (covers) {
             // As the air between closes they become one: the cells that tell them apart don't show.
             float open = smoothstep(1.0, 4.0, (other.z - surface.z - t) / frame.particle.y);

@@ -5,7 +5,9 @@ layout(set = 0, binding = 5) uniform sampler2D smoothed;
 
 // Depth of the smoothed surface that a pixel's own depth lies on: the mean of the texels of it.
 float smoothed_at(vec2 pixel, float front) {
-    Level level = levels.level[finer_level()];
+    float fade;
+    uint finer = shown_level(nearness(front, ray_slope(pixel, frame.slope)), fade);
+    Level level = levels.level[fade < 0.5 ? finer : finer + 1u];
     vec2 h = pixel / level.texel.z - 0.5;
     ivec2 base = ivec2(floor(h));
     vec2 f = h - vec2(base);

@@ -65,7 +65,7 @@ ivec4 behind_boundary(vec4 sphere, ivec4 box, int edge) {
 }
 
 void main() {
-    Level level = levels.level[2];
+    Level level = levels.level[BACK];
     if (LARGE == 0u) {
         uint index = gl_GlobalInvocationID.x;
         if (index >= counts.small) {

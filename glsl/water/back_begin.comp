@@ -1,8 +1,8 @@
 #version 460
-// Pass `back`, first part: which tiles of the back sheet's level have a boundary in or round them,
-// and for those the depth of what is one sheet, so that the smoothing finds its neighbours.
+// Pass `back`, first part: in the tiles of the back sheet's first level that have a boundary in or round them
+// the depth of what is one sheet, so that the smoothing finds its neighbours; elsewhere nothing.
 // Not in the source.
-// Reads: boundaries, levels, depth. Writes: back, work of the level's tiles (1: wanted).
+// Reads: boundaries, levels, depth. Writes: back.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -12,7 +12,6 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(set = 0, binding = 1) uniform sampler2D depth;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D back;
-layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
 shared uint wanted;
 
@@ -33,7 +32,7 @@ bool boundary_near(ivec2 corner, int edge) {
 }
 
 void main() {
-    Level level = levels.level[2];
+    Level level = levels.level[BACK];
     int edge = int(level.texel.z);
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16;
     if (any(greaterThanEqual(corner, level.rect.zw))) {
@@ -48,13 +47,9 @@ void main() {
     }
     barrier();
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);
-    if (wanted == 1u && all(lessThan(p, level.rect.zw))) {
+    if (all(lessThan(p, level.rect.zw))) {
         ivec2 pixel = min(p * edge + edge / 2, ivec2(frame.extent.xy) - 1);
-        bool two = boundary_at(pixel) < EMPTY;
-        imageStore(back, p, vec4(two ? EMPTY : texelFetch(depth, pixel, 0).x));
-    }
-    if (gl_LocalInvocationIndex == 0u) {
-        ivec2 tile = level.rect.xy / 16 + ivec2(gl_WorkGroupID.xy);
-        tile_work[tile.y * levels.atlas.z + tile.x] = wanted;
+        bool one = wanted == 1u && boundary_at(pixel) >= EMPTY;
+        imageStore(back, p, vec4(one ? texelFetch(depth, pixel, 0).x : EMPTY));
     }
 }

@@ -1,7 +1,7 @@
 #version 460
-// Pass `back`, last part: the back sheet joins the levels of the smoothing, where its tiles are
-// wanted. Not in the source. Reads: back, levels. Writes: both smoothing images, plan, work of the level's
-// tiles.
+// Pass `back`, last part: the back sheet joins the levels of the smoothing: its first as it is, of each coarser one that
+// the frame needs the nearest of each block. Not in the source.
+// Reads: back, levels, levels needed. Writes: both smoothing images, plan, work of the levels' tiles.
 
 #include "frame.glsl"
 #include "plan.glsl"
@@ -14,41 +14,47 @@ layout(set = 0, binding = 1, r32f) uniform readonly image2D back;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
-layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Needed { uint needed; };
 
 #include "reduction.glsl"
 
-shared uint wanted;
 shared uint most;
 
 void main() {
-    Level level = levels.level[2];
+    uint coarser = gl_WorkGroupID.z; // than its first, which is the front sheet's second
+    Level level = levels.level[BACK + coarser];
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16;
     if (any(greaterThanEqual(corner, level.rect.zw))) {
         return;
     }
-    ivec2 tile = level.rect.xy / 16 + ivec2(gl_WorkGroupID.xy);
     if (gl_LocalInvocationIndex == 0u) {
-        wanted = tile_work[tile.y * levels.atlas.z + tile.x];
         most = 0u;
     }
     barrier();
+    bool wanted = coarser == 0u || coarser < needed;
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (all(lessThan(texel, level.rect.zw))) {
-        // Beside the wanted tiles there is nothing to smooth with.
-        float z = wanted == 1u ? imageLoad(back, texel).x : EMPTY;
-        float count;
-        uint planned = plan_pixel(z, ray_slope(vec2(texel) + 0.5, level.slope), level.texel.xy, count);
+    if (wanted && all(lessThan(texel, level.rect.zw))) {
+        float z = EMPTY;
+        ivec2 end = min((texel + 1) << coarser, levels.level[BACK].rect.zw);
+        for (int y = texel.y << coarser; y < end.y; ++y) {
+            for (int x = texel.x << coarser; x < end.x; ++x) {
+                z = min(z, imageLoad(back, ivec2(x, y)).x);
+            }
+        }
+        bool coarsest = int(coarser) + 1 >= levels.atlas.w;
+        uint planned = plan_pixel(z, vec2(texel), level, coarser + 1u, coarser == 0u, coarsest);
         ivec2 p = level.rect.xy + texel;
         imageStore(smooth_a, p, vec4(z));
         imageStore(smooth_b, p, vec4(z));
         imageStore(plan, p, uvec4(planned));
-        if (z < EMPTY) {
+        if (planned > 0u) {
             atomicMax(most, plan_count(planned) + 1u);
         }
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
+        ivec2 tile = level.rect.xy / 16 + ivec2(gl_WorkGroupID.xy);
         tile_work[tile.y * levels.atlas.z + tile.x] = most;
     }
 }

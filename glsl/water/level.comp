@@ -1,72 +1,68 @@
 #version 460
-// Pass `level`: chooses the resolution of the smoothing. Where more of the picture than OVER would
-// pass the cap, it goes a level coarser (a quarter of the iterations); before that the coarser
-// level fades in. By the view, not by time: a frame looks the same however it was come to.
-// The back sheet, seen through the front one alone, takes the next coarser level. Not in the source, which
-// caps.
-// Reads: how many pixels pass the cap. Writes: levels, the dispatch of the coarser reduction.
+// Pass `level`: the reduction again for each level that is coarser than the configured one, in the tiles
+// where some of the water is so near as to need it. Not in the source, whose cap leaves near water
+// rough.
+// Reads: levels, depth (occluded pixels emptied), marks of the levels' tiles. Writes: both smoothing images,
+// plan, work of the levels' tiles.
 
 #include "frame.glsl"
+#include "plan.glsl"
+#include "level.glsl"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(constant_id = 1) const uint RULE = 1;
 
-struct Level {
-    ivec4 rect;
-    vec4 slope;
-    vec4 texel;
-};
+layout(set = 0, binding = 1, r32f) uniform readonly image2D depth;
+layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
+layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
+layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
+layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
 
-layout(set = 0, binding = 1, std430) readonly buffer Over { uint over[4]; };
-layout(set = 0, binding = 2, std430) writeonly buffer Levels {
-    Level level[3];
-    ivec4 atlas;
-} levels;
-layout(set = 0, binding = 3, std430) writeonly buffer Arguments { uvec4 arguments; };
+#include "block.glsl"
+#include "reduction.glsl"
 
-layout(push_constant, std430) uniform Push {
-    ivec4 atlas;
-    uint coarsening; // most levels coarser
-    int back;        // first column of the back sheet's level; the images' width: there is none
-} push;
-
-// Share of the picture's pixels that may be capped: less is hardly seen, and one drop before the
-// lens shall not cost the whole picture its resolution.
-const float OVER = 1.0 / 16.0;
-// Fades shorter than this are not worth a second smoothing.
-const float LEAST = 1.0 / 64.0;
+shared uint most;
 
 void main() {
-    float pixels = frame.extent.z * frame.extent.w;
-    float wanted = 0.0;
-    for (uint k = 0u; k < push.coarsening; ++k) {
-        uint capped = 0u;
-        for (uint j = k; j < 4u; ++j) {
-            capped += over[j];
-        }
-        wanted += smoothstep(0.25 * OVER, OVER, float(capped) / pixels);
+    uint level = gl_WorkGroupID.z + 1u;
+    Level own = levels.level[level];
+    int edge = int(own.texel.z);
+    ivec2 tile = ivec2(gl_WorkGroupID.xy);
+    if (any(greaterThanEqual(16 * tile, own.rect.zw))) {
+        return;
     }
-    uint fine = uint(wanted + LEAST);
-    float fade = wanted - float(fine);
-    fade = fade > LEAST ? fade : 0.0;
-
-    uvec3 groups = uvec3(0u, 0u, 2u);
-    for (uint i = 0u; i < 3u; ++i) {
-        // A level lies in the first half of the images or in the second, by its parity.
-        uint coarser = i < 2u && (fine & 1u) == i ? fine : fine + 1u;
-        float scale = float(1u << coarser);
-        int edge = int(frame.thick_extent.w * scale);
-        ivec2 size = (ivec2(frame.extent.xy) + edge - 1) / edge;
-        float weight = coarser == fine ? 1.0 - fade : fade;
-        if (i == 2u) {
-            weight = push.back < push.atlas.x ? 1.0 : 0.0;
+    tile += own.rect.xy / 16;
+    uint index = uint(tile.y * levels.atlas.z + tile.x);
+    uint mark = tile_work[index];
+    if (mark == 0u) {
+        return;
+    }
+    if (gl_LocalInvocationIndex == 0u) {
+        most = 0u;
+    }
+    barrier();
+    ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+    if (all(lessThan(block, own.rect.zw))) {
+        // Beside the tiles that need it there is nothing to smooth with.
+        float z = EMPTY;
+        ivec2 end = mark == 2u ? min((block + 1) * edge, ivec2(frame.extent.xy)) : ivec2(0);
+        for (int y = block.y * edge; y < end.y; ++y) {
+            for (int x = block.x * edge; x < end.x; ++x) {
+                z = min(z, imageLoad(depth, ivec2(x, y)).x);
+            }
         }
-        levels.level[i].rect = ivec4(i == 2u ? push.back : 0, i == 0u ? 0 : push.atlas.w, size);
-        levels.level[i].slope = frame.reduced_slope * vec4(scale, scale, 1.0, 1.0);
-        levels.level[i].texel = vec4(frame.texel.zw * scale, frame.thick_extent.w * scale, weight);
-        if (i < 2u && coarser > 0u && weight > 0.0) {
-            groups.xy = max(groups.xy, (uvec2(size) + 15u) / 16u);
+        z = block_depth(block * edge, end, z);
+        uint planned = plan_pixel(z, vec2(block), own, level, false, level == uint(levels.atlas.w));
+        ivec2 p = own.rect.xy + block;
+        imageStore(smooth_a, p, vec4(z));
+        imageStore(smooth_b, p, vec4(z));
+        imageStore(plan, p, uvec4(planned));
+        if (planned > 0u) {
+            atomicMax(most, plan_count(planned) + 1u);
         }
     }
-    levels.atlas = push.atlas;
-    arguments = uvec4(groups, 0u);
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) {
+        tile_work[index] = most;
+    }
 }

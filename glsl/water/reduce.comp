@@ -2,11 +2,12 @@
 // Pass `reduce`: hides water behind the scene, takes the nearest surface of each block of pixels
 // (but no drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1,
 // Listing A.12).
-// Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan,
-// work of every tile (its most iterations + 1; 0 without water), how many pixels pass the cap.
+// Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan,
+// work of every tile, marks of the coarser levels' tiles, levels needed.
 
 #include "frame.glsl"
 #include "plan.glsl"
+#include "level.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const uint LEVEL = 1;
@@ -17,11 +18,12 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
-layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
-// Pixels that pass the cap until the smoothing is one, two, three, more levels coarser.
-layout(set = 0, binding = 8, std430) buffer Over { uint over[4]; };
-
-layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a row
+// Most iterations + 1, 0 without water; from bit 16 on the coarsest level needed in it, at bit 24
+// whether one may show. Of a coarser level's tile until `level` has made it: 2 where something in it needs it,
+// 1 beside such, else 0.
+layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
+// The coarsest level needed in the frame.
+layout(set = 0, binding = 8, std430) buffer Needed { uint needed; };
 
 #include "foam_texels.glsl"
 #include "beside.glsl"
@@ -29,13 +31,14 @@ layout(push_constant, std430) uniform Push { uint columns; } push; // tiles a ro
 #include "reduction.glsl"
 
 shared uint most;
-shared uint tile_over[4];
+shared uint nearest_bits;
 
-// Depth of the block in front of the scene; whether something is drawn there that is no water.
-float reduced(ivec2 block, out bool other) {
+// Depth of the block in front of the scene, and of what of it is nearest; whether something is drawn there that is
+// no water.
+float reduced(ivec2 block, out float best, out bool other) {
     ivec2 extent = ivec2(frame.extent.xy);
     other = foam_beside(block << LEVEL, 1 << LEVEL);
-    float best = EMPTY;
+    best = EMPTY;
     for (int y = 0; y < (1 << LEVEL); ++y) {
         for (int x = 0; x < (1 << LEVEL); ++x) {
             ivec2 pixel = (block << LEVEL) + ivec2(x, y);
@@ -59,19 +62,33 @@ float reduced(ivec2 block, out bool other) {
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 
+// Has the coarser levels made over a tile and, for their neighbourhoods, in the tiles beside.
+void mark(ivec2 own, uint coarsest) {
+    for (uint i = 1u; i <= coarsest; ++i) {
+        ivec4 rect = levels.level[i].rect;
+        ivec2 over = own >> i;
+        for (int k = 0; k < 9; ++k) {
+            ivec2 at = over + ivec2(k % 3, k / 3) - 1;
+            if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(16 * at, rect.zw))) {
+                at += rect.xy / 16;
+                atomicMax(tile_work[at.y * levels.atlas.z + at.x], k == 4 ? 2u : 1u);
+            }
+        }
+    }
+}
+
 void main() {
-    if (gl_LocalInvocationIndex < 4u) {
-        tile_over[gl_LocalInvocationIndex] = 0u;
+    if (gl_LocalInvocationIndex == 0u) {
+        nearest_bits = 0u;
         most = 0u;
     }
     barrier();
     ivec2 block = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(block, ivec2(frame.extent.zw)))) {
+        float nearest;
         bool other;
-        float z = reduced(block, other);
-        float count;
-        vec2 slope = ray_slope(vec2(block) + 0.5, frame.reduced_slope);
-        uint planned = plan_pixel(z, slope, frame.texel.zw, count);
+        float z = reduced(block, nearest, other);
+        uint planned = plan_pixel(z, vec2(block), levels.level[0], 0u, true, levels.atlas.w == 0);
         imageStore(smooth_a, block, vec4(z));
         imageStore(smooth_b, block, vec4(z));
         imageStore(plan, block, uvec4(planned));
@@ -79,18 +96,21 @@ void main() {
         if (z < EMPTY || other) {
             atomicMax(most, plan_count(planned) + 1u);
         }
-        float cap = frame.smoothing.z;
-        if (count > cap) {
-            // Each level coarser divides the iterations by four.
-            float excess = (count - MORE) / max(cap - MORE, 1.0);
-            atomicAdd(tile_over[uint(clamp(ceil(0.5 * log2(excess)), 1.0, 4.0)) - 1u], 1u);
+        float near = nearness(nearest, ray_slope(vec2(block) + 0.5, levels.level[0].slope));
+        if (levels.atlas.w > 0 && near >= 0.8) {
+            atomicMax(nearest_bits, floatBitsToUint(near));
         }
     }
     barrier();
     if (gl_LocalInvocationIndex == 0u) {
-        tile_work[gl_WorkGroupID.y * push.columns + gl_WorkGroupID.x] = most;
-    }
-    if (gl_LocalInvocationIndex < 4u && tile_over[gl_LocalInvocationIndex] > 0u) {
-        atomicAdd(over[gl_LocalInvocationIndex], tile_over[gl_LocalInvocationIndex]);
+        float near = uintBitsToFloat(nearest_bits);
+        uint coarsest = near < 0.8 ? 0u : min(uint(0.5 * log2(1.25 * near)) + 1u, uint(levels.atlas.w));
+        // A pixel's own ray is less than a texel beside that of its block.
+        uint shows = near < 0.9 ? 0u : 1u;
+        tile_work[gl_WorkGroupID.y * levels.atlas.z + gl_WorkGroupID.x] = most | coarsest << 16 | shows << 24;
+        if (coarsest > 0u) {
+            atomicMax(needed, coarsest);
+            mark(ivec2(gl_WorkGroupID.xy), coarsest);
+        }
     }
 }

@@ -21,6 +21,7 @@ layout(push_constant, std430) uniform Push {
     uint block;
 } push;
 
+layout(location = 0) flat in uint own;
 layout(location = 0) out float moved;
 
 #include "smoothing.glsl"
@@ -47,7 +48,7 @@ void main() {
         return;
     }
     if (active_here) {
-        Level level = levels.level[level_of(p)];
+        Level level = levels.level[own];
         ivec4 rect = level.rect;
         Stencil s;
         s.z = moved;

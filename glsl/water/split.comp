@@ -1,8 +1,9 @@
 #version 460
-// Pass `split`: the tiles with water again, apart by whether they hold a boundary and whether they hold foam,
-// so that `composite` can shade each kind with a shader that knows of no more.
+// Pass `split`: the first level's tiles with water again, apart by whether they hold a boundary, whether they hold
+// foam and whether coarser levels show in them, so that `composite` can shade each kind with a shader that knows of
+// no more.
 // Not in the source.
-// Reads: tile list and arguments, levels, boundaries, foam depth and thickness. Writes: four lists, their
+// Reads: tile list and arguments, work, levels, boundaries, foam depth and thickness. Writes: eight lists, their
 // lengths.
 
 #include "frame.glsl"
@@ -15,11 +16,12 @@ layout(constant_id = 9) const uint FOAM = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// One sheet, two, the same with foam: each list has room for all tiles.
+// One sheet, two, the same with foam, all these with coarser levels: each list has room for all tiles.
 layout(set = 0, binding = 3, std430) writeonly buffer Lists { uint lists[]; };
-layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[4]; };
+layout(set = 0, binding = 4, std430) buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 5) uniform sampler2D foam_depth;
 layout(set = 0, binding = 6) uniform sampler2D foam_thickness;
+layout(set = 0, binding = 8, std430) readonly buffer Tiles { uint tile_work[]; };
 
 layout(push_constant, std430) uniform Push { uint tiles; } push; // at most
 
@@ -27,23 +29,23 @@ shared uint kind;
 
 void split(uint tile) {
     ivec2 texel = ivec2(tile % uint(levels.atlas.z), tile / uint(levels.atlas.z)) * 16;
-    uint own = level_of(texel);
-    // Others are not shaded.
-    if (own != finer_level()) {
+    // The first level covers the picture: others are not shaded.
+    if (any(greaterThanEqual(texel, levels.level[0].rect.zw))) {
         return;
     }
+    uint near = tile_work[tile] >> 24;
     if (gl_LocalInvocationIndex == 0u) {
-        kind = 0u;
+        kind = near << 2;
     }
     barrier();
-    // A tile is 16 texels wide; one more to each side, which what is in front may be widened by. So the texels of the
-    // thickness beside the tile are looked at too, which is read between its texels.
-    ivec4 rect = levels.level[own].rect;
-    float edge = levels.level[own].texel.z;
-    vec2 corner = vec2(texel - rect.xy) * edge;
+    // A tile is 16 texels wide; one more to each side, of the coarsest level that shows, which what is in front may be
+    // widened by. So the texels of the thickness beside the tile are looked at too, which is read between its texels.
+    float edge = levels.level[0].texel.z;
+    float wider = near == 0u ? edge : edge * exp2(float(tile_work[tile] >> 16 & 255u));
+    vec2 corner = vec2(texel) * edge;
     float scale = 1.0 / frame.thick_extent.z;
-    ivec2 first = max(ivec2(floor((corner - edge) * scale)), ivec2(0));
-    ivec2 last = min(ivec2(floor((corner + 17.0 * edge) * scale)), ivec2(frame.thick_extent.xy) - 1);
+    ivec2 first = max(ivec2(floor((corner - wider) * scale)), ivec2(0));
+    ivec2 last = min(ivec2(floor((corner + 16.0 * edge + wider) * scale)), ivec2(frame.thick_extent.xy) - 1);
     last = SHEETS == 1u && FOAM == 0u ? first - 1 : last;
     uint found = 0u;
     for (int y = first.y + int(gl_LocalInvocationID.y); y <= last.y; y += 8) {

@@ -20,12 +20,10 @@ layout(push_constant, std430) uniform Push {
     uint most_groups;
 } push;
 
-// Work of a tile; 0 of those that no level in use covers.
+// Work of a tile; 0 of those that no level covers.
 uint work_of(uint tile) {
     ivec2 corner = ivec2(int(tile) % levels.atlas.z, int(tile) / levels.atlas.z) * 16;
-    Level level = levels.level[level_of(corner)];
-    bool used = level.texel.w > 0.0 && all(lessThan(corner, level.rect.xy + level.rect.zw));
-    return used ? tile_work[tile] : 0u;
+    return level_of(corner) < LEVELS ? tile_work[tile] & 0xffffu : 0u;
 }
 
 shared uint histogram[512];

@@ -62,8 +62,8 @@ impl Foam {
         environment: &Environment,
         water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
-        let WaterLayers { depth, smoothed, level, .. } = *water;
-        let surface = radiance::Surface { depth, smoothed, levels: level.resource() };
+        let WaterLayers { depth, smoothed, .. } = *water;
+        let surface = radiance::Surface { depth, smoothed };
         self.radiance.record(r, &self.sprites, environment, surface)
     }
 

@@ -54,7 +54,6 @@ fn points() -> Vec<[f32; 4]> {
 pub struct Surface<'a> {
     pub depth: &'a Image,
     pub smoothed: &'a Image,
-    pub levels: Resource,
 }
 
 /// The passes.
@@ -154,7 +153,7 @@ impl Radiance {
             (1, Resource::storage(sprites.occluders())),
             (2, sampled(water.depth)),
             (5, sampled(water.smoothed)),
-            (7, water.levels),
+            (7, r.levels),
         ];
         r.descriptors.bind(gpu, cmd, &self.surface, &resources)?;
         r.dispatch_over(r.extent, self.surface.local_size);

@@ -12,6 +12,7 @@ mod draw;
 mod environment;
 mod generate;
 mod inputs;
+mod levels;
 mod readback;
 pub mod scene;
 mod stage;
@@ -33,7 +34,9 @@ use stage::Stage;
 use submit::{Commands, begin, submit};
 
 use crate::composite::way;
-use crate::contract::{Access, Config, Layer, ParticleCounts, Previous, Region, Slot};
+use crate::contract::{
+    Access, Config, Layer, ParticleCounts, Previous, Region, Slot, SmoothingLevels,
+};
 use crate::environment::Sky;
 use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
@@ -88,7 +91,7 @@ pub struct Headless {
     count: u32,
     layers: Vec<Layer>,
     counts: Option<ParticleCounts>,
-    levels: Option<vk::Buffer>,
+    levels: Option<SmoothingLevels>,
     active_samples: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
     device: Device,

@@ -3,8 +3,9 @@
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
+use super::levels::{self, BACK, FRONT};
 use super::{COLOR_FORMAT, COLOR_REST, Counts, DEPTH_FORMAT, DEPTH_REST, Headless, Picture};
-use crate::contract::{Access, SmoothingLevels};
+use crate::contract::{Access, Layer, SmoothingLevels};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_READ, COPY_WRITE};
@@ -178,17 +179,12 @@ impl Headless {
     }
 
     /// At which resolutions the last frame was smoothed.
-    ///
-    /// # Errors
-    /// No memory, and what Vulkan reports.
-    pub fn levels(&mut self) -> Result<Option<SmoothingLevels>, Error> {
-        let Some(buffer) = self.levels else { return Ok(None) };
-        let words = self.read_buffer(buffer, size_of::<SmoothingLevels>() as u64)?;
-        Ok(Some(bytemuck::pod_read_unaligned(bytemuck::cast_slice(&words))))
+    pub fn levels(&self) -> Option<SmoothingLevels> {
+        self.levels
     }
 
     /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
-    /// smoothing come at the finest resolution in use; `water.back` is the smoothed back sheet, and
+    /// smoothing come at its configured resolution, each texel of the level that shows there; `water.back` is the smoothed back sheet, and
     /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`, and
     /// `water.foam.front`, what lies right behind the frontmost, of `water.foam.thickness`, and
     /// `motion.X` and `motion.Y` of `motion`; of diffuse particles there are `foam` (depth), `foam.intensity`,
@@ -214,18 +210,10 @@ impl Headless {
         let Some(layer) = self.layers.iter().find(|layer| layer.name == image).copied() else {
             return Ok(None);
         };
-        let mut area = vk::Rect2D::from(layer.extent);
-        if ["water.surface", "water.iterations"].contains(&image)
-            && let Some(levels) = self.levels()?
-        {
-            let level = if name == "water.back" { &levels.level[2] } else { levels.finer() };
-            if level.texel[3] == 0.0 {
-                return Ok(None);
-            }
-            let [x, y, width, height] = level.rect;
-            area.offset = vk::Offset2D { x, y };
-            area.extent = vk::Extent2D { width: width as u32, height: height as u32 };
+        if ["water.surface", "water.iterations"].contains(&image) {
+            return self.smoothing(name, layer);
         }
+        let area = vk::Rect2D::from(layer.extent);
         let channel = match name {
             "water.thickness.back" | "water.foam.front" | "motion.Y" => 1,
             "foam.intensity" | "foam.submerged" | "foam.normal.Y" | "foam.irradiance.G" => 1,
@@ -248,17 +236,30 @@ impl Headless {
                 self.read(layer.image, layer.format, area, layer.access)?;
             return Ok(Some(both.map(|both| both[channel])));
         }
-        if layer.format == vk::Format::R32_UINT {
-            let plan: Picture<u32> = self.read(layer.image, layer.format, area, layer.access)?;
-            // Iterations are the low nine bits of the plan.
-            return Ok(Some(plan.map(|p| (p & 511) as f32)));
-        }
         if layer.format == vk::Format::R16G16_SFLOAT {
             let half: Picture<[u16; 2]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
             return Ok(Some(half.map(|both| half::f16::from_bits(both[0]).to_f32())));
         }
         self.read(layer.image, layer.format, area, layer.access).map(Some)
+    }
+
+    /// A layer of the smoothing, of all its levels.
+    fn smoothing(&mut self, name: &str, layer: Layer) -> Result<Option<Picture<f32>>, Error> {
+        let Some(levels) = self.levels else { return Ok(None) };
+        let sheet = if name == "water.back" { BACK } else { FRONT };
+        let surface = self.layers.iter().find(|layer| layer.name == "water.surface").copied();
+        let Some(surface) = surface.filter(|_| sheet.is_in(&levels)) else { return Ok(None) };
+        let [width, height] = [levels.atlas[0], levels.atlas[1]].map(|v| v as u32);
+        let area = vk::Rect2D::from(vk::Extent2D { width, height });
+        let depth = self.read(surface.image, surface.format, area, surface.access)?;
+        if layer.format != vk::Format::R32_UINT {
+            return Ok(Some(levels::surface(&levels, &depth, sheet)));
+        }
+        let plan: Picture<u32> = self.read(layer.image, layer.format, area, layer.access)?;
+        // Iterations are the low nine bits of the plan.
+        let plan = plan.map(|p| (p & 511) as f32);
+        Ok(Some(levels::iterations(&levels, &depth, &plan)))
     }
 
     /// Copies a part of an image to the CPU; it is back in its state afterwards.

@@ -2,10 +2,10 @@
 //!
 //! Not in the source. One level coarser than the front sheet's smoothing and one sample a texel: it
 //! is only seen through water. It joins the levels in the smoothing images, so that every form of the
-//! smoothing takes it along. Only tiles near a boundary are made, of those that `thickness` has left;
+//! smoothing takes it along. Only what is near a boundary is made, of those that `thickness` has left;
 //! the nearest of each block of texels comes first, so that most spheres need not look at them all.
-//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its level both smoothing
-//! images, plan, each tile's work.
+//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its levels both
+//! smoothing images, plan, each tile's work.
 
 use ash::vk;
 
@@ -13,7 +13,7 @@ use super::Recording;
 use super::cull::SphereList;
 use super::depth::dispatch_sprites;
 use super::gaps::{blocks_buffer, dispatch_blocks};
-use super::level::Level;
+use super::level::{Level, coarsening};
 use super::reduce::{PLAN_AFTER, rule_constant};
 use super::smooth::Smooth;
 use super::tiles::{TILE, Tiles};
@@ -37,7 +37,10 @@ pub struct Back {
     large: Pipeline,
     plan: Pipeline,
     /// Eye depth of the back sheet, unsmoothed.
-    pub image: Image,
+    image: Image,
+    /// Its first level, and how many it has.
+    level: u32,
+    levels: u32,
     /// Of each block of 16×16 pixels the nearest boundary.
     blocks: Buffer,
 }
@@ -60,6 +63,8 @@ impl Back {
             large: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 1)])?,
             plan: Pipeline::compute(gpu, shader::WATER_BACK_PLAN_COMP, &rule)?,
             image: Self::image(gpu, config)?,
+            level: config.smoothing_level + 1,
+            levels: coarsening(config).max(1),
             blocks: blocks_buffer(gpu, "water/back/blocks", config)?,
         })
     }
@@ -104,19 +109,18 @@ impl Back {
         let scope = r.begin(c"back");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let Into { smooth, plan, tiles, level } = into;
-        // At most; the GPU knows the level.
-        let extent = self.image.extent;
+        let extent = reduced(r.extent, self.level);
         let groups = [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)];
-        let dispatch = || {
+        let dispatch = |levels| {
             // SAFETY: outside a render pass, pipeline and set are bound.
-            unsafe { gpu.device.cmd_dispatch(cmd, groups[0], groups[1], 1) };
+            unsafe { gpu.device.cmd_dispatch(cmd, groups[0], groups[1], levels) };
         };
         dispatch_blocks(r, &self.nearest, boundaries, &self.blocks)?;
         let boundaries = Resource::buffer(boundaries);
         gpu.barriers(
             cmd,
             &[access::image(&self.image, COMPUTE_READ.discarded(), COMPUTE_WRITE)],
-            &[buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE)],
+            &[],
         );
         r.descriptors.bind(
             gpu,
@@ -126,18 +130,17 @@ impl Back {
                 (0, r.uniforms),
                 (1, Resource::Sampled(depth.view, gpu.samplers.nearest)),
                 (3, Resource::storage(&self.image)),
-                (6, Resource::buffer(&tiles.work)),
-                (7, level.resource()),
+                (7, r.levels),
                 (11, boundaries),
             ],
         )?;
-        dispatch();
+        dispatch(1);
 
         gpu.barriers(cmd, &[access::image(&self.image, COMPUTE_WRITE, COMPUTE_READ_WRITE)], &[]);
         let more = [
             (3, Resource::Storage(self.image.alias_view)),
             (4, Resource::buffer(&self.blocks)),
-            (7, level.resource()),
+            (7, r.levels),
             (11, boundaries),
         ];
         dispatch_sprites(r, list, &self.small, &self.large, &more)?;
@@ -150,7 +153,7 @@ impl Back {
                 access::image(&smooth.b, COMPUTE_WRITE, COMPUTE_WRITE),
                 access::image(plan, PLAN_AFTER, COMPUTE_WRITE),
             ],
-            &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ_WRITE)],
+            &[buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE)],
         );
         r.descriptors.bind(
             gpu,
@@ -163,14 +166,15 @@ impl Back {
                 (4, Resource::storage(&smooth.b)),
                 (5, Resource::storage(plan)),
                 (6, Resource::buffer(&tiles.work)),
-                (7, level.resource()),
+                (7, r.levels),
+                (8, Resource::buffer(&level.needed)),
             ],
         )?;
-        dispatch();
+        dispatch(self.levels);
         gpu.barriers(
             cmd,
             &[access::image(plan, COMPUTE_WRITE, PLAN_AFTER)],
-            &[buffer(tiles.work.handle, COMPUTE_READ_WRITE, COMPUTE_READ)],
+            &[buffer(tiles.work.handle, COMPUTE_WRITE, COMPUTE_READ)],
         );
         r.end(scope);
         Ok(())

@@ -56,6 +56,8 @@ pub(crate) struct Recording<'a> {
     pub extent: vk::Extent2D,
     /// The frame's uniform block.
     pub uniforms: Resource,
+    /// Its [`SmoothingLevels`](crate::SmoothingLevels).
+    pub levels: Resource,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
     /// What tells where the sun does not come.
@@ -95,7 +97,6 @@ pub(crate) struct WaterLayers<'a> {
     pub depth: &'a Image,
     pub thickness: &'a Image,
     pub split: &'a split::Split,
-    pub level: &'a level::Level,
     /// Thickness of two sheets, and the depth between them; none where there is one everywhere.
     pub sheets: Option<&'a Image>,
     pub boundaries: Option<&'a Buffer>,
@@ -233,22 +234,21 @@ impl Water {
         let depths = reduce::Depths { water: &self.depth.image, foam, spray, diffuse };
         self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
-        let (plan, tiles, level) = (&self.reduce.plan, &self.tiles, &self.level);
+        let (plan, tiles) = (&self.reduce.plan, &self.tiles);
         if let Some(Sheets { gaps, back }) = &self.sheets {
             let depth = &self.depth.image;
-            let into = back::Into { smooth: &self.smooth, plan, tiles, level };
+            let into = back::Into { smooth: &self.smooth, plan, tiles, level: &self.level };
             back.record(r, depth, &self.cull.list, &gaps.boundaries, &into)?;
         }
-        self.tiles.record(r, level)?;
-        self.smooth.record(r, &smooth::Work { plan, tiles, level })?;
-        self.split.record(r, tiles, level, gaps, self.foam.as_ref())?;
+        self.tiles.record(r)?;
+        self.smooth.record(r, &smooth::Work { plan, tiles })?;
+        self.split.record(r, tiles, gaps, self.foam.as_ref())?;
         if let Some(motion) = &self.motion {
             let depth = &self.depth.image;
             let from = motion::Surfaces {
                 depth,
                 foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
                 smoothed: &self.smooth.a,
-                levels: self.level.resource(),
             };
             motion.record(r, particles, &self.cull.list, &from)?;
         }
@@ -265,7 +265,6 @@ impl Water {
             depth: &self.depth.image,
             thickness: &self.thickness.image,
             split: &self.split,
-            level: &self.level,
             sheets: self.thickness.sheets.as_ref(),
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
@@ -286,11 +285,6 @@ impl Water {
             front: self.front.list.counts.handle,
             chunks: self.cull.list.chunks,
         }
-    }
-
-    /// The resolutions of the smoothing.
-    pub fn levels(&self) -> vk::Buffer {
-        self.level.levels.handle
     }
 
     /// The tiles of the smoothing at work.

@@ -75,8 +75,6 @@ pub struct Surfaces<'a> {
     /// Its depth and its thickness.
     pub foam: Option<[&'a Image; 2]>,
     pub smoothed: &'a Image,
-    /// The resolutions of the smoothing.
-    pub levels: Resource,
 }
 
 /// The pass.
@@ -235,7 +233,7 @@ impl Motion {
             (4, foam),
             (5, sampled(from.smoothed)),
             (6, r.scene_depth),
-            (7, from.levels),
+            (7, r.levels),
             (8, Resource::storage(&self.image)),
             (9, foam_thickness),
         ];

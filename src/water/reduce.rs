@@ -3,7 +3,7 @@
 //! pixel's iterations and step from the depth before any smoothing.
 //!
 //! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
-//! plan, each tile's work, how many pixels pass the cap.
+//! plan, each tile's work, marks of the coarser levels' tiles, the coarsest level needed.
 
 use ash::vk;
 
@@ -58,6 +58,9 @@ pub struct Reduce {
     /// The configured level of the smoothing.
     pub level: u32,
 }
+
+/// Iterations more than stability asks for, glsl/include/plan.glsl.
+pub const MORE: u32 = 2;
 
 /// Number of a rule in the shaders.
 pub fn rule_constant(rule: Rule) -> u32 {
@@ -121,10 +124,13 @@ impl Reduce {
     ) -> Result<(), Error> {
         let scope = r.begin(c"reduce");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let over = level.over.handle;
-        gpu.barriers(cmd, &[], &[buffer(over, COMPUTE_READ, COPY_WRITE)]);
-        // SAFETY: outside a render pass; the frame before has read it (barrier).
-        unsafe { gpu.device.cmd_fill_buffer(cmd, over, 0, vk::WHOLE_SIZE, 0) };
+        let cleared = [level.needed.handle, tiles.work.handle];
+        let moved = |from, to| cleared.map(|handle| buffer(handle, from, to));
+        gpu.barriers(cmd, &[], &moved(COMPUTE_READ, COPY_WRITE));
+        for handle in cleared {
+            // SAFETY: outside a render pass; the frame before has read it (barrier).
+            unsafe { gpu.device.cmd_fill_buffer(cmd, handle, 0, vk::WHOLE_SIZE, 0) };
+        }
         let smooth_before = super::smooth::BEFORE.discarded();
         let plan_before = PLAN_AFTER.and(COPY_READ).discarded();
         gpu.barriers(
@@ -134,10 +140,7 @@ impl Reduce {
                 access::image(&smooth.b, smooth_before, COMPUTE_WRITE),
                 access::image(&self.plan, plan_before, COMPUTE_WRITE),
             ],
-            &[
-                buffer(tiles.work.handle, COMPUTE_READ, COMPUTE_WRITE),
-                buffer(over, COPY_WRITE, COMPUTE_READ_WRITE),
-            ],
+            &moved(COPY_WRITE, COMPUTE_READ_WRITE),
         );
         let [foam, spray, diffuse] = depths.beside(r);
         r.descriptors.bind(
@@ -152,13 +155,13 @@ impl Reduce {
                 (4, Resource::storage(&smooth.b)),
                 (5, Resource::storage(&self.plan)),
                 (6, Resource::buffer(&tiles.work)),
-                (8, Resource::buffer(&level.over)),
+                (7, r.levels),
+                (8, Resource::buffer(&level.needed)),
                 foam,
                 spray,
                 diffuse,
             ],
         )?;
-        self.pipeline.push(gpu, cmd, &tiles.atlas.columns);
         r.dispatch_over(reduced(r.extent, self.level), self.pipeline.local_size);
         r.end(scope);
         Ok(())

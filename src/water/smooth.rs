@@ -9,7 +9,7 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
 use super::Recording;
-use super::level::{Atlas, Level};
+use super::level::Atlas;
 use super::reduce::rule_constant;
 use super::smooth_query::Query;
 use super::tiles::Tiles;
@@ -60,7 +60,6 @@ pub struct Work<'a> {
     /// Iterations and step of each pixel.
     pub plan: &'a Image,
     pub tiles: &'a Tiles,
-    pub level: &'a Level,
 }
 
 enum Form {
@@ -209,7 +208,7 @@ impl Smooth {
                     (3, Resource::Sampled(work.plan.view, nearest)),
                     (4, Resource::buffer(&work.tiles.list)),
                     (5, Resource::buffer(&work.tiles.arguments)),
-                    (7, work.level.resource()),
+                    (7, r.levels),
                 ],
             )
         };

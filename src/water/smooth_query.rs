@@ -191,7 +191,7 @@ impl Query {
         images: [&Image; 2],
         work: &Work<'_>,
     ) -> Result<(), Error> {
-        let Work { plan, tiles, level } = work;
+        let Work { plan, tiles } = work;
         let (gpu, cmd) = (r.gpu, r.cmd);
         let by_host = r.read_back.is_some();
         // Bindings of all three pipelines are the same; so are their push constants.
@@ -211,7 +211,7 @@ impl Query {
                     (2, Resource::Sampled(plan.view, nearest)),
                     (3, Resource::buffer(&tiles.list)),
                     (4, shader_predicates),
-                    (7, level.resource()),
+                    (7, r.levels),
                 ],
             )
         };

@@ -1,8 +1,9 @@
-//! Pass `split`: which of the tiles with water hold two sheets, and which hold foam.
+//! Pass `split`: which of the tiles with water hold two sheets, which hold foam, and in which coarser levels of the
+//! smoothing show.
 //!
 //! Not in the source. Shading two sheets costs twice what shading one does, and foam half as much again;
 //! where all stands in one shader, a CPU, and in part a GPU, pays for it everywhere.
-//! Reads: the list of `tiles`, boundaries, foam depth and thickness. Writes: four lists, the arguments of
+//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the arguments of
 //! `composite`.
 
 use ash::vk;
@@ -11,7 +12,7 @@ use gpu_allocator::MemoryLocation;
 use super::Recording;
 use super::foam::Foam;
 use super::gaps::{Gaps, sheets_constant};
-use super::level::{Atlas, Level};
+use super::level::Atlas;
 use super::tiles::{ALL_TILES, Tiles};
 use crate::contract::Config;
 use crate::error::Error;
@@ -27,19 +28,20 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Kinds of tiles: one sheet or two, without foam or with it.
-pub const KINDS: u32 = 4;
-/// Where in the arguments the dispatches begin, in bytes: after a draw of each kind at either level.
-pub const DISPATCHES: u64 = 2 * 16 * KINDS as u64;
+/// Kinds of tiles: one sheet or two, without foam or with it, at the first level alone or not.
+pub const KINDS: u32 = 8;
+/// Where in the arguments the dispatches begin, in bytes: after a draw of each kind.
+pub const DISPATCHES: u64 = 16 * KINDS as u64;
 
 /// The pass.
 pub struct Split {
     split: Pipeline,
     end: Pipeline,
-    /// Tiles of each kind, one sheet, two, and the same with foam; each list has room for all.
+    /// Tiles of each kind: one sheet, two, the same with foam, all these with coarser levels; each list has room
+    /// for all of the first level.
     pub lists: Buffer,
     lengths: Buffer,
-    /// Draws, then dispatches: of each kind at the configured level alone, then of each elsewhere.
+    /// Draws, then dispatches, of each kind.
     pub arguments: Buffer,
     /// Most tiles of a list.
     pub most: u32,
@@ -62,12 +64,12 @@ impl Split {
             lists: Self::lists(gpu, config)?,
             lengths: make("water/split/lengths", 4 * u64::from(KINDS), Usage::TRANSFER_DST)?,
             arguments: make("water/split/arguments", 2 * DISPATCHES, Usage::INDIRECT_BUFFER)?,
-            most: Atlas::new(config).tiles(),
+            most: Atlas::new(config).first,
         })
     }
 
     fn lists(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
-        let size = 4 * u64::from(KINDS) * u64::from(Atlas::new(config).tiles());
+        let size = 4 * u64::from(KINDS) * u64::from(Atlas::new(config).first);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Buffer::new(gpu, "water/split/lists", size, usage, MemoryLocation::GpuOnly)
     }
@@ -79,7 +81,7 @@ impl Split {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let lists = Self::lists(gpu, config)?;
-        self.most = Atlas::new(config).tiles();
+        self.most = Atlas::new(config).first;
         retired.replace(&mut self.lists, lists);
         Ok(())
     }
@@ -88,7 +90,6 @@ impl Split {
         &self,
         r: &mut Recording<'_>,
         tiles: &Tiles,
-        level: &Level,
         gaps: Option<&Gaps>,
         foam: Option<&Foam>,
     ) -> Result<(), Error> {
@@ -120,7 +121,8 @@ impl Split {
                 (2, Resource::buffer(&tiles.arguments)),
                 (3, Resource::buffer(&self.lists)),
                 (4, Resource::buffer(&self.lengths)),
-                (7, level.resource()),
+                (7, r.levels),
+                (8, Resource::buffer(&tiles.work)),
                 // Without it is not read: any buffer will do, and any image.
                 (11, Resource::buffer(gaps.map_or(&tiles.list, |gaps| &gaps.boundaries))),
                 (5, foam.map_or(r.scene_depth, |foam| sampled(foam.depth()))),
@@ -140,7 +142,7 @@ impl Split {
                 (1, Resource::buffer(&self.lengths)),
                 (2, Resource::buffer(&self.arguments)),
                 (0, r.uniforms),
-                (7, level.resource()),
+                (7, r.levels),
             ],
         )?;
         // SAFETY: as above.

@@ -1,4 +1,4 @@
-//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels, of the levels in use) that hold water,
+//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels, of all levels) that hold water,
 //! sorted by their iterations, and the arguments of every draw and dispatch over them.
 //!
 //! Not in the source, which runs full-screen quads: with the iterations planned, the tiles that
@@ -10,7 +10,7 @@ use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
 use super::Recording;
-use super::level::{Atlas, Level};
+use super::level::Atlas;
 use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -74,7 +74,7 @@ impl Tiles {
 
     fn sized(gpu: &Gpu, atlas: &Atlas) -> Result<(Buffer, Buffer), Error> {
         let make = |name| {
-            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
             Buffer::new(gpu, name, 4 * u64::from(atlas.tiles()), usage, MemoryLocation::GpuOnly)
         };
         Ok((make("water/tiles/work")?, make("water/tiles/list")?))
@@ -94,7 +94,7 @@ impl Tiles {
         Ok(())
     }
 
-    pub fn record(&self, r: &mut Recording<'_>, level: &Level) -> Result<(), Error> {
+    pub fn record(&self, r: &mut Recording<'_>) -> Result<(), Error> {
         let scope = r.begin(c"tiles");
         let (gpu, cmd) = (r.gpu, r.cmd);
         let readers = COMPUTE_READ.and(VERTEX_READ);
@@ -115,7 +115,7 @@ impl Tiles {
                 (1, Resource::buffer(&self.work)),
                 (2, Resource::buffer(&self.list)),
                 (3, Resource::buffer(&self.arguments)),
-                (7, level.resource()),
+                (7, r.levels),
             ],
         )?;
         self.pipeline.push(gpu, cmd, &Push { tiles: self.atlas.tiles(), most_groups: MOST_GROUPS });

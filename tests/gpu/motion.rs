@@ -5,6 +5,7 @@ use ash::vk;
 use glam::{DMat4, DVec2, DVec3, Mat4, Quat, Vec3};
 use whitewater::{Camera, Config, Error, Particles, Previous};
 
+use crate::level::smoothed;
 use crate::reference::motion::{self, Particle, Settings, Shown, Vector};
 use crate::reference::{Image, View, smoothstep};
 use crate::support::compare;
@@ -97,7 +98,7 @@ impl Moving {
         let shown = Shown {
             depth: &drawn.depth,
             foam: foam.as_ref(),
-            surface: (&drawn.surface, drawn.levels.finer().texel[2] as usize),
+            surface: smoothed(drawn, shot, 256),
             scene: &shot.scene_at(shot.size, 0),
         };
         motion::motion(&self.particles(), &shot.view(shot.size), &self.then(), &settings, &shown)

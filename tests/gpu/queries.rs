@@ -16,6 +16,8 @@ fn draw(read_back: bool, test: impl FnOnce(&mut Headless)) {
     let config = Config {
         smoothing_level: 0,
         thickness_level: 0,
+        // The queries count all levels.
+        coarsening: 0,
         smoothing: Some(Smoothing::Query(Gate::VertexCull)),
         ..Config::new(extent, COLOR_FORMAT, 4096)
     };

@@ -4,6 +4,7 @@
 use whitewater::{Packets, Particles};
 
 use super::invariants::packet_bytes;
+use crate::reference::Image;
 use crate::reference::cull::{CullParams, cull};
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, config, extent};
@@ -87,8 +88,9 @@ fn spheres_that_cannot_show_are_left_out() {
     );
 }
 
-/// The list of tiles is those with water, and each iteration runs over those that want it: iteration i
-/// over all that want i - 1 or more (one more, which leaves the result in both images).
+/// The list of tiles is those with water, of coarser levels those that are smoothed, and each iteration runs
+/// over those that want it: iteration i over all that want i - 1 or more (one more, which leaves the result in
+/// both images).
 #[test]
 fn tiles_without_work_are_not_listed() {
     let gpu = Gpu::shared();
@@ -100,18 +102,25 @@ fn tiles_without_work_are_not_listed() {
     points.extend(scenes::block(6, 0.3, [3, 3, 2], [1.0, 0.6, 3.0]));
     let shot = Shot::new(size, Lens::Standard, 0.2, &points);
     let drawn = rig.draw(&shot);
-    let plan = &drawn.plan;
-    let (columns, rows) = (plan.width.div_ceil(TILE), plan.height.div_ceil(TILE));
-    let mut most = vec![None; columns * rows];
-    for (i, (n, z)) in plan.data.iter().zip(&drawn.surface.data).enumerate() {
-        if *z < 1.0e10 {
-            let n = n & 511; // the rest is the step
-            let tile = &mut most[i / plan.width / TILE * columns + i % plan.width / TILE];
-            *tile = Some(tile.map_or(n, |before: u32| before.max(n)));
+    let most = |plan: &Image<u32>, listed: &dyn Fn(usize, u32) -> bool| {
+        let (columns, rows) = (plan.width.div_ceil(TILE), plan.height.div_ceil(TILE));
+        let mut most = vec![None; columns * rows];
+        for (i, n) in plan.data.iter().map(|n| n & 511).enumerate() {
+            if listed(i, n) {
+                let tile = &mut most[i / plan.width / TILE * columns + i % plan.width / TILE];
+                *tile = Some(tile.map_or(n, |before: u32| before.max(n)));
+            }
         }
+        most
+    };
+    let first = most(&drawn.plan, &|i, _| drawn.surface.data[i] < 1.0e10);
+    let mut wet: Vec<u32> = first.iter().copied().flatten().collect();
+    assert!(wet.len() > 3 && 2 * wet.len() < first.len(), "{} tiles", wet.len());
+    let before = wet.len();
+    for (_, plan) in crate::level::coarser(&drawn, &shot, config(size).max_iterations) {
+        wet.extend(most(&plan, &|_, n| n > 0).into_iter().flatten());
     }
-    let wet: Vec<u32> = most.into_iter().flatten().collect();
-    assert!(wet.len() > 3 && 2 * wet.len() < columns * rows, "{} tiles", wet.len());
+    assert!(wet.len() > before, "no tile of a coarser level");
     assert_eq!(drawn.work.tiles[0], wet.len() as u32);
     for (i, listed) in (1u32..).zip(&drawn.work.tiles[1..]) {
         let wanted = wet.iter().filter(|n| **n + 1 >= i.max(2)).count();

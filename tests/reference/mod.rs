@@ -19,6 +19,7 @@ pub mod diffuse;
 pub mod environment;
 pub mod foam;
 pub mod generate;
+pub mod levels;
 pub mod light;
 pub mod motion;
 pub mod noise;

@@ -12,6 +12,7 @@
 
 use super::cull::frustum;
 use super::foam::{self, LooseEllipse, Off, Sprite, pixels, ray_off};
+use super::levels::Smoothed;
 use super::thickness::kernel;
 use super::{Image, View, is_surface, smoothstep};
 use crate::support::rounded::{Rounded, exact, off};
@@ -58,8 +59,7 @@ pub struct Shown<'a> {
     /// Water before the scene.
     pub depth: &'a Image<f32>,
     pub foam: Option<&'a Image<f32>>,
-    /// The smoothed surface, and the pixels a texel of it is wide.
-    pub surface: (&'a Image<f32>, usize),
+    pub surface: Smoothed<'a>,
     /// Eye depth of the scene, infinite where there is none.
     pub scene: &'a Image<f64>,
 }
@@ -404,7 +404,7 @@ pub fn motion(
         let water = shown.depth.at(x, y);
         let z = match foam_at(x, y) < water {
             true => f64::from(front),
-            false => smoothed_at(shown.surface, (x, y), water, settings.falloff),
+            false => shown.surface.at((x, y), water, settings.falloff),
         };
         vector(view, then, (x, y), off(z, 4.0), moved)
     })

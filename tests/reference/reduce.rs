@@ -34,6 +34,17 @@ pub fn reduce(depth: &Image<f64>, level: u32, falloff: f32) -> Image<f64> {
     })
 }
 
+/// The nearest of each block of `2^level` pixels, whatever it shares.
+pub fn nearest(depth: &Image<f64>, level: u32) -> Image<f64> {
+    let block = 1_usize << level;
+    Image::from_fn(depth.width.div_ceil(block), depth.height.div_ceil(block), |x, y| {
+        let columns = x * block..((x + 1) * block).min(depth.width);
+        let rows = y * block..((y + 1) * block).min(depth.height);
+        let all = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+        all.map(|(x, y)| depth.at(x, y)).fold(EMPTY, f64::min)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -194,18 +194,19 @@ fn memory_is_as_documented() {
             );
         }
         // Of two sheets, a texel of 16 pixels has 16 bytes of thickness, 16 more of sums and a
-        // boundary, a cell of 64 four numbers; the back sheet is where the coarser level would be.
+        // boundary, a cell of 64 four numbers. Of the smoothing two numbers and a plan, a quarter of a pixel each: 3 bytes, of
+        // which coarser levels beside each other take half as much again, with the back sheet's three quarters.
         // Foam: of a texel 4 bytes of depth, 16 of thickness, 4 of water before it and its sum of 8, and three
         // sums and two depths beside each other.
         for (sheets, coarsening, foam, spray, smoothing, more) in [
             (1, 3, false, false, 4.5, 0.0),
             (1, 0, false, false, 3.0, 0.0),
-            (2, 3, false, false, 4.5, 2.5),
+            (2, 3, false, false, 5.25, 2.5),
             (2, 0, false, false, 4.5, 2.5),
             (1, 3, true, false, 4.5, 3.25),
-            (2, 3, true, false, 4.5, 5.75),
+            (2, 3, true, false, 5.25, 5.75),
             (1, 3, false, true, 4.5, 4.0),
-            (2, 3, true, true, 4.5, 9.75),
+            (2, 3, true, true, 5.25, 9.75),
         ]
         .into_iter()
         .step_by(if whole { step } else { 7 })

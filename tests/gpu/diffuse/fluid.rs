@@ -4,8 +4,10 @@ use whitewater::Config;
 use whitewater::foam::Submerged;
 
 use super::{Diffuse, SIZE, channel, diffusing, doubles};
+use crate::level::smoothed;
 use crate::reference::diffuse::foam_bounds;
-use crate::reference::{EMPTY, Image, motion};
+
+use crate::reference::{EMPTY, Image};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, extent};
@@ -23,14 +25,14 @@ fn the_fluid_round_foam_is_smooth() {
         cloud.shot.positions = scenes::world(&cloud.shot.camera, &block);
         let drawn = cloud.draw(&mut rig);
         let fluid = channel(&drawn.diffuse.as_ref().expect("diffuse particles").occluders, 2);
-        let surface = (&drawn.surface, drawn.levels.finer().texel[2] as usize);
+        let surface = smoothed(&drawn, &cloud.shot, config.max_iterations);
         let falloff = cloud.shot.falloff();
         let expected = Image::from_fn(fluid.width, fluid.height, |x, y| {
             let sphere = drawn.depth.at(x, y);
             if f64::from(sphere) >= EMPTY {
                 return f64::from(sphere);
             }
-            motion::smoothed_at(surface, (x, y), sphere, falloff)
+            surface.at((x, y), sphere, falloff)
         });
         let off = |(smooth, sphere): (&f64, &f32)| (smooth - f64::from(*sphere)).abs();
         let moved = expected.data.iter().zip(&drawn.depth.data).map(off).filter(|off| *off > 0.01);

@@ -7,10 +7,11 @@ use whitewater::{Camera, Config};
 
 use crate::composite::{FLAT, Sky, noise_look, twin_settings};
 use crate::harness::fails;
-use crate::reduce::wide;
+use crate::reduce::{params, wide};
 use crate::reference::composite::{
     self as twin, Behind, Inputs, Two, cut_look_up, hidden, look_up_both, scene_at,
 };
+use crate::reference::levels::Levels;
 use crate::reference::noise::{Look, Ripples};
 use crate::reference::{Image, is_surface};
 use crate::support::compare;
@@ -129,12 +130,27 @@ fn check_picture(
     bits: u32,
     fault: fn(&mut Layers),
 ) -> Kinds {
+    let back_level = back_level(name, drawn, shot);
+    let levels = [back_level - 1, back_level, thickness_level];
+    check_levels(name, drawn, shot, levels, bits, fault, &|_, _| true)
+}
+
+/// The same of images at the levels of the front and the back sheet's surface and of the thickness; where
+/// a pixel shows them.
+fn check_levels(
+    name: &str,
+    drawn: &Drawn,
+    shot: &Shot,
+    [level, back_level, thickness_level]: [u32; 3],
+    bits: u32,
+    fault: fn(&mut Layers),
+    shows: &dyn Fn(usize, usize) -> bool,
+) -> Kinds {
     let view = shot.view(shot.size);
     let settings = twin_settings(shot, &view);
-    let back_level = back_level(name, drawn, shot);
     let mut layers = Layers::new(drawn, shot);
     fault(&mut layers);
-    let inputs = layers.inputs(back_level - 1, thickness_level);
+    let inputs = layers.inputs(level, thickness_level);
     let behind = layers.behind(back_level);
     let (sky, falloff) = (Sky::Even.radiance(DVec3::Y), settings.falloff * settings.radius);
     let mut expected = twin::shade_sheets(&inputs, &behind, &settings, |_| sky, &view);
@@ -145,6 +161,10 @@ fn check_picture(
     let pixels = (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y)));
     for (x, y) in pixels {
         let Some(shown) = two.at(x, y) else { continue };
+        if !shows(x, y) {
+            *expected.at_mut(x, y) = drawn.output.at(x, y).map(f64::from);
+            continue;
+        }
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
         let (displaced, z) = look_up_both(&settings, &shown, &view, pixel);
         let (q, asked) = cut_look_up(&inputs, z, pixel, displaced);
@@ -307,6 +327,130 @@ fn the_scene_stands_among_the_sheets() {
         }
     }
     assert!(kinds.unfound > 100 && kinds.both > 100, "{kinds:?}");
+}
+
+/// Water so near that coarser levels show: of both sheets the one that their distances ask for.
+#[test]
+fn near_sheets_are_the_twins() {
+    let gpu = Gpu::shared();
+    let bits = gpu.limits().sub_texel_precision_bits;
+    let size = extent(160, 100);
+    let (mut kinds, mut seen) = (Kinds::default(), [0; 3]);
+    for (way, lens, thickness_level) in
+        [(Shading::Raster, Lens::Standard, 0), (Shading::Compute, Lens::OffAxis, 3)]
+    {
+        let config =
+            Config { smoothing_level: 0, thickness_level, composite: Some(way), ..two(size) };
+        let mut rig = even(&gpu, config);
+        for (torn, width) in [(true, 2.8), (true, 5.7), (false, 4.2), (false, 7.8), (false, 15.6)] {
+            let shot = if torn { shot(size, lens) } else { slabs(size) };
+            let mut shot = look(shot, false);
+            shot.settings.water.smoothing_width = width;
+            let drawn = rig.draw(&shot);
+            let levels = Levels {
+                view: shot.view(size),
+                first: 0,
+                coarser: 3,
+                params: params(&shot, config.max_iterations),
+            };
+            let boundary = |x: usize, y: usize| {
+                of(&drawn).boundaries.at(x >> thickness_level, y >> thickness_level)
+            };
+            // What a pixel shows alone, of the front sheet and of the back one.
+            let shown = Image::from_fn(160, 100, |x, y| {
+                let of_pixel = |z: f32| levels.shown(levels.nearness_at((x, y), f64::from(z)));
+                let z = drawn.depth.at(x, y);
+                let covers = z < boundary(x, y) && boundary(x, y) < 1e9;
+                let (front, fade) = of_pixel(z);
+                let (back, behind) = of_pixel(if covers { boundary(x, y) } else { z });
+                let alone = fade == 0.0 && (back == 0 || behind == 0.0) && z < 1e9;
+                (if alone { front } else { 0 }, back.max(1), covers)
+            });
+            for (front, back) in (1..4).flat_map(|front| (1..4).map(move |back| (front, back))) {
+                // Tiles that have no boundary within a texel are drawn as one sheet.
+                let two = |x: usize, y: usize| {
+                    let around = |at: usize, size: usize| {
+                        let tile = at / 16 * 16;
+                        tile.saturating_sub(1 << front)..(tile + 16 + (1 << front)).min(size)
+                    };
+                    around(y, 100).any(|y| around(x, 160).any(|x| boundary(x, y) < 1e9))
+                };
+                let shows = |x: usize, y: usize| {
+                    let (f, b, _) = shown.at(x, y);
+                    (f, b) == (front, back) && two(x, y)
+                };
+                let own =
+                    |(f, b, covers): &&(usize, usize, bool)| *covers && (*f, *b) == (front, back);
+                // The twin takes thickness of the surface's own level by its texels; where that changes from pixel to
+                // pixel ours goes by the surface at each texel's middle.
+                let other = thickness_level == 0 || thickness_level != front as u32;
+                if !other || shown.data.iter().filter(own).count() < 20 {
+                    continue;
+                }
+                let mut told = drawn.clone();
+                told.surface = drawn.coarser[front - 1].0.clone();
+                if let (Some(sheets), true) = (&mut told.sheets, back > 1) {
+                    sheets.surface = sheets.coarser[back - 2].0.clone();
+                }
+                let at = [front as u32, back as u32, thickness_level];
+                let name = format!("near-sheets-{way:?}-{width}-{front}{back}");
+                let found = check_levels(&name, &told, &shot, at, bits, |_| (), &shows);
+                seen[back - 1] += found.both + found.partly;
+                kinds += found;
+            }
+        }
+    }
+    let Kinds { one, behind, .. } = kinds;
+    assert!(one >= 100 && behind >= 100, "{kinds:?}");
+    assert!(seen.iter().all(|pixels| *pixels >= 100), "{seen:?} pixels of the back sheet's levels");
+}
+
+/// Of two pictures that are smoothed by hardly more, pixels in which the back sheet comes to another level
+/// change no more than the others: twice as much in the mean, where they are few.
+#[test]
+fn the_back_sheets_levels_pass_without_a_step() {
+    let gpu = Gpu::shared();
+    let size = extent(160, 100);
+    // So few iterations that the levels are as rough as they are different.
+    let config = Config { smoothing_level: 0, thickness_level: 0, max_iterations: 6, ..two(size) };
+    let mut rig = even(&gpu, config);
+    let (mut crossing, mut others) = ([0.0; 2], [0.0; 2]);
+    let mut before: Option<(Drawn, Vec<usize>)> = None;
+    for step in 0..24 {
+        let mut shot = look(slabs(size), true);
+        shot.settings.water.smoothing_width = 1.2 * 1.01_f32.powi(step);
+        let drawn = rig.draw(&shot);
+        let params = params(&shot, config.max_iterations);
+        let levels = Levels { view: shot.view(size), first: 0, coarser: 3, params };
+        let level = |i: usize| {
+            let (x, y) = (i % 160, i / 160);
+            let boundary = f64::from(of(&drawn).boundaries.at(x, y));
+            levels.shown(levels.nearness_at((x, y), boundary)).0
+        };
+        let shown: Vec<_> = (0..drawn.depth.data.len()).map(level).collect();
+        if let Some((last, was)) = &before {
+            for i in 0..shown.len() {
+                let (z, boundary) = (drawn.depth.data[i], of(&drawn).boundaries.data[i]);
+                let covers = z < boundary && boundary < 1e9;
+                if !covers || boundary != of(last).boundaries.data[i] {
+                    continue;
+                }
+                let change = (0..3)
+                    .map(|c| f64::from((drawn.output.data[i][c] - last.output.data[i][c]).abs()))
+                    .sum::<f64>();
+                // The first two levels of the front sheet are one of the back sheet.
+                let moved = shown[i] > was[i] && was[i] > 0;
+                let sums = if moved { &mut crossing } else { &mut others };
+                sums[0] += change;
+                sums[1] += 1.0;
+            }
+        }
+        before = Some((drawn, shown));
+    }
+    let [step, rest] = [crossing, others].map(|[sum, count]| sum / count);
+    eprintln!("{step} a pixel of {} that cross, {rest} of {}", crossing[1], others[1]);
+    assert!(crossing[1] > 200.0, "{} pixels cross", crossing[1]);
+    assert!(step < 2.0 * rest, "{step} a pixel that crosses, {rest} of others");
 }
 
 type Fault = fn(&mut Layers);

@@ -47,7 +47,7 @@ fn one_sheet_is_the_default_where_there_is_no_gap() {
                 let found = of(&two).thickness.map(|[x, y, z]| [*x, *y, *z, 1.0]);
                 compare::same_color(&format!("{name}-parts"), &found, &all);
                 assert!(one.sheets.is_none(), "{name}: boundaries of one sheet");
-                assert_eq!(one.levels.level[2].texel[3], 0.0, "{name}: a back sheet in use");
+                assert_eq!(one.levels.level[4].rect, [0; 4], "{name}: a back sheet in use");
             }
         }
     }
@@ -57,7 +57,7 @@ fn one_sheet_is_the_default_where_there_is_no_gap() {
 /// image: a texel an iteration, and those round it that the surface is rebuilt of.
 fn smoothing_reach(drawn: &Drawn) -> u32 {
     let most = drawn.plan.data.iter().map(|p| p & 511).max().unwrap_or(0);
-    (most + 3) * drawn.levels.finer().texel[2] as u32
+    (most + 3) * drawn.levels.level[0].texel[2] as u32
 }
 
 /// The pixels farther than 64 from all texels with two sheets.

@@ -14,11 +14,11 @@ pub struct Drawn {
     /// The output's image with what lies beside the view.
     pub whole: Image<[f32; 4]>,
     pub depth: Image<f32>,
-    /// Of the finest level in use.
+    /// Of the configured level.
     pub surface: Image<f32>,
     pub plan: Image<u32>,
-    /// Of the coarser level, while it fades in.
-    pub coarser: Option<(Image<f32>, Image<u32>)>,
+    /// Of the front sheet's coarser ones, in order.
+    pub coarser: Vec<(Image<f32>, Image<u32>)>,
     pub levels: SmoothingLevels,
     /// Of all water.
     pub thickness: Image<f32>,
@@ -60,7 +60,7 @@ impl Drawn {
             depth: empty(),
             surface: empty(),
             plan: Image::new(0, 0, 0),
-            coarser: None,
+            coarser: Vec::new(),
             levels: bytemuck::Zeroable::zeroed(),
             thickness: empty(),
             sheets: None,
@@ -140,9 +140,10 @@ pub struct Sheets {
     pub boundaries: Image<f32>,
     /// Thickness of the front one, of the back one and of the window between them.
     pub thickness: Image<[f32; 3]>,
-    /// Surface and plan of the back one.
+    /// Surface and plan of the back one, at its first level and the coarser ones.
     pub surface: Image<f32>,
     pub plan: Image<u32>,
+    pub coarser: Vec<(Image<f32>, Image<u32>)>,
 }
 
 impl Rig<'_> {
@@ -155,7 +156,7 @@ impl Rig<'_> {
             output.extent.into(),
             output.after,
         );
-        let levels = self.levels(recorded);
+        let levels = recorded.levels.unwrap_or_else(bytemuck::Zeroable::zeroed);
         let whole = picture(output.format, output.extent, &bytes);
         let empty = || Image::new(0, 0, 0.0);
         let rect = crop(&whole, output.rect);
@@ -183,15 +184,17 @@ impl Rig<'_> {
             drawn.work.tiles = words.chunks_exact(4).skip(1).take(257).map(|w| w[3]).collect();
             drawn.work.tiles.insert(0, words[1]);
         }
-        let [a, b, back] = &levels.level;
-        let fading = a.texel[3] > 0.0 && b.texel[3] > 0.0;
-        let coarser = if a.texel[2] > b.texel[2] { a } else { b };
-        let mut second = (empty(), Image::new(0, 0, 0));
+        let of = |range: std::ops::Range<usize>| {
+            range.map(|i| &levels.level[i]).filter(|level| level.rect[2] > 0)
+        };
+        let none = |_: &SmoothingLevel| (empty(), Image::new(0, 0, 0));
+        drawn.coarser = of(1..4).map(none).collect();
         let mut sheets = recorded.sheets.map(|buffer| Sheets {
             boundaries: self.boundaries(buffer, output.rect.extent),
             thickness: Image::new(0, 0, [0.0; 3]),
             surface: empty(),
             plan: Image::new(0, 0, 0),
+            coarser: of(5..7).map(none).collect(),
         });
         let mut foam = Foaming {
             depth: empty(),
@@ -247,22 +250,22 @@ impl Rig<'_> {
                     sheets.thickness = self.threes(layer, whole);
                 }
                 "water.surface" => {
-                    drawn.surface = self.floats(layer, area(levels.finer()));
+                    let read = |level| self.floats(layer, area(level));
+                    drawn.surface = read(&levels.level[0]);
+                    drawn.coarser.iter_mut().zip(of(1..4)).for_each(|(to, l)| to.0 = read(l));
                     if let Some(sheets) = &mut sheets {
-                        sheets.surface = self.floats(layer, area(back));
-                    }
-                    if fading {
-                        second.0 = self.floats(layer, area(coarser));
+                        sheets.surface = read(&levels.level[4]);
+                        sheets.coarser.iter_mut().zip(of(5..7)).for_each(|(to, l)| to.0 = read(l));
                     }
                 }
                 "water.iterations" => {
                     assert_eq!(layer.format, vk::Format::R32_UINT);
-                    drawn.plan = self.texels(layer, area(levels.finer()));
+                    let read = |level| self.texels(layer, area(level));
+                    drawn.plan = read(&levels.level[0]);
+                    drawn.coarser.iter_mut().zip(of(1..4)).for_each(|(to, l)| to.1 = read(l));
                     if let Some(sheets) = &mut sheets {
-                        sheets.plan = self.texels(layer, area(back));
-                    }
-                    if fading {
-                        second.1 = self.texels(layer, area(coarser));
+                        sheets.plan = read(&levels.level[4]);
+                        sheets.coarser.iter_mut().zip(of(5..7)).for_each(|(to, l)| to.1 = read(l));
                     }
                 }
                 "foam" => (diffuse.occluders, diffuses) = (self.fours(layer), true),
@@ -272,21 +275,10 @@ impl Rig<'_> {
                 other => panic!("an unknown layer {other}"),
             }
         }
-        drawn.coarser = fading.then_some(second);
         drawn.sheets = sheets;
         drawn.foam = foams.then_some(foam);
         drawn.diffuse = diffuses.then_some(diffuse);
         drawn
-    }
-
-    /// At which resolutions the frame was smoothed.
-    fn levels(&self, recorded: &Recorded) -> SmoothingLevels {
-        let size = size_of::<SmoothingLevels>();
-        let back = self.stub.sized(size as u64, vk::BufferUsageFlags::TRANSFER_DST);
-        // Of no frame: none in use.
-        let Some(levels) = recorded.levels else { return bytemuck::Zeroable::zeroed() };
-        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, levels, &back));
-        bytemuck::pod_read_unaligned(&back.bytes()[..size])
     }
 
     /// The boundary of each texel of a frame's thickness.

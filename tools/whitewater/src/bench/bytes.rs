@@ -74,8 +74,8 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "lit" => (8 + 4 + 8 + 8 + 8) * full,
         // Depth in, scene depth of covered pixels in, two surfaces and the plan out.
         "reduce" => 4 * full + 4 * drawn.covered + 12 * reduced,
-        // Three small buffers; a coarser reduction, where there is one, is not counted.
-        "level" => 256,
+        // Where nothing is near, a word a tile of the coarser levels; where something is, it is not counted.
+        "level" => 4 * reduced / 256 / 3,
         // Spheres in, two words a cell cleared, added to and read, three of depth written and two of
         // those read, a texel's out.
         "gaps" => 16 * (front + visible) + full / 64 * 4 * 11 + 4 * thick,
@@ -84,7 +84,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "tiles" => 8 * reduced / 256,
         // The list in and out, boundaries in.
         "split" => 8 * reduced / 256 + if drawn.config.sheets > 1 { 4 * thick } else { 0 },
-        // Each active pixel of each iteration: surface and plan in, surface out.
+        // Each active texel of each iteration of the level that shows: surface and plan in, surface out.
         "smooth" => 12 * drawn.iterations,
         // Spheres in, sums (two words) cleared, the first added to, both read, thickness out; of two
         // sheets two sums more, the first read again, both sheets out, boundaries in and out.

@@ -449,12 +449,20 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
     let depth = headless.layer("water.depth")?;
     let iterations = headless.layer("water.iterations")?;
     let covered = depth.map_or(0, |d| d.data.iter().filter(|z| **z < 1.0e9).count() as u64);
-    let (sum, most) = iterations.map_or((0.0, 0.0), |picture| {
-        picture
-            .data
-            .iter()
-            .fold((0.0f64, 0.0f32), |(sum, most), n| (sum + f64::from(*n), most.max(*n)))
-    });
+    let surface = headless.layer("water.surface")?;
+    let (mut sum, mut most) = (0.0, 0.0_f32);
+    if let (Some(iterations), Some(surface), Some(levels)) =
+        (iterations, surface, headless.levels())
+    {
+        let [x, y, first_x, first_y] = levels.level[0].slope;
+        for (i, (n, z)) in iterations.data.iter().zip(&surface.data).enumerate() {
+            let at = [i % surface.width, i / surface.width].map(|v| v as f32 + 0.5);
+            // A texel of a level stands for four of the one before.
+            let (level, _) = levels.shown(*z, [x * at[0] + first_x, y * at[1] + first_y]);
+            sum += f64::from(*n) / 4.0_f64.powi(level as i32);
+            most = most.max(*n);
+        }
+    }
     Ok(Drawn {
         extent: config.extent,
         config,
