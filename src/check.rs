@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::contract::{Config, Count, DiffuseParticles, Frame, Particles, Slot, Stream};
+use crate::contract::{Config, Count, DiffuseParticles, Frame, Packets, Particles, Slot, Stream};
 use crate::error::Error;
 use crate::frame::{Lens, check_settings};
 use crate::water::MOST_COARSENING;
@@ -118,14 +118,18 @@ fn particles(
             return Err(Error::bad("Frame.particles.foam", why));
         }
     }
-    if let Some(packets) = &particles.packets {
-        aligned("Frame.particles.packets.offset", packets.offset, limits)?;
-        if packets.count > 65_535 {
-            return Err(Error::bad(
-                "Frame.particles.packets.count",
-                format!("{} is more than 65535", packets.count),
-            ));
-        }
+    let fields = ["Frame.particles.packets.offset", "Frame.particles.packets.count"];
+    particles.packets.map_or(Ok(()), |those| packets(fields, &those, limits))
+}
+
+fn packets(
+    [offset, count]: [&'static str; 2],
+    packets: &Packets,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<(), Error> {
+    aligned(offset, packets.offset, limits)?;
+    if packets.count > 65_535 {
+        return Err(Error::bad(count, format!("{} is more than 65535", packets.count)));
     }
     Ok(())
 }
@@ -161,7 +165,14 @@ fn diffuse(
             stream.check(field, 4, count, most)?;
         }
     }
-    Ok(())
+    let fields = ["Frame.diffuse.packets.offset", "Frame.diffuse.packets.count"];
+    match &particles.packets {
+        Some(_) if !config.packets => {
+            Err(Error::bad("Frame.diffuse.packets", "given, but Config.diffuse.packets is false"))
+        }
+        Some(those) => packets(fields, those, limits),
+        None => Ok(()),
+    }
 }
 
 /// How many the host says there are, 0 where only the GPU knows. The fields are the count and its offset's;

@@ -351,6 +351,11 @@ pub struct DiffuseParticles {
     pub ids: Option<Stream>,
     /// How many.
     pub count: Count,
+    /// Packets of them, with [`DiffuseConfig::packets`](crate::foam::DiffuseConfig::packets): those outside the view,
+    /// for shadows outside the light's region, are not read. Of particles with [`radii`](Self::radii) of their own the
+    /// boxes hold the whole, not the centres. [`Splat::Raster`](crate::foam::Splat::Raster) reads all of them. `None`:
+    /// each by itself.
+    pub packets: Option<Packets>,
     /// Depth of a fluid surface of the host's own, a sea say, in the camera's convention; the nearer of it and the
     /// water's counts. Any size, only sampled by compute, another image than the scene's depth. What lies behind it is
     /// seen with [`Submerged::Falloff`](crate::foam::Submerged::Falloff) alone: of the host's water nothing is known.
@@ -372,6 +377,7 @@ impl DiffuseParticles {
             ages: None,
             ids: None,
             count,
+            packets: None,
             fluid_depth: None,
             before: crate::gpu::access::NOTHING,
             after: crate::gpu::access::NOTHING,

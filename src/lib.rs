@@ -40,6 +40,7 @@
 //! | `diffuse.positions` | with `Config.diffuse`: 3×f32, spray, foam and bubbles of their own; NaN, infinite and huge ones are not drawn | as above | as above |
 //! | `diffuse.kinds`, `radii`, `ages`, `ids` | u32, f32, f32, u32 of each; none need be there | as above | as above |
 //! | `diffuse.count` | as `particles.count` | as above | as above |
+//! | `diffuse.packets` | as `particles.packets`, with `DiffuseConfig::packets` | as above | as above |
 //! | `diffuse.fluid_depth` | depth of a fluid surface of your own, in the camera's convention; any size; need not be there | sampled and depth attachment, single-sampled | `before` → `after` |
 //! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, of any size from frame to frame, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |

@@ -1,6 +1,14 @@
-// An invocation a particle, all of a group the large ones. What includes it says what a particle is there (a Sprite
-// with a Diffuse p and a Footprint f, by sprite_at), which pixels of a box there are (inside), and what it does to a
-// pixel (splat); it binds arguments. Needs diffuse_streams.glsl.
+// An invocation a particle, all of a group the large ones; or a group for each of the host's packets. What includes it
+// says what a particle is there (a Sprite with a Diffuse p and a Footprint f, by sprite_at), which pixels of a box there
+// are (inside), what it does to a pixel (splat), and whether anything of a sphere may come to one (shows); it binds
+// arguments. Needs diffuse_streams.glsl. Reads: arguments, packets.
+
+// 1: a group for each packet.
+layout(constant_id = 1) const uint PACKETS = 0;
+
+layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
+
+#include "packets.glsl"
 
 // Pixels of a box that an invocation does by itself.
 const int SMALL = 256;
@@ -8,13 +16,14 @@ const int SMALL = 256;
 shared uint large[gl_WorkGroupSize.x];
 shared uint larges;
 
-void cover() {
+// As many of the chunk's particles, from the first on, as the group has invocations; none from the last on.
+void cover_group(uint first, uint past) {
     if (gl_LocalInvocationIndex == 0u) {
         larges = 0u;
     }
     barrier();
-    uint i = gl_GlobalInvocationID.x;
-    if (i < arguments[push.chunk].w) {
+    uint i = first + gl_LocalInvocationIndex;
+    if (i < past) {
         Sprite s = sprite_at(i);
         ivec4 box = s.p.life > 0.0 ? inside(s.f.box) : ivec4(0, 0, -1, -1);
         ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
@@ -40,5 +49,22 @@ void cover() {
                 splat(ivec2(x, y), s);
             }
         }
+    }
+}
+
+void cover() {
+    uint count = arguments[push.chunk].w;
+    if (PACKETS == 0u) {
+        cover_group(gl_WorkGroupID.x * gl_WorkGroupSize.x, count);
+        return;
+    }
+    Packet packet = packet_at(gl_WorkGroupID.x, push.chunk_first, count);
+    if (!shows(packet.middle, packet.reach)) {
+        return;
+    }
+    for (uint first = packet.first; first < packet.past; first += gl_WorkGroupSize.x) {
+        cover_group(first, packet.past);
+        // What is left over for all of the group is read before the next ones take its place.
+        barrier();
     }
 }

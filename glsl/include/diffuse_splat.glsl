@@ -1,5 +1,5 @@
 // Diffuse particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
-// diffuse_words.glsl. Reads: words. Writes: words.
+// diffuse_words.glsl, frustum.glsl. Reads: words. Writes: words.
 
 struct Sprite {
     Diffuse p;
@@ -13,6 +13,14 @@ Sprite sprite_at(uint i) {
 
 ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(frame.extent.xy) - 1));
+}
+
+// Whether a sphere of particles' middles may show any. Behind the far plane they lie behind the scene.
+bool shows(vec3 middle, float reach) {
+    vec3 centre = (frame.view * vec4(middle, 1.0)).xyz;
+    // The largest of its own accord, and the widest that what is less than a pixel is made.
+    float wider = frame.diffuse.x + LEAST_REACH * max(frame.texel.x, frame.texel.y) * (length(centre) + reach);
+    return in_frustum(centre, reach + wider);
 }
 
 // All in one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not

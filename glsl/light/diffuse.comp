@@ -2,7 +2,7 @@
 // Pass `diffuse`: the thickness of diffuse particles as the sun sees them, and where along its light it lies; as
 // Akinci et al. 2013, Sec. 2.2, for the eye. That they cast shadows is their future work. An invocation a particle,
 // all of a group the large ones.
-// Reads: positions, kinds, radii, ages, ids, front, arguments. Writes: words.
+// Reads: positions, kinds, radii, ages, ids, front, arguments, packets. Writes: words.
 
 #include "frame.glsl"
 #include "falloff.glsl"
@@ -99,6 +99,19 @@ void splat(ivec2 texel, Sprite s) {
 
 ivec4 inside(ivec4 box) {
     return ivec4(max(box.xy, ivec2(0, push.first)), min(box.zw, ivec2(int(frame.light_map.x) - 1, push.last)));
+}
+
+// Whether a sphere of particles' middles may shade any of the rows.
+bool shows(vec3 middle, float reach) {
+    vec3 seen = (frame.to_light * (frame.view * vec4(middle, 1.0))).xyz;
+    // The largest of its own accord, and the widest that what is less than a texel is made.
+    float texel = frame.light_map.y;
+    float wider = (reach + frame.diffuse.x) / texel + LEAST_REACH;
+    vec2 at = seen.xy * frame.light_map.x;
+    // What lies behind the region shades nothing there.
+    bool before = (seen.z - reach) / texel + 0.5 * frame.light_map.x < frame.light_map.x + 1.0;
+    return before && all(greaterThan(at + wider, vec2(0, push.first)))
+        && all(lessThan(at - wider, vec2(frame.light_map.x, push.last + 1)));
 }
 
 #include "diffuse_cover.glsl"

@@ -38,6 +38,8 @@ layout(push_constant, std430) uniform Push {
     uint foam_stride;     // 0: no foam
 } push;
 
+#include "packets.glsl"
+
 shared uint group_small;
 shared uint group_large;
 shared uint first_small;
@@ -141,20 +143,15 @@ void main() {
         append(kind, sphere, share);
         return;
     }
-    uint at = gl_WorkGroupID.x * 8u;
-    // Part of the packet that lies in this chunk; in 32 bits, so clamped before it is added.
-    uint first = max(packets[at], push.chunk_first);
-    uint past = min(packets[at] + min(packets[at + 1u], ~packets[at]), push.chunk_first + here);
-    vec3 low = uintBitsToFloat(uvec3(packets[at + 2u], packets[at + 3u], packets[at + 4u]));
-    vec3 high = uintBitsToFloat(uvec3(packets[at + 5u], packets[at + 6u], packets[at + 7u]));
-    vec3 centre = (frame.view * vec4(0.5 * (low + high), 1.0)).xyz;
+    Packet packet = packet_at(gl_WorkGroupID.x, push.chunk_first, here);
+    vec3 centre = (frame.view * vec4(packet.middle, 1.0)).xyz;
     // The bounding sphere of the box, grown by a sprite: conservative.
-    if (!in_frustum(centre, 0.5 * length(high - low) + frame.particle.z)) {
+    if (!in_frustum(centre, packet.reach + frame.particle.z)) {
         return;
     }
-    for (uint i = first; i < past; i += gl_WorkGroupSize.x) {
+    for (uint i = packet.first; i < packet.past; i += gl_WorkGroupSize.x) {
         uint index = i + gl_LocalInvocationIndex;
-        uint kind = index < past ? classify(index - push.chunk_first, sphere, share) : NONE;
+        uint kind = index < packet.past ? classify(index, sphere, share) : NONE;
         append(kind, sphere, share);
     }
 }

@@ -10,6 +10,8 @@ pub struct DiffuseConfig {
     pub max_particles: u32,
     /// Longest stride of their streams in bytes, a multiple of 4, default 12.
     pub max_stride: u32,
+    /// Whether frames may come with [`DiffuseParticles::packets`](crate::DiffuseParticles::packets), default false.
+    pub packets: bool,
     /// How they become pixels; `None`: what was measured to be the fastest, [`Splat::Compute64`] where the device has
     /// been made for it, else [`Splat::Compute`] (on lavapipe; GPUs are still to be).
     pub splat: Option<Splat>,
@@ -25,6 +27,7 @@ impl DiffuseConfig {
         Self {
             max_particles,
             max_stride: 12,
+            packets: false,
             splat: None,
             irradiance: Irradiance::Prefiltered,
             occlusion: Occlusion::Fast,

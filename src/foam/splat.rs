@@ -15,7 +15,7 @@ use crate::contract::{Config, DiffuseParticles};
 use crate::error::Error;
 use crate::foam::quads::Quads;
 use crate::foam::settings::{DiffuseConfig, Splat};
-use crate::foam::streams::{Chunks, Counting, buffers_of};
+use crate::foam::streams::{Chunks, Counting, Covering, buffers_of};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
@@ -84,7 +84,7 @@ impl Targets {
 /// How the particles become words and images.
 enum Way {
     /// One go after the other over all particles.
-    Compute(Vec<Pipeline>),
+    Compute(Vec<Covering>),
     Quads(Box<Quads>),
 }
 
@@ -109,7 +109,8 @@ impl Sprites {
         let chunks = Chunks::new(&gpu.limits, diffuse);
         let chosen = way(gpu, diffuse);
         let targets = Targets::new(gpu, config, chosen)?;
-        let compute = |shader, constants: &[(u32, u32)]| Pipeline::compute(gpu, shader, constants);
+        let covering =
+            |shader, constants: &[(u32, u32)]| Covering::new(gpu, shader, constants, diffuse);
         let (way, resolve) = match chosen {
             Splat::Raster => {
                 let quads = Quads::new(gpu, &targets.thickness)?;
@@ -117,20 +118,20 @@ impl Sprites {
             }
             Splat::Compute => {
                 let [all, frontmost] =
-                    [0, 1].map(|which| compute(shader::FOAM_SPLAT_COMP, &[(0, which)]));
+                    [0, 1].map(|which| covering(shader::FOAM_SPLAT_COMP, &[(0, which)]));
                 (Way::Compute(vec![all?, frontmost?]), shader::FOAM_RESOLVE_COMP)
             }
             Splat::Compute64 => {
-                let all = compute(shader::FOAM_SPLAT64_COMP, &[])?;
+                let all = covering(shader::FOAM_SPLAT64_COMP, &[])?;
                 (Way::Compute(vec![all]), shader::FOAM_RESOLVE_COMP)
             }
         };
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::INDIRECT_BUFFER;
         let (name, bytes) = ("foam/splat/arguments", chunks.arguments());
         Ok(Self {
-            begin: compute(shader::FOAM_BEGIN_COMP, &[])?,
+            begin: Pipeline::compute(gpu, shader::FOAM_BEGIN_COMP, &[])?,
             way,
-            resolve: compute(resolve, &[])?,
+            resolve: Pipeline::compute(gpu, resolve, &[])?,
             arguments: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
             targets,
             chunks,
@@ -228,14 +229,14 @@ impl Sprites {
     fn record_compute(
         &self,
         r: &Recording<'_>,
-        goes: &[Pipeline],
+        goes: &[Covering],
         particles: Option<&DiffuseParticles>,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let Targets { words, occluders, thickness, normal } = &self.targets;
         let both = COMPUTE_READ_WRITE;
         if let Some(particles) = particles {
-            for (i, pipeline) in goes.iter().enumerate() {
+            for (i, go) in goes.iter().enumerate() {
                 if i > 0 {
                     gpu.barriers(cmd, &[], &[buffer(words.handle, both, both)]);
                 }
@@ -244,18 +245,8 @@ impl Sprites {
                     (7, Resource::buffer(&self.arguments)),
                     (8, Resource::buffer(words)),
                 ];
-                // Atomics alone, in any order: no barrier between chunks.
-                self.chunks.each(
-                    r,
-                    pipeline,
-                    &own,
-                    particles,
-                    |places| places,
-                    |at| {
-                        // SAFETY: outside a render pass; the arguments are visible since `begin`.
-                        unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, at) };
-                    },
-                )?;
+                let arguments = self.arguments.handle;
+                go.record(r, &self.chunks, &own, particles, arguments, |places| places)?;
             }
         }
         let images = [occluders, thickness, normal];
@@ -333,7 +324,7 @@ impl Sprites {
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let group_size = match &self.way {
-            Way::Compute(goes) => goes[0].local_size[0],
+            Way::Compute(goes) => goes[0].group_size(),
             Way::Quads(_) => 0,
         };
         let unread = Resource::buffer(&self.targets.words);

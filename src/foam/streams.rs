@@ -4,12 +4,13 @@
 use ash::vk;
 use bytemuck::NoUninit;
 
-use crate::contract::{Count, DiffuseParticles, Stream};
+use crate::contract::{Count, DiffuseParticles, Packets, Stream};
 use crate::error::Error;
 use crate::foam::settings::DiffuseConfig;
+use crate::gpu::Gpu;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
-use crate::gpu::shader;
+use crate::gpu::shader::{self, Shader};
 use crate::water::{Recording, Window, capacity, each_once};
 
 /// Groups of a dispatch at most.
@@ -160,6 +161,67 @@ impl Chunks {
     }
 }
 
+/// A shader that covers what each particle does (glsl/include/diffuse_cover.glsl): an invocation a particle, or a
+/// group for each of the host's packets.
+pub struct Covering {
+    each: Pipeline,
+    packets: Option<Pipeline>,
+}
+
+impl Covering {
+    /// `constants`: of the shader's own, not number 1.
+    pub fn new(
+        gpu: &Gpu,
+        shader: Shader,
+        constants: &[(u32, u32)],
+        config: &DiffuseConfig,
+    ) -> Result<Self, Error> {
+        let make = |packets| {
+            Pipeline::compute(gpu, shader, &[constants, &[(1, u32::from(packets))]].concat())
+        };
+        Ok(Self { each: make(false)?, packets: config.packets.then(|| make(true)).transpose()? })
+    }
+
+    /// Invocations of a group.
+    pub fn group_size(&self) -> u32 {
+        self.each.local_size[0]
+    }
+
+    /// Over all chunks; `arguments`: of their dispatches, visible. Atomics alone, in any order: no barrier between
+    /// chunks.
+    pub fn record<P: NoUninit>(
+        &self,
+        r: &Recording<'_>,
+        chunks: &Chunks,
+        own: &[(u32, Resource)],
+        particles: &DiffuseParticles,
+        arguments: vk::Buffer,
+        push: impl Fn(Places) -> P,
+    ) -> Result<(), Error> {
+        let device = &r.gpu.device;
+        let bound = |packets| [own, &[(9, packets)]].concat();
+        // `Config` was checked with the frame.
+        if let (Some(Packets { buffer, offset, count }), Some(pipeline)) =
+            (particles.packets, &self.packets)
+        {
+            if count == 0 {
+                return Ok(());
+            }
+            let packets = Resource::Buffer(buffer, offset, 32 * u64::from(count));
+            return chunks.each(r, pipeline, &bound(packets), particles, push, |_| {
+                // SAFETY: outside a render pass, pipeline and set are bound.
+                unsafe { device.cmd_dispatch(r.cmd, count, 1, 1) };
+            });
+        }
+        // Not read.
+        let unread = Resource::Buffer(arguments, 0, 16);
+        chunks.each(r, &self.each, &bound(unread), particles, push, |at| {
+            // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible.
+            unsafe { device.cmd_dispatch_indirect(r.cmd, arguments, at) };
+        })
+    }
+}
+
 /// The streams that there are, with the bytes of a value.
 fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)> {
     let all = [
@@ -174,5 +236,5 @@ fn streams(particles: &DiffuseParticles) -> impl Iterator<Item = (&Stream, u64)>
 
 /// The host's buffers, each once: interleaved streams share one.
 pub fn buffers_of(particles: &DiffuseParticles) -> Vec<vk::Buffer> {
-    each_once(streams(particles), particles.count, None)
+    each_once(streams(particles), particles.count, particles.packets.map(|p| p.buffer))
 }

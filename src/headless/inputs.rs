@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use ash::vk;
+use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
 use super::Headless;
-use crate::contract::{Access, Count, DiffuseParticles, Particles, Slot, Step, Stream};
+use crate::contract::{Access, Count, DiffuseParticles, Packets, Particles, Slot, Step, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::COPY_WRITE;
@@ -46,6 +47,7 @@ pub(super) struct Diffusing {
     radii: Option<Buffer>,
     ages: Option<Buffer>,
     ids: Option<Buffer>,
+    packets: Option<Buffer>,
 }
 
 impl Diffuse<'_> {
@@ -82,6 +84,7 @@ impl Diffusing {
             radii: some(radii, "headless/diffuse/radii")?,
             ages: some(ages, "headless/diffuse/ages")?,
             ids: some(ids, "headless/diffuse/ids")?,
+            packets: None,
         })
     }
 
@@ -92,6 +95,11 @@ impl Diffusing {
             radii: words(&self.radii),
             ages: words(&self.ages),
             ids: words(&self.ids),
+            packets: self.packets.as_ref().map(|buffer| Packets {
+                buffer: buffer.handle,
+                offset: 0,
+                count: self.count.div_ceil(packet_size(self.count)),
+            }),
             before: COPY_WRITE,
             after: COPY_WRITE,
             ..DiffuseParticles::new(stream(&self.positions, 12), Count::Cpu(self.count))
@@ -100,9 +108,51 @@ impl Diffusing {
 
     /// Bytes of its buffers.
     fn size(&self) -> u64 {
-        let words = [&self.kinds, &self.radii, &self.ages, &self.ids];
+        let words = [&self.kinds, &self.radii, &self.ages, &self.ids, &self.packets];
         let words = words.into_iter().flatten().map(|buffer| buffer.size).sum::<u64>();
         self.positions.size + words
+    }
+}
+
+/// Particles of a packet: a few groups, and no more packets than there may be.
+fn packet_size(count: u32) -> u32 {
+    count.div_ceil(65_535).next_multiple_of(64).max(256)
+}
+
+/// A box, empty at first.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Packet {
+    first: u32,
+    count: u32,
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+/// The packets of particles that come a part after the other.
+struct Packing {
+    size: u32,
+    all: Vec<Packet>,
+}
+
+impl Packing {
+    fn add(&mut self, mut first: u32, part: &Diffuse<'_>) {
+        for (i, position) in part.positions.iter().enumerate() {
+            if first.is_multiple_of(self.size) {
+                let (low, high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+                self.all.push(Packet { first, count: self.size, low, high });
+            }
+            first += 1;
+            let Some(packet) = self.all.last_mut() else { continue };
+            let radius = part.radii.map_or(0.0, |radii| radii[i].max(0.0));
+            // What is not finite is not drawn, and min and max pass NaN over.
+            if position.iter().all(|v| v.is_finite()) {
+                for (k, v) in position.iter().enumerate() {
+                    packet.low[k] = packet.low[k].min(v - radius);
+                    packet.high[k] = packet.high[k].max(v + radius);
+                }
+            }
+        }
     }
 }
 
@@ -117,6 +167,7 @@ pub struct DiffuseParts<'a> {
     written: u32,
     /// From the first part on, which says what attributes there are.
     made: Option<(Diffusing, Buffer)>,
+    packing: Option<Packing>,
 }
 
 impl DiffuseParts<'_> {
@@ -160,6 +211,9 @@ impl DiffuseParts<'_> {
                 self.headless.copy(staging, words, to, 4 * first)?;
             }
         }
+        if let Some(packing) = &mut self.packing {
+            packing.add(self.written, part);
+        }
         self.written += length;
         Ok(())
     }
@@ -174,7 +228,19 @@ impl DiffuseParts<'_> {
             return Err(Error::bad("diffuse", why));
         }
         self.headless.diffuse = match self.made.take() {
-            Some((diffusing, _)) => Some(diffusing),
+            Some((mut diffusing, mut staging)) => {
+                if let Some(packing) = &self.packing {
+                    let bytes: &[u8] = bytemuck::cast_slice(&packing.all);
+                    let usage =
+                        vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+                    let (name, place) = ("headless/diffuse/packets", MemoryLocation::GpuOnly);
+                    let size = bytes.len() as u64;
+                    let buffer = Buffer::new(&self.headless.gpu, name, size, usage, place)?;
+                    self.headless.copy(&mut staging, bytes, &buffer, 0)?;
+                    diffusing.packets = Some(buffer);
+                }
+                Some(diffusing)
+            }
             None => Some(Diffusing::new(&self.headless.gpu, 0, [false; 4])?),
         };
         Ok(())
@@ -285,7 +351,9 @@ impl Headless {
             let why = format!("{count} is more than Config.diffuse.max_particles, {most}");
             return Err(Error::bad("diffuse", why));
         };
-        Ok(DiffuseParts { headless: self, count, written: 0, made: None })
+        let packets = self.renderer.config().diffuse.is_some_and(|config| config.packets);
+        let packing = packets.then(|| Packing { size: packet_size(count), all: Vec::new() });
+        Ok(DiffuseParts { headless: self, count, written: 0, made: None, packing })
     }
 
     /// Bytes of the buffers of diffuse particles that were uploaded.

@@ -16,7 +16,7 @@ use super::maps::{AFTER, Maps};
 use crate::contract::DiffuseParticles;
 use crate::error::Error;
 use crate::foam::settings::DiffuseConfig;
-use crate::foam::streams::{Chunks, Places, buffers_of};
+use crate::foam::streams::{Chunks, Covering, Places, buffers_of};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, COPY_WRITE, INDIRECT, buffer,
@@ -56,7 +56,7 @@ shader::assert_layout!(
 /// The pass.
 pub struct Diffuse {
     begin: Pipeline,
-    splat: Pipeline,
+    splat: Covering,
     resolve: Pipeline,
     arguments: Buffer,
     words: Buffer,
@@ -82,7 +82,7 @@ impl Diffuse {
         let desc = map_desc("light/diffuse", edge, vk::Format::R16G16B16A16_SFLOAT, usage);
         Ok(Self {
             begin: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_BEGIN_COMP, &[])?,
-            splat: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_COMP, &[])?,
+            splat: Covering::new(gpu, shader::LIGHT_DIFFUSE_COMP, &[], diffuse)?,
             resolve: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_RESOLVE_COMP, &[])?,
             arguments: made("light/diffuse/arguments", chunks.arguments(), arguments)?,
             words: made("light/diffuse/words", words, fill)?,
@@ -156,17 +156,12 @@ impl Diffuse {
         maps: &Maps,
         rows: [u32; 2],
     ) -> Result<(), Error> {
-        let (gpu, cmd) = (r.gpu, r.cmd);
         let words = self.words_of(rows);
         let [first_row, last_row] = rows.map(u32::cast_signed);
-        let front = Resource::Sampled(maps.front.image().view, gpu.samplers.nearest);
+        let front = Resource::Sampled(maps.front.image().view, r.gpu.samplers.nearest);
         let own = [(6, words), (7, Resource::buffer(&self.arguments)), (8, front)];
-        // Atomics alone, in any order: no barrier between chunks.
         let push = |places| Push { places, first: first_row, last: last_row };
-        self.chunks.each(r, &self.splat, &own, particles, push, |at| {
-            // SAFETY: outside a render pass; the arguments are visible since `begin`.
-            unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.arguments.handle, at) };
-        })
+        self.splat.record(r, &self.chunks, &own, particles, self.arguments.handle, push)
     }
 
     fn record_resolve(&self, r: &Recording<'_>) -> Result<(), Error> {
@@ -200,7 +195,7 @@ impl Diffuse {
     fn record_begin(&self, r: &Recording<'_>, particles: &DiffuseParticles) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let unread = Resource::buffer(&self.words);
-        let group_size = self.splat.local_size[0];
+        let group_size = self.splat.group_size();
         let (counting, count) = self.chunks.counting(Some(particles), group_size, unread);
         let resources = [(1, count), (2, Resource::buffer(&self.arguments))];
         r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;

@@ -395,8 +395,9 @@ impl Cull {
         else {
             return Ok(());
         };
-        let packets = particles.packets.map_or(positions.resource, |p| {
-            Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count.max(1)))
+        let some = particles.packets.filter(|packets| packets.count > 0);
+        let packets = some.map_or(positions.resource, |p| {
+            Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count))
         });
         let pipeline = if particles.packets.is_some() { &self.packets } else { &self.each };
         r.descriptors.bind(

@@ -92,6 +92,43 @@ fn parts_of_any_size_make_the_picture_of_all() {
     end(headless);
 }
 
+/// Packets of what is uploaded, in parts of any size, change nothing; they lie on all sides of the view.
+#[test]
+fn packets_of_parts_make_the_same_picture() {
+    let mut cloud = Cloud::new();
+    // Along a line from the left, so that they begin and end beside the view, and one that is nowhere.
+    let right = cloud.camera.view.row(0).truncate();
+    let across = |p: [f32; 3]| right.dot(glam::Vec3::from(p));
+    cloud.positions.sort_by(|a, b| across(*a).total_cmp(&across(*b)));
+    for (i, position) in cloud.positions.iter_mut().enumerate() {
+        let along = (i as f32 / COUNT as f32 - 0.5) * 40.0;
+        *position = (glam::Vec3::from(*position) + along * right).to_array();
+    }
+    cloud.positions[COUNT / 2] = [f32::NAN; 3];
+    let mut gpu = Gpu::own();
+    let mut plain = headless(gpu.take_device(), COUNT as u32);
+    plain.diffuse(Some(&cloud.part(0..COUNT))).expect("all at once");
+    let (expected, memory) = (cloud.draw(&mut plain), plain.diffuse_memory());
+    end(plain);
+    let diffuse = DiffuseConfig { packets: true, ..DiffuseConfig::new(COUNT as u32) };
+    let config = Config { diffuse: Some(diffuse), ..config(extent(64, 48)) };
+    let mut headless = Headless::new(Gpu::own().take_device(), &config).expect("headless");
+    headless.particles(&[], None).expect("no water");
+    for size in [100, 256, 700, COUNT] {
+        let mut parts = headless.diffuse_parts(COUNT).expect("room");
+        for first in (0..COUNT).step_by(size) {
+            parts.push(&cloud.part(first..COUNT.min(first + size))).expect("a part");
+        }
+        parts.finish().expect("all");
+        // Six of 256.
+        assert!(headless.diffuse_memory() >= memory + 6 * 32, "no packets");
+        assert_eq!(cloud.draw(&mut headless), expected, "in parts of {size}");
+    }
+    headless.diffuse(None).expect("none");
+    cloud.draw(&mut headless);
+    end(headless);
+}
+
 /// More than goes through the staging buffer at a time: before those that are seen many whose lives are over.
 #[test]
 fn a_large_part_goes_piece_by_piece() {

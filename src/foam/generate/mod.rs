@@ -132,6 +132,7 @@ impl Generator {
             ages: Some(Stream { offset: 12, ..particles }),
             ids: Some(Stream { offset: 12, ..drifts }),
             count: Count::Gpu { buffer: buffers.counts.handle, offset: 0 },
+            packets: None,
             fluid_depth: None,
             before: COMPUTE_READ,
             after: COMPUTE_READ,

@@ -1,6 +1,7 @@
 //! Passes `splat`, `radiance` and `blur`: foam of diffuse particles against the twin, and the picture with it.
 
 mod fluid;
+pub mod packets;
 mod ways;
 
 use ash::vk;

@@ -5,8 +5,9 @@ use ash::vk;
 use glam::Vec3;
 use whitewater::foam::{DiffuseConfig, Occlusion, Submerged};
 use whitewater::headless::Diffuse;
-use whitewater::{Config, Count, DiffuseParticles, Region, Stream};
+use whitewater::{Config, Count, DiffuseParticles, Packets, Region, Stream};
 
+use crate::diffuse::packets::boxes;
 use crate::foam::Foamy;
 use crate::reference::Image;
 use crate::reference::diffuse::{Kind, Particle, Settings, intensity};
@@ -414,6 +415,47 @@ fn the_order_of_diffuse_particles_does_not_show() {
         let drawn = other.draw(&mut rig);
         compare::same_color("order-diffuse", map_of(&drawn), map_of(&expected));
         compare::same_color("order-diffuse-output", &drawn.output, &expected.output);
+    }
+}
+
+/// The host's packets of particles do not show in the light, of any size; what a box beside the light's region
+/// holds casts nothing.
+#[test]
+fn packets_cast_as_single_particles() {
+    let gpu = Gpu::shared();
+    let (mut cloud, config) = all_kinds(64);
+    // Each has one of its own: what packets are grown by for those that have none is little.
+    cloud.case.shot.settings.diffuse.radius = 1.0e-3;
+    // A region with particles on all sides.
+    let middle =
+        cloud.positions.iter().map(|p| Vec3::from(*p)).sum::<Vec3>() / cloud.positions.len() as f32;
+    cloud.case.shot.sun.region = Some(Region { center: middle.to_array(), radius: 1.5 });
+    let diffuse = config.diffuse.map(|diffuse| DiffuseConfig { packets: true, ..diffuse });
+    let mut rig = Rig::lit(&gpu, &Config { diffuse, ..config }, 1);
+    let expected = cloud.draw(&mut rig);
+    let n = cloud.positions.len() as u32;
+    let draw = |rig: &mut Rig<'_>, positions: &[[f32; 3]], size: u32| {
+        let ranges: Vec<_> = (0..n).step_by(size as usize).map(|i| (i, size)).collect();
+        let bytes = boxes(positions, Some(&cloud.radii), &ranges);
+        let data = rig.stub.data(&bytes, vk::BufferUsageFlags::STORAGE_BUFFER);
+        let count = ranges.len() as u32;
+        let packets = Some(Packets { buffer: data.buffer, offset: 0, count });
+        let particles = rig.diffuse(&cloud.input());
+        cloud.draw_with(rig, Some(DiffuseParticles { packets, ..particles.particles() }))
+    };
+    for size in [1, 2, 50] {
+        let drawn = draw(&mut rig, &cloud.positions, size);
+        compare::same_color("packets-cast", map_of(&drawn), map_of(&expected));
+        compare::same_color("packets-cast-output", &drawn.output, &expected.output);
+    }
+    // In the light's own axes: beside the region, and behind it.
+    let sun = Vec3::from(cloud.case.shot.settings.light.direction).normalize();
+    let across = sun.any_orthonormal_vector();
+    for offset in [across, -across, sun.cross(across), -sun] {
+        let moved = |p: &[f32; 3]| (Vec3::from(*p) + 1.0e4 * offset).to_array();
+        let beside: Vec<_> = cloud.positions.iter().map(moved).collect();
+        let map = draw(&mut rig, &beside, 50).light_diffuse.expect("a map of diffuse particles");
+        assert!(map.data.iter().all(|texel| texel[0] == 0.0), "{offset}: something casts");
     }
 }
 

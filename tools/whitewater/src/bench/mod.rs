@@ -46,6 +46,20 @@ pub struct BenchArgs {
     /// How the shadow on diffuse particles is sampled [default: fast]
     #[arg(long, value_delimiter = ',', value_enum, requires = "sea")]
     occlusion: Vec<sea::OcclusionArg>,
+    /// Diffuse particles sorted along a curve through space, in packets that are passed over where they are beside
+    /// the view
+    #[arg(long, requires = "sea")]
+    packets: bool,
+    /// Degrees by which the camera of a sea is turned to its left [default: 0]
+    #[arg(
+        long,
+        value_name = "DEGREES",
+        requires = "sea",
+        default_value_t = 0.0,
+        allow_negative_numbers = true,
+        hide_default_value = true
+    )]
+    turned: f32,
     /// Write the last frame, of a sea and one combination; an .exr with all layers of its foam
     #[arg(long, value_name = "FILE", requires = "sea")]
     picture: Option<PathBuf>,

@@ -4,6 +4,7 @@ use std::sync::Mutex;
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use glam::{Mat4, Vec3};
 use whitewater::ash::vk;
 use whitewater::foam::{DiffuseConfig, DiffuseLook, Occlusion, Reach};
 use whitewater::headless::scene::Scene;
@@ -13,7 +14,7 @@ use whitewater::headless::{
 use whitewater::io::picture;
 use whitewater::water::Shadows;
 use whitewater::{Config, Error, Settings};
-use whitewater_seas::Sea;
+use whitewater_seas::{Foam, Sea};
 
 use super::report::{Report, Row, SeaRow};
 use super::{BenchArgs, Drawn, lock, times};
@@ -159,8 +160,11 @@ fn measure(args: &BenchArgs, options: &DeviceOptions, case: Case) -> Outcome<Vec
     let device = Device::new(options)?;
     // There are none, and it is not zero.
     let mut config = Config::new(case.extent, COLOR_FORMAT, 64);
-    config.diffuse =
-        Some(DiffuseConfig { occlusion: case.occlusion.into(), ..DiffuseConfig::new(case.count) });
+    config.diffuse = Some(DiffuseConfig {
+        occlusion: case.occlusion.into(),
+        packets: args.packets,
+        ..DiffuseConfig::new(case.count)
+    });
     config.shadow = Some(Shadows::Map);
     let mut headless = Headless::new(device, &config)?;
     let rows = sample(&mut headless, args, case, config);
@@ -182,7 +186,7 @@ fn sample(
     }
     headless.scene(&Scene { sun: environment.sun_light(), ..scene }, true)?;
     headless.particles(&[], None)?;
-    upload(headless, sea, count)?;
+    upload(headless, sea, count, args.packets)?;
     let mut settings = Settings {
         // Of a scene of the source's size the source's reach.
         diffuse: DiffuseLook {
@@ -196,7 +200,8 @@ fn sample(
     if let Some(path) = &args.settings {
         SettingsFile::read(path)?.diffuse.apply(&mut settings.diffuse);
     }
-    let camera = sea.camera(extent.width as f32 / extent.height as f32);
+    let mut camera = sea.camera(extent.width as f32 / extent.height as f32);
+    camera.view = Mat4::from_rotation_y(-args.turned.to_radians()) * camera.view;
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
     let depth = headless.layer("foam")?;
@@ -242,12 +247,15 @@ fn sample(
 }
 
 /// A part after the other: never all are in the host's memory.
-fn upload(headless: &mut Headless, sea: Sea, count: u32) -> Result<(), Error> {
+fn upload(headless: &mut Headless, sea: Sea, count: u32, sorted: bool) -> Result<(), Error> {
     let mut parts = headless.diffuse_parts(count as usize)?;
     let mut first = 0;
     while first < count {
         let next = count.min(first.saturating_add(PART));
-        let foam = sea.foam(first..next, count);
+        let mut foam = sea.foam(first..next, count);
+        if sorted {
+            foam = along_curve(&foam);
+        }
         parts.push(&Diffuse {
             positions: &foam.positions,
             kinds: Some(&foam.kinds),
@@ -258,4 +266,26 @@ fn upload(headless: &mut Headless, sea: Sea, count: u32) -> Result<(), Error> {
         first = next;
     }
     parts.finish()
+}
+
+/// The same particles, near each other in space where they are near each other in order: along a Morton curve
+/// through their box.
+fn along_curve(foam: &Foam) -> Foam {
+    let all = || foam.positions.iter().map(|p| Vec3::from(*p));
+    let low = all().fold(Vec3::INFINITY, Vec3::min);
+    let scale = 1023.0 / (all().fold(Vec3::NEG_INFINITY, Vec3::max) - low).max(Vec3::splat(1e-6));
+    let key = |i: &u32| {
+        let cell = ((Vec3::from(foam.positions[*i as usize]) - low) * scale).as_uvec3().to_array();
+        let bit = |b: u32, axis: u32| (cell[axis as usize] >> b & 1) << (3 * b + axis);
+        (0..30).fold(0, |key, i| key | bit(i / 3, i % 3))
+    };
+    let mut order: Vec<u32> = (0..foam.positions.len() as u32).collect();
+    order.sort_by_cached_key(key);
+    let order = || order.iter().map(|i| *i as usize);
+    Foam {
+        positions: order().map(|i| foam.positions[i]).collect(),
+        kinds: order().map(|i| foam.kinds[i]).collect(),
+        ages: order().map(|i| foam.ages[i]).collect(),
+        ids: order().map(|i| foam.ids[i]).collect(),
+    }
 }

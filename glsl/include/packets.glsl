@@ -1,0 +1,24 @@
+// The host's packets of particles (thesis Sec. 4.3). What includes this binds packets, eight words each: first
+// particle, how many, least and greatest corner of the box of their centres. Reads: packets.
+
+struct Packet {
+    uint first; // of the chunk's particles
+    uint past;
+    vec3 middle; // of its box, in the world
+    float reach; // of the box from there
+};
+
+// The part of a packet that lies in a chunk of so many particles; in 32 bits, so clamped before it is added.
+Packet packet_at(uint i, uint chunk_first, uint count) {
+    uint at = 8u * i;
+    uint first = max(packets[at], chunk_first);
+    uint past = min(packets[at] + min(packets[at + 1u], ~packets[at]), chunk_first + count);
+    vec3 low = uintBitsToFloat(uvec3(packets[at + 2u], packets[at + 3u], packets[at + 4u]));
+    vec3 high = uintBitsToFloat(uvec3(packets[at + 5u], packets[at + 6u], packets[at + 7u]));
+    Packet packet;
+    packet.first = first - chunk_first;
+    packet.past = max(past, first) - chunk_first;
+    packet.middle = 0.5 * (low + high);
+    packet.reach = 0.5 * length(high - low);
+    return packet;
+}
