@@ -98,6 +98,8 @@ pub(super) enum Data {
 }
 
 impl Data {
+    const NONE: Self = Self::F32(Vec::new());
+
     pub(super) fn for_type(ty: AttributeType) -> Self {
         use AttributeType as T;
         match ty {
@@ -125,12 +127,20 @@ impl Data {
         }
     }
 
-    fn f32(&self, i: usize) -> Option<f32> {
+    /// All of them, without a copy where they are stored so.
+    fn into_f32(self) -> Vec<f32> {
         match self {
-            Self::F32(v) => v.get(i).copied(),
-            Self::F64(v) => v.get(i).map(|x| *x as f32),
-            Self::Int(v) => v.get(i).map(|x| *x as f32),
+            Self::F32(v) => v,
+            Self::F64(v) => v.into_iter().map(|x| x as f32).collect(),
+            Self::Int(v) => v.into_iter().map(|x| x as f32).collect(),
         }
+    }
+
+    /// All of them, or the index of the first that is no whole number or doesn't fit.
+    fn to_u32(&self) -> Result<Vec<u32>, usize> {
+        let mut values = Vec::with_capacity(self.len());
+        values.extend((0..self.len()).map_while(|i| self.u32(i)));
+        if values.len() < self.len() { Err(values.len()) } else { Ok(values) }
     }
 
     fn f64(&self, i: usize) -> Option<f64> {
@@ -317,54 +327,108 @@ impl Table {
         self.columns.push(Column { name: name.into(), components, data });
     }
 
-    /// Takes out the first column of one of these names and this number of components.
-    fn find(&mut self, names: &[&str], components: usize) -> Option<Column> {
-        for name in names {
-            let found = self.columns.iter().position(|c| {
-                c.components == components && c.name.trim().eq_ignore_ascii_case(name)
-            });
-            if let Some(i) = found {
-                return Some(self.columns.swap_remove(i));
-            }
-        }
-        None
-    }
-
-    /// Takes out a vector: one column of three components, or three scalar columns.
-    fn find_vector(
-        &mut self,
-        names: &[&str],
-        split: impl Iterator<Item = [String; 3]>,
-    ) -> Option<Vector> {
-        if let Some(column) = self.find(names, 3) {
-            return Some(Vector::Whole(column));
-        }
-        for names in split {
-            let has = |name: &String| {
-                self.columns
-                    .iter()
-                    .any(|c| c.components == 1 && c.name.trim().eq_ignore_ascii_case(name))
-            };
-            if names.iter().all(has) {
-                let [x, y, z] = names.map(|name| self.find(&[name.as_str()], 1));
-                if let (Some(x), Some(y), Some(z)) = (x, y, z) {
-                    return Some(Vector::Split(Box::new([x, y, z])));
-                }
-            }
-        }
-        None
-    }
-
     /// Checks the lengths and gives the columns their meaning.
     pub(super) fn assemble(mut self, format: Format) -> Result<Particles, ReadError> {
-        let positions = match self.positions.take() {
-            Some(data) => {
-                Some(Vector::Whole(Column { name: "positions".into(), components: 3, data }))
-            }
-            None => self.find_vector(POSITION, triples(POSITION_BASES)),
+        let placed = self.positions.take().map(|data| {
+            self.push(PLACED, 3, data);
+            self.columns.len() - 1
+        });
+        let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
+        let roles = Roles::find(&shapes, placed, &self.attributes)?;
+        let mut survey = Survey::new(roles.rows(&shapes)?);
+        let particles = survey.part(&roles, self.columns, format);
+        self.warnings.extend(survey.warnings());
+        Ok(Particles { attributes: self.attributes, warnings: self.warnings, ..particles })
+    }
+}
+
+/// The name of positions that have none, but a place of their own.
+pub(super) const PLACED: &str = "positions";
+
+impl Column {
+    fn shape(&self) -> Shape<'_> {
+        Shape { name: &self.name, components: self.components, values: self.data.len() as u64 }
+    }
+}
+
+/// What tells the meaning of a column: known of a file's header before there are any numbers.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape<'a> {
+    pub(super) name: &'a str,
+    pub(super) components: usize,
+    /// Of all particles together.
+    pub(super) values: u64,
+}
+
+impl Shape<'_> {
+    fn check(&self, rows: u64) -> Result<(), ReadError> {
+        let expected = rows.saturating_mul(self.components as u64);
+        if self.values != expected {
+            return Err(ReadError::Length {
+                attribute: self.name.to_string(),
+                expected,
+                found: self.values,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// A column of three components, or three of one, by their indices.
+#[derive(Debug, Clone, Copy)]
+enum Vector {
+    Whole(usize),
+    Split([usize; 3]),
+}
+
+/// Which column is what, by its index. Of two of one name it is the first.
+#[derive(Debug)]
+pub(super) struct Roles {
+    positions: Vector,
+    velocities: Option<Vector>,
+    densities: Option<usize>,
+    lifetimes: Option<usize>,
+    ids: Option<usize>,
+    kinds: Option<usize>,
+}
+
+/// The first column of the first of these names that has this number of components.
+fn named(shapes: &[Shape<'_>], names: &[&str], components: usize) -> Option<usize> {
+    names.iter().find_map(|name| {
+        shapes
+            .iter()
+            .position(|s| s.components == components && s.name.trim().eq_ignore_ascii_case(name))
+    })
+}
+
+/// A vector: one column of three components, or three scalar columns.
+fn named_vector(
+    shapes: &[Shape<'_>],
+    names: &[&str],
+    mut split: impl Iterator<Item = [String; 3]>,
+) -> Option<Vector> {
+    let whole = named(shapes, names, 3).map(Vector::Whole);
+    whole.or_else(|| {
+        split.find_map(|names| {
+            let [x, y, z] = names.map(|name| named(shapes, &[&name], 1));
+            Some(Vector::Split([x?, y?, z?]))
+        })
+    })
+}
+
+impl Roles {
+    /// `placed`: the positions, where the format has a place for them.
+    pub(super) fn find(
+        shapes: &[Shape<'_>],
+        placed: Option<usize>,
+        attributes: &[Attribute],
+    ) -> Result<Self, ReadError> {
+        let positions = match placed {
+            Some(placed) => Some(Vector::Whole(placed)),
+            None => named_vector(shapes, POSITION, triples(POSITION_BASES)),
         };
         let Some(positions) = positions else {
-            let names: Vec<_> = self.attributes.iter().map(Attribute::to_string).collect();
+            let names: Vec<_> = attributes.iter().map(Attribute::to_string).collect();
             return Err(ReadError::NoPositions {
                 expected: POSITION_NAMES,
                 found: match names.len() {
@@ -377,159 +441,224 @@ impl Table {
                 },
             });
         };
-        let rows = positions.rows()?;
-        let mut warnings = std::mem::take(&mut self.warnings);
-        warnings.extend(positions.resolution_warning(rows));
-        let positions = positions.to_f32(rows);
-        let bad = super::count_non_finite(&positions);
-        if bad > 0 {
-            warnings.push(format!(
-                "{bad} of {rows} positions are not finite (NaN or infinite, or too large for 32 bits); they are not drawn"
-            ));
-        }
-
-        let velocity = self.find_vector(VELOCITY, triples(VELOCITY).chain(std::iter::once(uvw())));
-        let velocities = match velocity {
-            Some(v) => {
-                v.check(rows)?;
-                Some(v.to_f32(rows))
-            }
-            None => None,
-        };
-        let densities = self.scalar(DENSITY, rows)?.map(|c| c.to_f32(rows));
-        let lifetimes = self.scalar(LIFETIME, rows)?.map(|c| c.to_f32(rows));
-        let ids = self.scalar(ID, rows)?.and_then(|c| c.to_u32(rows, &mut warnings));
-        let kinds = self.scalar(KIND, rows)?.and_then(|c| c.to_u32(rows, &mut warnings));
-        Ok(Particles {
+        let scalar = |names| named(shapes, names, 1);
+        Ok(Self {
             positions,
+            velocities: named_vector(
+                shapes,
+                VELOCITY,
+                triples(VELOCITY).chain(std::iter::once(uvw())),
+            ),
+            densities: scalar(DENSITY),
+            lifetimes: scalar(LIFETIME),
+            ids: scalar(ID),
+            kinds: scalar(KIND),
+        })
+    }
+
+    /// How many particles there are: as many as positions, and as what else there is.
+    pub(super) fn rows(&self, shapes: &[Shape<'_>]) -> Result<usize, ReadError> {
+        let rows = match self.positions {
+            Vector::Whole(i) => {
+                let Some(shape) = shapes.get(i) else { return Ok(0) };
+                if !shape.values.is_multiple_of(3) {
+                    return Err(ReadError::malformed(
+                        format!("three values per particle for `{}`", shape.name),
+                        format!("{} values", shape.values),
+                        Place::Unknown,
+                    ));
+                }
+                shape.values / 3
+            }
+            Vector::Split([x, ..]) => shapes.get(x).map_or(0, |shape| shape.values),
+        };
+        for shape in self.used().filter_map(|i| shapes.get(i)) {
+            shape.check(rows)?;
+        }
+        usize::try_from(rows).map_err(|_| ReadError::TooLarge {
+            what: "the list of particles".into(),
+            limit: usize::MAX as u64,
+        })
+    }
+
+    /// The columns that have a meaning, in the order in which they are checked.
+    pub(super) fn used(&self) -> impl Iterator<Item = usize> {
+        let vectors = [Some(self.positions), self.velocities].into_iter().flatten();
+        let vectors = vectors.flat_map(|vector| match vector {
+            Vector::Whole(i) => vec![i],
+            Vector::Split(all) => all.to_vec(),
+        });
+        let scalars = [self.densities, self.lifetimes, self.ids, self.kinds];
+        vectors.chain(scalars.into_iter().flatten())
+    }
+}
+
+/// The columns of some particles.
+struct Columns(Vec<Column>);
+
+impl Columns {
+    fn f64(&self, column: usize, i: usize) -> f64 {
+        self.0.get(column).and_then(|c| c.data.f64(i)).unwrap_or(f64::NAN)
+    }
+
+    fn vector(&self, vector: Vector, i: usize) -> [f64; 3] {
+        match vector {
+            Vector::Whole(column) => [0, 1, 2].map(|k| self.f64(column, 3 * i + k)),
+            Vector::Split(columns) => columns.map(|column| self.f64(column, i)),
+        }
+    }
+
+    fn rows(&self, vector: Vector) -> usize {
+        let values = |column: usize| self.0.get(column).map_or(0, |c| c.data.len());
+        match vector {
+            Vector::Whole(column) => values(column) / 3,
+            Vector::Split([x, ..]) => values(x),
+        }
+    }
+
+    /// Numbers that are not needed any more are freed.
+    fn take(&mut self, column: usize) -> Data {
+        let taken = self.0.get_mut(column).map(|c| std::mem::replace(&mut c.data, Data::NONE));
+        taken.unwrap_or(Data::NONE)
+    }
+
+    fn take_vectors(&mut self, vector: Vector) -> Vec<[f32; 3]> {
+        let all = match vector {
+            Vector::Whole(column) => match self.0.get(column) {
+                Some(Column { data: Data::F32(v), .. }) => Some(v.as_chunks::<3>().0.to_vec()),
+                _ => None,
+            },
+            Vector::Split(_) => None,
+        };
+        let all = all.unwrap_or_else(|| {
+            (0..self.rows(vector)).map(|i| self.vector(vector, i).map(|c| c as f32)).collect()
+        });
+        match vector {
+            Vector::Whole(column) => drop(self.take(column)),
+            Vector::Split(columns) => columns.into_iter().for_each(|c| drop(self.take(c))),
+        }
+        all
+    }
+}
+
+/// Whole numbers that are none: an attribute that is dropped.
+#[derive(Debug)]
+struct Dropped {
+    attribute: String,
+    value: f64,
+    particle: usize,
+}
+
+/// What is known of particles only when all were seen, whether they come at once or in parts.
+#[derive(Debug)]
+pub(super) struct Survey {
+    rows: usize,
+    seen: usize,
+    /// Positions of a few thousand, evenly through the file.
+    samples: Vec<[f64; 3]>,
+    not_finite: usize,
+    ids: Option<Dropped>,
+    kinds: Option<Dropped>,
+}
+
+impl Survey {
+    /// `rows`: particles in all.
+    pub(super) fn new(rows: usize) -> Self {
+        Self { rows, seen: 0, samples: Vec::new(), not_finite: 0, ids: None, kinds: None }
+    }
+
+    /// Gives the columns of the particles that come next their meaning.
+    pub(super) fn part(
+        &mut self,
+        roles: &Roles,
+        columns: Vec<Column>,
+        format: Format,
+    ) -> Particles {
+        let mut columns = Columns(columns);
+        let rows = columns.rows(roles.positions);
+        let step = self.rows.div_ceil(4096).max(1);
+        let sampled = (0..rows).skip((step - self.seen % step) % step).step_by(step);
+        self.samples.extend(sampled.map(|i| columns.vector(roles.positions, i)));
+        let positions = columns.take_vectors(roles.positions);
+        self.not_finite += super::count_non_finite(&positions);
+        let velocities = roles.velocities.map(|v| columns.take_vectors(v));
+        let mut scalar = |column: Option<usize>| column.map(|c| columns.take(c).into_f32());
+        let (densities, lifetimes) = (scalar(roles.densities), scalar(roles.lifetimes));
+        let mut whole = |column: Option<usize>, dropped: &mut Option<Dropped>| {
+            let column = column?;
+            let data = columns.take(column);
+            let values = data.to_u32().map_err(|i| Dropped {
+                attribute: columns.0.get(column).map_or(String::new(), |c| c.name.clone()),
+                value: data.f64(i).unwrap_or(f64::NAN),
+                particle: self.seen + i,
+            });
+            values.map_err(|first| dropped.get_or_insert(first)).ok()
+        };
+        let ids = whole(roles.ids, &mut self.ids);
+        let kinds = whole(roles.kinds, &mut self.kinds);
+        self.seen += rows;
+        Particles {
             velocities,
             densities,
             ids,
             lifetimes,
             kinds,
-            attributes: self.attributes,
             format,
-            warnings,
-        })
-    }
-
-    fn scalar(&mut self, names: &[&str], rows: usize) -> Result<Option<Column>, ReadError> {
-        let column = self.find(names, 1);
-        if let Some(column) = &column {
-            column.check(rows)?;
-        }
-        Ok(column)
-    }
-}
-
-impl Column {
-    fn check(&self, rows: usize) -> Result<(), ReadError> {
-        let expected = rows as u64 * self.components as u64;
-        if self.data.len() as u64 != expected {
-            return Err(ReadError::Length {
-                attribute: self.name.clone(),
-                expected,
-                found: self.data.len() as u64,
-            });
-        }
-        Ok(())
-    }
-
-    fn to_f32(&self, rows: usize) -> Vec<f32> {
-        (0..rows).filter_map(|i| self.data.f32(i)).collect()
-    }
-
-    fn to_u32(&self, rows: usize, warnings: &mut Vec<String>) -> Option<Vec<u32>> {
-        let values: Vec<u32> = (0..rows).map_while(|i| self.data.u32(i)).collect();
-        if values.len() < rows {
-            let value = self.data.f64(values.len()).unwrap_or(f64::NAN);
-            warnings.push(format!(
-                "attribute `{}` is dropped: value {value} of particle {} is no whole number from 0 to {}",
-                self.name,
-                values.len(),
-                u32::MAX
-            ));
-            return None;
-        }
-        Some(values)
-    }
-}
-
-enum Vector {
-    Whole(Column),
-    Split(Box<[Column; 3]>),
-}
-
-impl Vector {
-    /// How many particles there are, where this is the positions.
-    fn rows(&self) -> Result<usize, ReadError> {
-        match self {
-            Self::Whole(c) if c.data.len().is_multiple_of(3) => Ok(c.data.len() / 3),
-            Self::Whole(c) => Err(ReadError::malformed(
-                format!("three values per particle for `{}`", c.name),
-                format!("{} values", c.data.len()),
-                Place::Unknown,
-            )),
-            Self::Split(columns) => {
-                let [x, y, z] = columns.as_ref();
-                let rows = x.data.len();
-                y.check(rows)?;
-                z.check(rows)?;
-                Ok(rows)
-            }
+            ..Particles::from_positions(positions)
         }
     }
 
-    fn check(&self, rows: usize) -> Result<(), ReadError> {
-        match self {
-            Self::Whole(c) => c.check(rows),
-            Self::Split(columns) => columns.iter().try_for_each(|c| c.check(rows)),
+    /// Takes out of a part, or of all of them, what the particles as a whole have not.
+    pub(super) fn drop_from(&self, particles: &mut Particles) {
+        if self.ids.is_some() {
+            particles.ids = None;
+        }
+        if self.kinds.is_some() {
+            particles.kinds = None;
         }
     }
 
-    fn f64(&self, i: usize) -> [f64; 3] {
-        [0, 1, 2].map(|k| {
-            match self {
-                Self::Whole(c) => c.data.f64(3 * i + k),
-                Self::Split(c) => c.get(k).and_then(|c| c.data.f64(i)),
-            }
-            .unwrap_or(f64::NAN)
-        })
-    }
-
-    fn to_f32(&self, rows: usize) -> Vec<[f32; 3]> {
-        if let Self::Whole(Column { data: Data::F32(v), .. }) = self {
-            return v.as_chunks::<3>().0.to_vec();
-        }
-        (0..rows).map(|i| self.f64(i).map(|c| c as f32)).collect()
-    }
-
-    /// Says where the bulk lies so far out that 32-bit floats cannot tell particles apart.
-    fn resolution_warning(&self, rows: usize) -> Option<String> {
-        let step = rows.div_ceil(4096).max(1);
-        let samples: Vec<_> = (0..rows).step_by(step).map(|i| self.f64(i)).collect();
-        let mut extent = 0.0_f64;
-        let mut reach = 0.0_f64;
-        for axis in 0..3 {
-            let mut sorted: Vec<f64> = samples
-                .iter()
-                .filter_map(|p| p.get(axis).copied())
-                .filter(|c| c.is_finite())
-                .collect();
-            sorted.sort_unstable_by(f64::total_cmp);
-            // From the 5th to the 95th percentile: a few strays say nothing about the bulk.
-            let cut = sorted.len() / 20;
-            let low = sorted.get(cut)?;
-            let high = sorted.get(sorted.len() - 1 - cut)?;
-            extent = extent.max(high - low);
-            reach = reach.max(low.abs()).max(high.abs());
-        }
-        let resolution = reach * f64::from(f32::EPSILON);
-        (extent > 0.0 && resolution > 1e-3 * extent).then(|| {
+    /// What a user should know, after the last part.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let not_finite = (self.not_finite > 0).then(|| {
             format!(
-                "the particles lie {reach:.3e} from the origin but span only {extent:.3e}: 32-bit positions are no finer \
-                 than {resolution:.1e} there; move them to the origin before writing the file"
+                "{} of {} positions are not finite (NaN or infinite, or too large for 32 bits); they are not drawn",
+                self.not_finite, self.rows
             )
-        })
+        });
+        let dropped = [&self.ids, &self.kinds].into_iter().flatten().map(|dropped| {
+            format!(
+                "attribute `{}` is dropped: value {} of particle {} is no whole number from 0 to {}",
+                dropped.attribute,
+                dropped.value,
+                dropped.particle,
+                u32::MAX
+            )
+        });
+        resolution_warning(&self.samples).into_iter().chain(not_finite).chain(dropped).collect()
     }
+}
+
+/// Says where the bulk lies so far out that 32-bit floats cannot tell particles apart.
+fn resolution_warning(samples: &[[f64; 3]]) -> Option<String> {
+    let mut extent = 0.0_f64;
+    let mut reach = 0.0_f64;
+    for axis in 0..3 {
+        let mut sorted: Vec<f64> =
+            samples.iter().filter_map(|p| p.get(axis).copied()).filter(|c| c.is_finite()).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        // From the 5th to the 95th percentile: a few strays say nothing about the bulk.
+        let cut = sorted.len() / 20;
+        let low = sorted.get(cut)?;
+        let high = sorted.get(sorted.len() - 1 - cut)?;
+        extent = extent.max(high - low);
+        reach = reach.max(low.abs()).max(high.abs());
+    }
+    let resolution = reach * f64::from(f32::EPSILON);
+    (extent > 0.0 && resolution > 1e-3 * extent).then(|| {
+        format!(
+            "the particles lie {reach:.3e} from the origin but span only {extent:.3e}: 32-bit positions are no finer \
+             than {resolution:.1e} there; move them to the origin before writing the file"
+        )
+    })
 }
