@@ -7,12 +7,14 @@
 //! point x y z w and its attributes, 4 bytes per value. What follows the points (attributes of vertices,
 //! primitives and the whole, groups) is of no use here and is not read.
 
+use super::Format;
 use super::bytes::Cursor;
-use super::columns::{AttributeType, Data, Table};
+use super::columns::{AttributeType, PLACED, Table};
 use super::error::{Place, ReadError};
-use super::{Format, Particles};
+use super::rows::{Field, Layout, Rows};
 
-pub(super) fn read(bytes: &[u8], gzip: bool) -> Result<Particles, ReadError> {
+/// What the header says, of a file or the beginning of one.
+pub(super) fn layout(bytes: &[u8], gzip: bool) -> Result<Layout, ReadError> {
     let mut cursor = Cursor::new(bytes);
     cursor.take(5, "the BGEO magic")?;
     let mut header = [0_i32; 9];
@@ -36,7 +38,7 @@ pub(super) fn read(bytes: &[u8], gzip: bool) -> Result<Particles, ReadError> {
 
     let mut table = Table::default();
     table.list("position", 3, AttributeType::F32);
-    let mut columns = Vec::new();
+    let mut fields = vec![Field::new(PLACED, 3, AttributeType::F32, 0)?];
     // x y z w come first.
     let mut stride = 16_u64;
     for _ in 0..point_attributes {
@@ -74,26 +76,22 @@ pub(super) fn read(bytes: &[u8], gzip: bool) -> Result<Particles, ReadError> {
             cursor.take(4 * u64::from(components), "an attribute's defaults")?;
         }
         if table.list(&name, usize::from(components), ty) && ty != AttributeType::Text {
-            columns.push((name, components, ty, stride));
+            fields.push(Field::new(&name, usize::from(components), ty, stride)?);
         }
         stride += 4 * u64::from(components);
     }
-
-    let raw = cursor.take(points.saturating_mul(stride), "the points")?;
-    let stride = stride as usize;
-    let column = |ty, offset: usize, components: usize| {
-        let mut data = Data::for_type(ty);
-        data.reserve(raw.len() / stride * components);
-        for point in raw.chunks_exact(stride) {
-            let values = point.get(offset..offset + 4 * components);
-            data.push_bytes(ty, values.unwrap_or_default(), true);
-        }
-        data
-    };
-    table.positions = Some(column(AttributeType::F32, 0, 3));
-    for (name, components, ty, offset) in columns {
-        let components = usize::from(components);
-        table.push(&name, components, column(ty, offset as usize, components));
-    }
-    table.assemble(Format::Bgeo { gzip })
+    Ok(Layout {
+        rows: Rows {
+            what: "the points".into(),
+            header: cursor.at() as u64,
+            between: Vec::new(),
+            count: points,
+            stride,
+            big_endian: true,
+            fields,
+        },
+        placed: true,
+        attributes: table.attributes,
+        format: Format::Bgeo { gzip },
+    })
 }

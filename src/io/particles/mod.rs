@@ -15,6 +15,8 @@
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
 //! | CSV (ParaView's names, or `x,y,z`), XYZ text, XYZ raw `f32` triples, JSON | yes | |
 //!
+//! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory.
+//!
 //! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
 //! Lengths and times are taken as they are; nothing is scaled, recentred or reordered.
 //!
@@ -32,8 +34,11 @@ mod format;
 mod geo;
 mod json;
 mod numpy;
+mod parts;
 mod ply;
+mod rows;
 pub mod sequence;
+mod source;
 mod spacing;
 mod vtk_legacy;
 mod vtk_xml;
@@ -45,6 +50,7 @@ use std::path::Path;
 pub use columns::{Attribute, AttributeType};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
+pub use parts::Parts;
 pub use spacing::{estimate_densities, estimate_spacing};
 pub use write::{write, write_to};
 
@@ -120,7 +126,7 @@ pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError>
 
 fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, ReadError> {
     match format::detect(bytes, hint)? {
-        format::Reader::Bgeo => bgeo::read(bytes, gzip),
+        format::Reader::Bgeo => bgeo::layout(bytes, gzip)?.read(bytes),
         format::Reader::Geo => geo::read(bytes),
         format::Reader::VtkLegacy => vtk_legacy::read(bytes),
         format::Reader::VtkXml => vtk_xml::read(bytes),

@@ -10,8 +10,10 @@
 use std::io::{Cursor as IoCursor, Read};
 
 use super::bytes::{Cursor, show, unpack, unpack_limit};
-use super::columns::{AttributeType, Data, Table, wanted};
+use super::columns::{Attribute, AttributeType, Data, Table, wanted};
 use super::error::{Place, ReadError};
+use super::rows::{Field, Layout, Rows};
+use super::source::{self, Check, Input, Packing, Piece, Source};
 use super::{Format, Particles};
 
 /// What the header of an array says.
@@ -33,13 +35,71 @@ impl Header {
         let n = self.shape.iter().skip(1).fold(1_u64, |n, d| n.saturating_mul(*d));
         usize::try_from(n).unwrap_or(usize::MAX)
     }
+
+    /// Bytes of a number.
+    fn size(&self, name: &str) -> Result<u64, ReadError> {
+        self.ty.size().ok_or_else(|| ReadError::Unsupported {
+            what: format!("array `{name}` of dtype {}", self.descr),
+            advice: "save it as float32, float64 or an integer type: a.astype('f4')",
+        })
+    }
+
+    /// All of the first component come first, then all of the second ...
+    fn is_transposed(&self) -> bool {
+        self.fortran && self.shape.len() == 2 && self.components() > 1
+    }
+
+    /// Where its numbers are, after so many bytes of header; none where particle does not follow particle.
+    fn rows(&self, header: u64, name: &str) -> Result<Option<Rows>, ReadError> {
+        let stride = self.size(name)?.saturating_mul(self.components() as u64);
+        if self.is_transposed() {
+            return Ok(None);
+        }
+        Ok(Some(Rows {
+            what: format!("array `{name}`"),
+            header,
+            between: Vec::new(),
+            count: self.shape.first().copied().unwrap_or(1),
+            stride,
+            big_endian: self.big_endian,
+            fields: vec![Field::new(name, self.components(), self.ty, 0)?],
+        }))
+    }
 }
 
+const NPY: &str = "array";
+
 pub(super) fn read_npy(bytes: &[u8]) -> Result<Particles, ReadError> {
+    if let Some(layout) = layout(bytes)?.0 {
+        return layout.read(bytes);
+    }
     let mut cursor = Cursor::new(bytes);
-    let header = header(&mut cursor)?;
+    let header = of_positions(&mut cursor)?;
     let mut table = Table::default();
-    table.list("array", header.components(), header.ty);
+    table.list(NPY, header.components(), header.ty);
+    table.positions = Some(values(&mut cursor, &header, NPY)?);
+    table.assemble(Format::Npy)
+}
+
+/// What the header of an NPY says and its length, of a file or the beginning of one; none where particle does not
+/// follow particle.
+pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
+    let mut cursor = Cursor::new(bytes);
+    let header = of_positions(&mut cursor)?;
+    let length = cursor.at() as u64;
+    let mut table = Table::default();
+    table.list(NPY, header.components(), header.ty);
+    let layout = header.rows(length, NPY)?.map(|rows| Layout {
+        rows,
+        placed: true,
+        attributes: table.attributes,
+        format: Format::Npy,
+    });
+    Ok((layout, length))
+}
+
+fn of_positions(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
+    let header = header(cursor)?;
     if header.shape.len() != 2 || header.components() != 3 {
         return Err(ReadError::malformed(
             "an array of shape (n, 3)",
@@ -47,33 +107,16 @@ pub(super) fn read_npy(bytes: &[u8]) -> Result<Particles, ReadError> {
             Place::Unknown,
         ));
     }
-    table.positions = Some(values(&mut cursor, &header, "array")?);
-    table.assemble(Format::Npy)
+    Ok(header)
 }
 
 pub(super) fn read_npz(bytes: &[u8]) -> Result<Particles, ReadError> {
-    let bad = |e: zip::result::ZipError| {
-        ReadError::malformed("a sound zip of arrays", e.to_string(), Place::Unknown)
-    };
-    let mut archive = zip::ZipArchive::new(IoCursor::new(bytes)).map_err(bad)?;
+    let mut archive = zip::ZipArchive::new(IoCursor::new(bytes)).map_err(bad_zip)?;
     let mut budget = unpack_limit(bytes.len());
     let mut table = Table::default();
     for i in 0..archive.len() {
-        let mut file = archive.by_index(i).map_err(bad)?;
-        let Some(name) =
-            file.name().ok().and_then(|name| Some(name.strip_suffix(".npy")?.to_string()))
-        else {
-            continue;
-        };
-        if !wanted(&name) {
-            // Its header alone is of interest; one that cannot be read is no reason to stop.
-            let mut head = Vec::new();
-            let _ = file.by_ref().take(4096).read_to_end(&mut head);
-            if let Ok(header) = header(&mut Cursor::new(&head)) {
-                table.list(&name, header.components(), header.ty);
-            }
-            continue;
-        }
+        let mut file = archive.by_index(i).map_err(bad_zip)?;
+        let Some(name) = wanted_array(&mut file, &mut table) else { continue };
         let raw = unpack(&mut file, budget, &format!("array `{name}`"), 0)?;
         budget = budget.saturating_sub(raw.len());
         let mut cursor = Cursor::new(&raw);
@@ -85,22 +128,73 @@ pub(super) fn read_npz(bytes: &[u8]) -> Result<Particles, ReadError> {
     table.assemble(Format::Npz)
 }
 
-fn values(cursor: &mut Cursor<'_>, header: &Header, name: &str) -> Result<Data, ReadError> {
-    let what = format!("array `{name}`");
-    let Some(size) = header.ty.size() else {
-        return Err(ReadError::Unsupported {
-            what: format!("{what} of dtype {}", header.descr),
-            advice: "save it as float32, float64 or an integer type: a.astype('f4')",
+/// Arrays of a zip.
+pub(super) struct Arrays {
+    /// Those that may be used, and where they lie.
+    pub(super) rows: Vec<(Piece, Rows)>,
+    pub(super) attributes: Vec<Attribute>,
+}
+
+/// What the headers of the arrays in a zip say; none where one can't be read row after row.
+pub(super) fn arrays(input: &Input<'_>) -> Result<Option<Arrays>, ReadError> {
+    let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
+    let mut table = Table::default();
+    let mut found = Vec::new();
+    for i in 0..archive.len() {
+        let mut file = archive.by_index(i).map_err(bad_zip)?;
+        let Some(name) = wanted_array(&mut file, &mut table) else { continue };
+        let packing = match file.compression() {
+            zip::CompressionMethod::Stored => Packing::None,
+            zip::CompressionMethod::Deflated => Packing::Deflate,
+            _ => return Ok(None),
+        };
+        let Some(start) = file.data_start() else { return Ok(None) };
+        let piece = Piece {
+            start,
+            end: start.saturating_add(file.compressed_size()),
+            packing,
+            what: format!("array `{name}`"),
+            check: Some(Check { crc: file.crc32(), size: file.size() }),
+        };
+        let header = source::header(&mut Source::new(input, &piece), |head| {
+            let mut cursor = Cursor::new(head);
+            let header = header(&mut cursor)?;
+            let length = cursor.at() as u64;
+            Ok(((header, length), length))
         });
-    };
-    let raw = cursor.take(header.count().saturating_mul(size), &what)?;
+        let (header, length) = header?;
+        table.list(&name, header.components(), header.ty);
+        let Some(rows) = header.rows(length, &name)? else { return Ok(None) };
+        found.push((piece, rows));
+    }
+    Ok(Some(Arrays { rows: found, attributes: table.attributes }))
+}
+
+fn bad_zip(error: zip::result::ZipError) -> ReadError {
+    ReadError::malformed("a sound zip of arrays", error.to_string(), Place::Unknown)
+}
+
+/// The name of an array that may be used. Another one is listed.
+fn wanted_array(file: &mut zip::read::ZipFile<'_, impl Read>, table: &mut Table) -> Option<String> {
+    let name = file.name().ok()?.strip_suffix(".npy")?.to_string();
+    if wanted(&name) {
+        return Some(name);
+    }
+    // Its header alone is of interest; one that cannot be read is no reason to stop.
+    let mut head = Vec::new();
+    let _ = file.by_ref().take(4096).read_to_end(&mut head);
+    if let Ok(header) = header(&mut Cursor::new(&head)) {
+        table.list(&name, header.components(), header.ty);
+    }
+    None
+}
+
+fn values(cursor: &mut Cursor<'_>, header: &Header, name: &str) -> Result<Data, ReadError> {
+    let size = header.size(name)?;
+    let raw = cursor.take(header.count().saturating_mul(size), &format!("array `{name}`"))?;
     let mut data = Data::for_type(header.ty);
     data.push_bytes(header.ty, raw, header.big_endian);
-    Ok(if header.fortran && header.shape.len() == 2 {
-        data.transposed(header.components())
-    } else {
-        data
-    })
+    Ok(if header.is_transposed() { data.transposed(header.components()) } else { data })
 }
 
 fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {

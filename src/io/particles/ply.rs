@@ -10,6 +10,7 @@
 use super::bytes::{Cursor, parse_number, show};
 use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
+use super::rows::{Field, Layout, Rows};
 use super::{Format, Particles};
 
 /// One property: a number, or a list with the type of its length.
@@ -25,6 +26,17 @@ struct Element {
     properties: Vec<Property>,
 }
 
+impl Element {
+    fn what(&self) -> String {
+        format!("element `{}`", self.name)
+    }
+
+    /// Bytes of a row in a binary file, where all are alike.
+    fn stride(&self) -> Option<u64> {
+        self.properties.iter().map(|p| p.list.map_or(p.ty.size(), |_| None)).sum()
+    }
+}
+
 #[derive(Clone, Copy, PartialEq)]
 enum Encoding {
     Ascii,
@@ -33,18 +45,64 @@ enum Encoding {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
+    if let Some(layout) = layout(bytes)?.0 {
+        return layout.read(bytes);
+    }
     let mut cursor = Cursor::new(bytes);
     let (encoding, elements) = header(&mut cursor)?;
-    let mut elements = elements.into_iter();
-    loop {
-        let Some(element) = elements.next() else {
-            return Err(ReadError::malformed("an element `vertex`", "none", Place::Unknown));
-        };
-        if element.name == "vertex" {
-            return vertices(&mut cursor, encoding, &element);
-        }
-        rows(&mut cursor, encoding, &element, &mut [])?;
+    let (before, vertex) = split(&elements)?;
+    for element in before {
+        rows(&mut cursor, encoding, element, &mut [])?;
     }
+    vertices(&mut cursor, encoding, vertex)
+}
+
+/// What the header says and its length, of a file or the beginning of one; none where rows differ in length: of text,
+/// and where there are lists up to the vertices.
+pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
+    let mut cursor = Cursor::new(bytes);
+    let (encoding, elements) = header(&mut cursor)?;
+    let header = cursor.at() as u64;
+    let (before, vertex) = split(&elements)?;
+    let between = before.iter().map(|e| Some((e.what(), e.count.saturating_mul(e.stride()?))));
+    let between: Option<Vec<_>> = between.collect();
+    let (Some(between), Some(stride), true) =
+        (between, vertex.stride(), encoding != Encoding::Ascii)
+    else {
+        return Ok((None, header));
+    };
+    let mut table = Table::default();
+    let mut fields = Vec::new();
+    let mut offset = 0;
+    for property in &vertex.properties {
+        if table.list(&property.name, 1, property.ty) {
+            fields.push(Field::new(&property.name, 1, property.ty, offset)?);
+        }
+        offset += property.ty.size().unwrap_or(0);
+    }
+    let big_endian = encoding == Encoding::Big;
+    let layout = Layout {
+        rows: Rows {
+            what: vertex.what(),
+            header,
+            between,
+            count: vertex.count,
+            stride,
+            big_endian,
+            fields,
+        },
+        placed: false,
+        attributes: table.attributes,
+        format: Format::PlyBinary { big_endian },
+    };
+    Ok((Some(layout), header))
+}
+
+/// The elements before the vertices, and those.
+fn split(elements: &[Element]) -> Result<(&[Element], &Element), ReadError> {
+    let at = elements.iter().position(|element| element.name == "vertex");
+    at.and_then(|at| Some((elements.get(..at)?, elements.get(at)?)))
+        .ok_or_else(|| ReadError::malformed("an element `vertex`", "none", Place::Unknown))
 }
 
 fn header(cursor: &mut Cursor<'_>) -> Result<(Encoding, Vec<Element>), ReadError> {
@@ -164,13 +222,11 @@ fn rows(
     element: &Element,
     columns: &mut [Option<Data>],
 ) -> Result<(), ReadError> {
-    let what = || format!("element `{}`", element.name);
+    let what = || element.what();
     // Without properties a row takes no room, and a count could be anything.
     if element.properties.is_empty() {
         return Ok(());
     }
-    let fixed: Option<u64> =
-        element.properties.iter().map(|p| p.list.map_or(p.ty.size(), |_| None)).sum();
     if encoding == Encoding::Ascii {
         // A number and a space each, so a count that lies ends here.
         let least = element
@@ -188,22 +244,6 @@ fn rows(
         return Ok(());
     }
     let big_endian = encoding == Encoding::Big;
-    if let Some(stride) = fixed {
-        let raw = cursor.take(element.count.saturating_mul(stride), &what())?;
-        let mut offset = 0;
-        for (i, property) in element.properties.iter().enumerate() {
-            let size = property.ty.size().unwrap_or(0) as usize;
-            if let Some(Some(data)) = columns.get_mut(i) {
-                data.reserve(raw.len() / stride as usize);
-                for row in raw.chunks_exact(stride as usize) {
-                    let value = row.get(offset..offset + size).unwrap_or_default();
-                    data.push_bytes(property.ty, value, big_endian);
-                }
-            }
-            offset += size;
-        }
-        return Ok(());
-    }
     for _ in 0..element.count {
         for (i, property) in element.properties.iter().enumerate() {
             let size = property.ty.size().unwrap_or(0);
@@ -247,9 +287,9 @@ fn ascii_row(
         let mut next = || {
             cursor.skip_space();
             let place = cursor.place();
-            let token = cursor.token().ok_or_else(|| {
-                ReadError::truncated(format!("element `{}`", element.name), cursor.at(), 1, 0)
-            })?;
+            let token = cursor
+                .token()
+                .ok_or_else(|| ReadError::truncated(element.what(), cursor.at(), 1, 0))?;
             Ok::<_, ReadError>((token, place))
         };
         let (token, place) = next()?;

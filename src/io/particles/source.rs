@@ -1,0 +1,265 @@
+//! Bytes of a file one after the other, as they lie there or unpacked on the way: no more of them are in memory at a
+//! time than whoever reads has room for.
+
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use flate2::Crc;
+
+use super::bytes::unpack_limit;
+use super::error::{Place, ReadError};
+
+/// A file, or what stands for one.
+pub(super) trait Bytes: Read + Seek + Send {}
+impl<T: Read + Seek + Send> Bytes for T {}
+
+/// A file that is read at several places in turn.
+#[derive(Clone)]
+pub(super) struct Input<'a> {
+    file: Arc<Mutex<Box<dyn Bytes + 'a>>>,
+    length: u64,
+}
+
+impl<'a> Input<'a> {
+    pub(super) fn new(mut file: impl Bytes + 'a) -> Result<Self, ReadError> {
+        let length = file.seek(SeekFrom::End(0)).map_err(io_error)?;
+        Ok(Self { file: Arc::new(Mutex::new(Box::new(file))), length })
+    }
+
+    /// All of it, as it lies there.
+    pub(super) fn section(&self) -> Section<'a> {
+        Section { input: self.clone(), start: 0, at: 0, end: self.length }
+    }
+
+    pub(super) fn whole(&self, gzip: bool) -> Piece {
+        let packing = if gzip { Packing::Gzip } else { Packing::None };
+        Piece { start: 0, end: self.length, packing, what: "gzip data".into(), check: None }
+    }
+
+    /// The most that it may unpack to.
+    pub(super) fn unpack_limit(&self) -> u64 {
+        unpack_limit(usize::try_from(self.length).unwrap_or(usize::MAX)) as u64
+    }
+}
+
+/// The name of the file is put in where it is known.
+pub(super) fn io_error(reason: io::Error) -> ReadError {
+    ReadError::Io { path: PathBuf::new(), reason }
+}
+
+/// A stretch of a file, with a place of its own in it.
+pub(super) struct Section<'a> {
+    input: Input<'a>,
+    start: u64,
+    at: u64,
+    end: u64,
+}
+
+impl Read for Section<'_> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let left = usize::try_from(self.end.saturating_sub(self.at)).unwrap_or(usize::MAX);
+        let room = left.min(out.len());
+        let mut file = self.input.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.seek(SeekFrom::Start(self.at))?;
+        let read = file.read(out.get_mut(..room).unwrap_or_default())?;
+        self.at += read as u64;
+        Ok(read)
+    }
+}
+
+impl Seek for Section<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let at = match to {
+            SeekFrom::Start(n) => self.start.checked_add(n),
+            SeekFrom::End(n) => self.end.checked_add_signed(n),
+            SeekFrom::Current(n) => self.at.checked_add_signed(n),
+        };
+        let before = || io::Error::new(io::ErrorKind::InvalidInput, "a seek out of the file");
+        self.at = at.filter(|at| *at >= self.start).ok_or_else(before)?;
+        Ok(self.at - self.start)
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Packing {
+    None,
+    Gzip,
+    Deflate,
+}
+
+/// Where bytes lie in a file, and how.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    pub(super) start: u64,
+    pub(super) end: u64,
+    pub(super) packing: Packing,
+    /// What they are called in errors.
+    pub(super) what: String,
+    /// What they must be when they are unpacked.
+    pub(super) check: Option<Check>,
+}
+
+/// Checksum and number of the bytes of an entry in a zip.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Check {
+    pub(super) crc: u32,
+    pub(super) size: u64,
+}
+
+enum Reader<'a> {
+    Plain(Section<'a>),
+    Unpacked(Box<dyn Read + Send + 'a>),
+}
+
+/// The bytes of a piece, unpacked.
+pub(super) struct Source<'a> {
+    reader: Reader<'a>,
+    what: String,
+    /// Bytes read until now.
+    at: u64,
+    /// All there are, where that is known without unpacking them.
+    length: Option<u64>,
+    limit: u64,
+    check: Option<(Crc, Check)>,
+}
+
+impl<'a> Source<'a> {
+    pub(super) fn new(input: &Input<'a>, piece: &Piece) -> Self {
+        let Piece { start, end, packing, what, check } = piece.clone();
+        let section = Section { input: input.clone(), start, at: start, end };
+        let reader = match packing {
+            Packing::None => Reader::Plain(section),
+            Packing::Gzip => Reader::Unpacked(Box::new(flate2::bufread::MultiGzDecoder::new(
+                BufReader::with_capacity(1 << 16, section),
+            ))),
+            Packing::Deflate => Reader::Unpacked(Box::new(flate2::bufread::DeflateDecoder::new(
+                BufReader::with_capacity(1 << 16, section),
+            ))),
+        };
+        Self {
+            length: matches!(reader, Reader::Plain(_)).then(|| end.saturating_sub(start)),
+            reader,
+            what,
+            at: 0,
+            limit: input.unpack_limit(),
+            check: check.map(|check| (Crc::new(), check)),
+        }
+    }
+
+    /// Bytes that have been read or passed over.
+    pub(super) fn at(&self) -> u64 {
+        self.at
+    }
+
+    /// The most that can still come, whatever a header says.
+    pub(super) fn most_left(&self) -> u64 {
+        self.length.unwrap_or(self.limit).saturating_sub(self.at)
+    }
+
+    /// Appends the next `count` bytes, or all there are left where that is less.
+    pub(super) fn fill(&mut self, count: u64, out: &mut Vec<u8>) -> Result<(), ReadError> {
+        let before = out.len();
+        if let Some(length) = self.length {
+            let there = count.min(length.saturating_sub(self.at));
+            out.reserve_exact(usize::try_from(there).unwrap_or(0));
+        }
+        let read = match &mut self.reader {
+            Reader::Plain(section) => section.take(count).read_to_end(out),
+            Reader::Unpacked(reader) => reader.take(count).read_to_end(out),
+        };
+        let new = out.get(before..).unwrap_or_default();
+        self.at += new.len() as u64;
+        if let Some((crc, _)) = &mut self.check {
+            crc.update(new);
+        }
+        match (read, &self.reader) {
+            (Err(reason), Reader::Plain(_)) => Err(io_error(reason)),
+            (Err(reason), Reader::Unpacked(_)) => {
+                Err(self.unsound(&format!("{reason} after {} unpacked bytes", self.at)))
+            }
+            (Ok(_), Reader::Unpacked(_)) if self.at > self.limit => {
+                Err(ReadError::TooLarge { what: self.what.clone(), limit: self.limit })
+            }
+            (Ok(_), _) => Ok(()),
+        }
+    }
+
+    /// Fails where it is known that fewer than so many bytes are left.
+    pub(super) fn require(&self, count: u64, what: &str) -> Result<(), ReadError> {
+        let left = self.length.map_or(u64::MAX, |length| length.saturating_sub(self.at));
+        if left < count { Err(truncated(what, self.at, count, left)) } else { Ok(()) }
+    }
+
+    /// Passes over bytes.
+    pub(super) fn skip(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
+        self.require(count, what)?;
+        if let (Reader::Plain(section), None) = (&mut self.reader, &self.check) {
+            section.at += count;
+            self.at += count;
+            return Ok(());
+        }
+        let from = self.at;
+        let mut passed = Vec::new();
+        while self.at - from < count {
+            passed.clear();
+            self.fill((count - (self.at - from)).min(1 << 16), &mut passed)?;
+            if passed.is_empty() {
+                return Err(truncated(what, from, count, self.at - from));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads what is left where only that tells whether all was sound.
+    pub(super) fn finish(&mut self) -> Result<(), ReadError> {
+        if let (Reader::Plain(_), None) = (&self.reader, &self.check) {
+            return Ok(());
+        }
+        let mut passed = Vec::new();
+        loop {
+            passed.clear();
+            self.fill(1 << 16, &mut passed)?;
+            if passed.is_empty() {
+                break;
+            }
+        }
+        match &self.check {
+            Some((_, check)) if self.at > check.size => {
+                Err(self.unsound("more bytes than were stored"))
+            }
+            Some((crc, check)) if crc.sum() != check.crc => {
+                Err(self.unsound("another checksum than that of what was stored"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn unsound(&self, found: &str) -> ReadError {
+        ReadError::malformed(format!("sound {}", self.what), found, Place::Byte(0))
+    }
+}
+
+pub(super) fn truncated(what: &str, offset: u64, needed: u64, found: u64) -> ReadError {
+    ReadError::Truncated { what: what.into(), offset, needed, found }
+}
+
+/// What a header says, from as much of the beginning as it takes; `parse` gives its length in bytes as well.
+pub(super) fn header<T>(
+    source: &mut Source<'_>,
+    mut parse: impl FnMut(&[u8]) -> Result<(T, u64), ReadError>,
+) -> Result<T, ReadError> {
+    let mut head = Vec::new();
+    let mut room = 1_u64 << 16;
+    loop {
+        source.fill(room - head.len() as u64, &mut head)?;
+        let all = (head.len() as u64) < room;
+        match parse(&head) {
+            Err(ReadError::Truncated { .. }) if !all => {}
+            // A line may end with two characters, the second of which is still to come.
+            Ok((_, length)) if length >= room && !all => {}
+            result => return result.map(|(parsed, _)| parsed),
+        }
+        room = room.saturating_mul(2);
+    }
+}
