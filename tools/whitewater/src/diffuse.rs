@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use whitewater::headless;
-use whitewater::io::particles::{self, sequence};
+use whitewater::headless::{self, Headless};
+use whitewater::io::particles::{Particles, Parts, sequence};
 
 use crate::args::{Up, Whitewater};
 use crate::failure::{Failure, Outcome};
@@ -28,15 +28,20 @@ pub struct Files {
     life: Option<f32>,
 }
 
-/// The diffuse particles of a frame.
-#[derive(Default)]
-pub struct Diffuse {
+/// The diffuse particles of a frame, in files that are open. Nothing needs all of them at once: of the frames before
+/// nothing is known of them, camera and light are found by the water. So no more than a part is in memory.
+pub struct Reading {
+    files: Vec<(Parts<'static>, Option<u32>)>,
+    up: Up,
+    life: Option<f32>,
+}
+
+/// A part of them, as it is uploaded.
+struct Part {
     positions: Vec<[f32; 3]>,
     kinds: Vec<u32>,
     ages: Vec<f32>,
-    ids: Vec<u32>,
-    /// All files had ids.
-    identified: bool,
+    ids: Option<Vec<u32>>,
 }
 
 impl Files {
@@ -70,11 +75,15 @@ impl Files {
         let step = all.len().div_ceil(PROBES).max(1);
         let mut longest: Option<f32> = None;
         for (path, _) in all.into_iter().step_by(step) {
+            let mut most: Option<f32> = None;
+            let read = Parts::open_with(path, Parts::USUAL, |part| {
+                let lifetimes = part.lifetimes.iter().flatten().copied();
+                most = lifetimes.filter(|l| l.is_finite()).chain(most).reduce(f32::max);
+            });
             // One that can't be read is said when its frame is drawn.
-            let Ok(read) = particles::read(path) else { continue };
-            let lifetimes = read.lifetimes.unwrap_or_default();
-            let most = lifetimes.into_iter().filter(|l| l.is_finite()).reduce(f32::max);
-            longest = most.into_iter().chain(longest).reduce(f32::max);
+            if read.is_ok() {
+                longest = most.into_iter().chain(longest).reduce(f32::max);
+            }
         }
         longest.filter(|life| *life > 0.0)
     }
@@ -89,44 +98,61 @@ impl Files {
         ))
     }
 
-    /// Those of a frame; none where there is no file of its number.
-    pub fn read(&self, frame: u64) -> Outcome<Diffuse> {
-        let mut all = Diffuse { identified: true, ..Diffuse::default() };
-        for (path, kind) in self.frames.get(&frame).into_iter().flatten() {
-            let mut read = particles::read(path)?;
-            if self.up == Up::Z {
-                layers::turn_up(read.positions.iter_mut());
-            }
-            let count = read.positions.len();
-            let kinds = kind.map(|kind| vec![kind; count]).or(read.kinds);
-            all.kinds.extend(kinds.unwrap_or_else(|| vec![0; count]));
-            let age = |left: f32| match self.life {
-                // What is left is less than nothing: gone.
-                Some(life) if left > 0.0 => (1.0 - left / life).max(0.0),
-                _ => 1.0,
-            };
-            let ages = read.lifetimes.map(|left| left.into_iter().map(age).collect());
-            all.ages.extend(ages.unwrap_or_else(|| vec![0.0; count]));
-            all.identified &= read.ids.is_some();
-            all.ids.extend(read.ids.unwrap_or_else(|| vec![0; count]));
-            all.positions.extend(read.positions);
-        }
-        Ok(all)
+    /// Opens those of a frame; none where there is no file of its number.
+    pub fn open(&self, frame: u64) -> Outcome<Reading> {
+        let named = self.frames.get(&frame).into_iter().flatten();
+        let open =
+            |(path, kind): &(PathBuf, _)| Outcome::Ok((Parts::open(path, Parts::USUAL)?, *kind));
+        let files = named.map(open).collect::<Outcome<_>>()?;
+        Ok(Reading { files, up: self.up, life: self.life })
     }
 }
 
-impl Diffuse {
-    pub fn len(&self) -> usize {
-        self.positions.len()
+impl Reading {
+    /// Particles of all files.
+    pub fn total(&self) -> usize {
+        self.files.iter().map(|(parts, _)| parts.total()).sum()
     }
 
-    pub fn input(&self) -> headless::Diffuse<'_> {
-        headless::Diffuse {
-            positions: &self.positions,
-            kinds: Some(&self.kinds),
-            radii: None,
-            ages: Some(&self.ages),
-            ids: self.identified.then_some(&self.ids[..]),
+    /// Reads them and makes them those of the frames to come.
+    pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
+        let mut upload = headless.diffuse_parts(self.total())?;
+        // All files have them, or they are of no use.
+        let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
+        for (parts, kind) in self.files {
+            for part in parts {
+                let part = Part::new(part?, kind, self.up, self.life);
+                upload.push(&headless::Diffuse {
+                    positions: &part.positions,
+                    kinds: Some(&part.kinds),
+                    radii: None,
+                    ages: Some(&part.ages),
+                    ids: part.ids.as_deref().filter(|_| identified),
+                })?;
+            }
+        }
+        Ok(upload.finish()?)
+    }
+}
+
+impl Part {
+    fn new(mut read: Particles, kind: Option<u32>, up: Up, life: Option<f32>) -> Self {
+        if up == Up::Z {
+            layers::turn_up(read.positions.iter_mut());
+        }
+        let count = read.positions.len();
+        let kinds = kind.map(|kind| vec![kind; count]).or(read.kinds);
+        let age = |left: f32| match life {
+            // What is left is less than nothing: gone.
+            Some(life) if left > 0.0 => (1.0 - left / life).max(0.0),
+            _ => 1.0,
+        };
+        let ages = read.lifetimes.map(|left| left.into_iter().map(age).collect());
+        Self {
+            positions: read.positions,
+            kinds: kinds.unwrap_or_else(|| vec![0; count]),
+            ages: ages.unwrap_or_else(|| vec![0.0; count]),
+            ids: read.ids,
         }
     }
 }

@@ -320,8 +320,8 @@ impl<'a> Session<'a> {
         };
         let diffuse = self
             .times
-            .step("read", number, || files.map(|files| files.read(number)).transpose())?;
-        let count = diffuse.as_ref().map_or(0, diffuse::Diffuse::len);
+            .step("read", number, || files.map(|files| files.open(number)).transpose())?;
+        let count = diffuse.as_ref().map_or(0, diffuse::Reading::total);
         self.make_room_with(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
             (Some(before), Some(rate)) => {
@@ -332,9 +332,8 @@ impl<'a> Session<'a> {
         };
         if let Some(headless) = &mut self.headless {
             headless.previous(previous);
-            if let Some(diffuse) = &diffuse {
-                let input = diffuse.input();
-                self.times.step("upload", number, || headless.diffuse(Some(&input)))?;
+            if let Some(diffuse) = diffuse {
+                self.times.step("upload", number, || diffuse.upload(headless))?;
             }
         }
         self.step(number, source, particles, true)

@@ -1,5 +1,7 @@
 //! Diffuse particles beside the fluid's.
 
+use whitewater::io::particles::Particles;
+
 use super::support::{FRONT, Folder, SMALL, block};
 
 /// Foam before the block's middle, a bubble in it; one that is gone.
@@ -54,6 +56,72 @@ fn files_of_one_kind_are_that_kind() {
         |name: &str| folder.picture(name).channel("foam.thickness").unwrap().iter().sum::<f32>();
     assert!(sum("a_2.exr") > 1.5 * sum("a_1.exr") && sum("a_1.exr") > 0.0);
     assert!(folder.picture("a_1.exr").channel("water.spray").is_some(), "as it was asked for");
+}
+
+/// More than a part of them, in formats that are read in parts and in one that is not: the same pictures. One of the
+/// files has no ids, or all have, and the kinds are those of the files or of their names.
+#[test]
+fn what_is_read_in_parts_is_what_is_read_at_once() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    folder.text("look.toml", "[diffuse]\nradius = 0.01\n");
+    let count: u32 = 150_000;
+    let unit =
+        |i: u32, salt: u32| (i.wrapping_mul(2_654_435_761).rotate_left(salt) >> 22) as f32 / 1024.0;
+    let mut particles = Particles::from_positions(
+        (0..count).map(|i| [0, 9, 21].map(|salt| unit(i, salt) - 0.5)).collect(),
+    );
+    particles.kinds = Some((0..count).map(|i| i / 7 % 3).collect());
+    particles.lifetimes = Some((0..count).map(|i| (i % 64) as f32 / 16.0 - 0.25).collect());
+    let rows = |ids: bool, range: std::ops::Range<usize>| {
+        let of = |i: usize| {
+            let [x, y, z] = particles.positions[i];
+            let life = particles.lifetimes.as_ref().unwrap()[i];
+            let id = if ids { format!(",{}", 3 * i) } else { String::new() };
+            format!("{x},{y},{z},{},{life}{id}\n", i / 7 % 3)
+        };
+        let head = if ids { "x,y,z,type,lifetime,id\n" } else { "x,y,z,type,lifetime\n" };
+        head.to_string() + &range.map(of).collect::<String>()
+    };
+    for (name, ids) in [("plain", false), ("named", true)] {
+        folder.text(&format!("{name}_1.csv"), &rows(ids, 0..70_000));
+        folder.text(&format!("{name}_2.csv"), &rows(ids, 70_000..count as usize));
+    }
+    for name in ["plain.bgeo.gz", "plain.npz"] {
+        folder.write(name, &particles);
+    }
+    particles.ids = Some((0..count).map(|i| 3 * i).collect());
+    for name in ["named.bgeo.gz", "named.ply"] {
+        folder.write(name, &particles);
+    }
+    let draw = |files: &str, out: &str| {
+        let files = files.replace('+', "--whitewater ");
+        let look = format!("{SMALL} {FRONT} --settings look.toml");
+        folder.run(&format!("render a.ply {look} -o {out} {files}")).ok();
+        folder.picture(out).channels
+    };
+    for (what, whole, parts) in [
+        ("one", "+named_1.csv +named_2.csv", "+named.bgeo.gz"),
+        (
+            "all",
+            "+named_1.csv +named_2.csv +bubble=named_1.csv +bubble=named_2.csv",
+            "+named.ply +bubble=named.bgeo.gz",
+        ),
+        (
+            "some",
+            "+plain_1.csv +plain_2.csv +spray=named_1.csv +spray=named_2.csv",
+            "+plain.npz +spray=named.ply",
+        ),
+    ] {
+        let whole = draw(whole, &format!("{what}_whole.exr"));
+        let parts = draw(parts, &format!("{what}_parts.exr"));
+        assert_eq!(whole.len(), parts.len());
+        let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        assert!(whole.iter().any(|c| c.name == "foam.thickness"));
+        for (a, b) in whole.iter().zip(&parts) {
+            assert!(a.name == b.name && bits(&a.data) == bits(&b.data), "{what}: {}", a.name);
+        }
+    }
 }
 
 #[test]

@@ -44,8 +44,13 @@ impl Folder {
 
     /// Writes particles as PLY.
     pub fn particles(&self, name: &str, positions: Vec<[f32; 3]>) {
-        let particles = Particles::from_positions(positions);
-        particles::write(&self.path(name), &particles, WriteFormat::Ply).unwrap();
+        self.write(name, &Particles::from_positions(positions));
+    }
+
+    /// The same with all they have, as what the name says.
+    pub fn write(&self, name: &str, particles: &Particles) {
+        let path = self.path(name);
+        particles::write(&path, particles, WriteFormat::from_path(&path).unwrap()).unwrap();
     }
 
     pub fn text(&self, name: &str, text: &str) {
