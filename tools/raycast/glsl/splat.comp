@@ -7,6 +7,7 @@
 #include "view.glsl"
 #include "tiles.glsl"
 #include "ball.glsl"
+#include "kernel.glsl"
 #include "footprint.glsl"
 #include "push.glsl"
 #include "voxels.glsl"

@@ -7,11 +7,11 @@ use whitewater::ash::vk;
 use whitewater::foam::{DiffuseConfig, Occlusion};
 use whitewater::headless::{Background, COLOR_FORMAT, Device, Diffuse, Headless, Picture};
 use whitewater::{Camera, Config, Settings as Look};
-use whitewater_raycast::{Caster, Input, Method, SceneDepth, Settings};
+use whitewater_raycast::{Caster, Input, Method, SceneDepth};
 use whitewater_seas::{Foam, Sea};
 
 use crate::picture::{self, mean_flip};
-use crate::{Args, Outcome, by_name, line, measure, median};
+use crate::{Args, Outcome, by_name, line, measure, median, settings};
 
 /// How far from the converged picture a step may be.
 const TOLERANCE: f32 = 0.02;
@@ -94,8 +94,10 @@ struct Ours {
 
 /// What a ray-caster makes of it.
 struct Cast {
+    /// The converged picture and its step.
     converged: (f32, Picture<f32>),
     step: f32,
+    /// How far the step's picture is from the converged one.
     flip: f32,
     picture: Picture<f32>,
     times: Vec<(&'static str, f64)>,
@@ -113,50 +115,68 @@ pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
         args.sea.name(),
         args.particles
     );
-    println!("{:<28} {:>6} {:>9} {:>7} {:>9}  passes, ms", "", "step", "ms", "FLIP", "MiB");
+    println!(
+        "{:<28} {:>6} {:>10} {:>9} {:>9} {:>7} {:>9}  passes, ms",
+        "", "step", "ms", "intensity", "total", "FLIP", "MiB"
+    );
     if let Some(folder) = &how.pictures {
         std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         picture::write(&folder.join("ours.png"), &ours.intensity)?;
     }
-    let mut apart = Vec::new();
+    let of = |names: &[&str]| -> Vec<_> {
+        ours.times.iter().filter(|(name, _)| names.contains(name)).copied().collect()
+    };
+    let (intensity, total) = (of(&["splat"]), of(&["splat", "radiance", "blur", "composite"]));
+    let sums = [sum(&intensity), sum(&total)];
+    let mut casts: Vec<(Method, Cast)> = Vec::new();
     for method in Method::ALL {
-        let cast = cast(&device, method, &shot, &ours.scene, args)?;
+        let cast = match (method, casts.iter().find(|(method, _)| *method == Method::Kernel)) {
+            (Method::Plain, Some((_, kernel))) => {
+                at_step(&device, method, &shot, &ours.scene, args, kernel)?
+            }
+            _ => cast(&device, method, &shot, &ours.scene, args)?,
+        };
         let chunks = if cast.chunks > 1 { format!(" x{}", cast.chunks) } else { String::new() };
-        row(
-            &format!("ray-casting, {}{chunks}", method.name()),
-            Some((cast.step, cast.flip, cast.memory)),
-            &cast.times,
-        );
-        apart.push((method, mean_flip(&ours.intensity, &cast.converged.1), cast.converged.0));
+        row(&format!("ray-casting, {}{chunks}", method.name()), Some(&cast), &cast.times, sums);
         if let Some(folder) = &how.pictures {
             let path = |what: &str| folder.join(format!("{}-{what}.png", method.name()));
             picture::write(&path("converged"), &cast.converged.1)?;
             picture::write(&path("step"), &cast.picture)?;
         }
+        casts.push((method, cast));
     }
-    let of = |names: &[&str]| -> Vec<_> {
-        ours.times.iter().filter(|(name, _)| names.contains(name)).copied().collect()
-    };
-    row("ours, intensity only", None, &of(&["splat"]));
-    row("ours, total (fast shadow)", None, &of(&["splat", "radiance", "blur", "composite"]));
-    for (method, flip, step) in apart {
-        println!("ours and {} converged (step {step}): mean FLIP {flip:.4}", method.name());
+    row("ours, intensity only", None, &intensity, sums);
+    row("ours, total (fast shadow)", None, &total, sums);
+    for (method, Cast { converged: (step, picture), .. }) in &casts {
+        if *method != Method::Plain {
+            let flip = mean_flip(&ours.intensity, picture);
+            println!("ours and {} converged (step {step}): mean FLIP {flip:.4}", method.name());
+        }
     }
     Ok(())
 }
 
-fn row(name: &str, cast: Option<(f32, f32, u64)>, times: &[(&'static str, f64)]) {
-    let all: f64 = times.iter().map(|(_, ms)| ms).sum();
+fn sum(times: &[(&'static str, f64)]) -> f64 {
+    times.iter().map(|(_, ms)| ms).sum()
+}
+
+/// A row of the table; how many times as long as our intensity alone and as all of ours.
+fn row(name: &str, cast: Option<&Cast>, times: &[(&'static str, f64)], ours: [f64; 2]) {
+    let all = sum(times);
+    let [intensity, total] = ours.map(|ms| all / ms);
     let passes: Vec<_> = times.iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
     let [step, flip, memory] = match cast {
-        Some((step, flip, memory)) => [
-            format!("{step}"),
-            format!("{flip:.4}"),
-            format!("{:.1}", memory as f64 / f64::from(1 << 20)),
+        Some(cast) => [
+            format!("{}", cast.step),
+            format!("{:.4}", cast.flip),
+            format!("{:.1}", cast.memory as f64 / f64::from(1 << 20)),
         ],
         None => [const { String::new() }; 3],
     };
-    println!("{name:<28} {step:>6} {all:>9.2} {flip:>7} {memory:>9}  {}", passes.join(", "));
+    println!(
+        "{name:<28} {step:>6} {all:>10.2} {intensity:>8.2}x {total:>8.2}x {flip:>7} {memory:>9}  {}",
+        passes.join(", ")
+    );
 }
 
 fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)> {
@@ -195,6 +215,40 @@ fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)
     Ok((device, Ours { times: median(frames), intensity, scene }))
 }
 
+/// At the step of another ray-caster that has the same samples and so the same pictures.
+fn at_step(
+    device: &Device,
+    method: Method,
+    shot: &Shot,
+    scene: &SceneDepth,
+    args: &Args,
+    other: &Cast,
+) -> Outcome<Cast> {
+    let caster = caster(device, method, shot, scene, args, other.step)?;
+    let times = measure(&caster, args.repeat)?;
+    let picture = caster.intensity().map_err(line)?;
+    Ok(Cast {
+        converged: other.converged.clone(),
+        step: other.step,
+        flip: mean_flip(&picture, &other.converged.1),
+        picture,
+        times,
+        memory: caster.memory(),
+        chunks: caster.chunk_count(),
+    })
+}
+
+fn caster<'d>(
+    device: &'d Device,
+    method: Method,
+    shot: &Shot,
+    scene: &SceneDepth,
+    args: &Args,
+    step: f32,
+) -> Outcome<Caster<'d>> {
+    Caster::new(device, method, &shot.input(scene), &settings(args, step)).map_err(line)
+}
+
 fn cast(
     device: &Device,
     method: Method,
@@ -202,12 +256,7 @@ fn cast(
     scene: &SceneDepth,
     args: &Args,
 ) -> Outcome<Cast> {
-    let input = shot.input(scene);
-    let make = |step| {
-        let settings =
-            Settings { step, shifted: !args.even, tile: args.tile, ..Settings::default() };
-        Caster::new(device, method, &input, &settings).map_err(line)
-    };
+    let make = |step| caster(device, method, shot, scene, args, step);
     let draw = |step| {
         let caster = make(step)?;
         caster.draw().map_err(line)?;

@@ -8,9 +8,10 @@ use whitewater::Error;
 use whitewater::gpu_allocator::MemoryLocation;
 use whitewater::headless::Device;
 
-use crate::Settings;
-use crate::cells::{Cells, Chunk, Layout, shader};
+use crate::balls::{Balls, Chunk, shader};
+use crate::cells::{Cells, Layout};
 use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE};
+use crate::{Input, Settings};
 
 /// Samples of a brick along a ray: with fewer ones there are more bricks, with more ones more empty voxels.
 const SAMPLES: u32 = 8;
@@ -18,24 +19,27 @@ const SAMPLES: u32 = 8;
 const TILE: u32 = 4;
 
 /// Of its bricks.
-pub(crate) fn layout(settings: &Settings) -> Layout {
+fn layout(settings: &Settings) -> Layout {
     let tile = settings.tile.unwrap_or(TILE);
     let voxels = u64::from(SAMPLES * tile * tile);
     Layout { tile, samples: SAMPLES, bricks: true, bytes_each: 4 * voxels }
 }
 
-/// Its own passes.
+/// All of it.
 pub(crate) struct Grid<'d> {
+    pub cells: Cells<'d>,
     splat: Pass<'d>,
     march: Pass<'d>,
     voxels: Buffer<'d>,
 }
 
 impl<'d> Grid<'d> {
-    pub fn new(device: &'d Device, cells: &Cells<'d>) -> Result<Self, Error> {
-        let constants = cells.constants();
+    pub fn new(device: &'d Device, input: &Input<'_>, settings: &Settings) -> Result<Self, Error> {
+        let cells = Cells::new(device, input, settings, layout(settings))?;
+        let constants = cells.balls.constants();
         let bytes = cells.layout.bytes_each * cells.room.total;
         Ok(Self {
+            cells,
             splat: Pass::new(device, "splat", shader!("splat"), 5, &constants)?,
             march: Pass::new(device, "march", shader!("march_grid"), 7, &constants)?,
             voxels: Buffer::new(device, "voxels", bytes, MemoryLocation::GpuOnly)?,
@@ -43,16 +47,13 @@ impl<'d> Grid<'d> {
     }
 
     pub fn memory(&self) -> u64 {
-        self.voxels.size
+        self.cells.memory() + self.voxels.size
     }
 
-    pub fn record(
-        &self,
-        frame: &mut Frame<'_>,
-        cells: &Cells<'_>,
-        chunk: &Chunk<'_>,
-    ) -> Result<(), Error> {
-        let (view, push) = (&cells.view, cells.push(chunk));
+    pub fn record(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
+        let (cells, Balls { view, records, tiles, .. }) = (&self.cells, &self.cells.balls);
+        let push = cells.push(chunk);
+        cells.record(frame, chunk)?;
         frame.scope("clear", |frame| {
             frame.barrier(&[(&self.voxels, READ, FILL)]);
             frame.clear(&self.voxels);
@@ -60,21 +61,22 @@ impl<'d> Grid<'d> {
         })?;
         frame.scope("splat", |frame| {
             frame.barrier(&[(&self.voxels, FILL, UPDATE), (&cells.cells, UPDATE, READ)]);
-            let buffers = [&cells.records, &cells.tiles, &cells.starts, &cells.cells, &self.voxels];
+            let buffers = [records, tiles, &cells.starts, &cells.cells, &self.voxels];
             frame.dispatch(&self.splat, view, &buffers, push, chunk.groups())
         })?;
         frame.scope("march", |frame| {
-            frame.barrier(&[(&self.voxels, UPDATE, READ), (&cells.thickness, UPDATE, UPDATE)]);
+            let thickness = &cells.balls.thickness;
+            frame.barrier(&[(&self.voxels, UPDATE, READ), (thickness, UPDATE, UPDATE)]);
             let buffers = [
-                &cells.records,
-                &cells.tiles,
+                records,
+                tiles,
                 &cells.starts,
                 &cells.cells,
                 &self.voxels,
-                &cells.scene,
-                &cells.thickness,
+                &cells.balls.scene,
+                thickness,
             ];
-            frame.dispatch(&self.march, view, &buffers, push, cells.tile_count)
+            frame.dispatch(&self.march, view, &buffers, push, cells.balls.tile_count)
         })
     }
 }

@@ -5,9 +5,10 @@ use whitewater::Error;
 use whitewater::gpu_allocator::MemoryLocation;
 use whitewater::headless::Device;
 
-use crate::Settings;
-use crate::cells::{Cells, Chunk, Layout, shader};
+use crate::balls::{Balls, Chunk, shader};
+use crate::cells::{Cells, Layout};
 use crate::vulkan::{Buffer, Frame, Pass, READ, UPDATE, WRITE};
+use crate::{Input, Settings};
 
 /// Thickness of a cell in radii, at least: with thinner ones a particle lies in more of them; thicker ones cost
 /// nothing, as of a particle only the samples that lie in it are taken, but steps grow only from slab to slab.
@@ -15,24 +16,32 @@ const SLAB: f32 = 32.0;
 /// Edge of a tile in pixels.
 const TILE: u32 = 4;
 
+/// Samples of a slab at a step.
+pub(crate) fn samples(settings: &Settings) -> u32 {
+    (SLAB / settings.step).ceil().max(1.0) as u32
+}
+
 /// Of its cells.
-pub(crate) fn layout(settings: &Settings) -> Layout {
-    let samples = (SLAB / settings.step).ceil().max(1.0) as u32;
+fn layout(settings: &Settings) -> Layout {
+    let samples = samples(settings);
     Layout { tile: settings.tile.unwrap_or(TILE), samples, bricks: false, bytes_each: 4 }
 }
 
-/// Its own passes.
+/// All of it.
 pub(crate) struct Kernel<'d> {
+    pub cells: Cells<'d>,
     fill: Pass<'d>,
     march: Pass<'d>,
     entries: Buffer<'d>,
 }
 
 impl<'d> Kernel<'d> {
-    pub fn new(device: &'d Device, cells: &Cells<'d>) -> Result<Self, Error> {
-        let constants = cells.constants();
+    pub fn new(device: &'d Device, input: &Input<'_>, settings: &Settings) -> Result<Self, Error> {
+        let cells = Cells::new(device, input, settings, layout(settings))?;
+        let constants = cells.balls.constants();
         let bytes = 4 * cells.room.total;
         Ok(Self {
+            cells,
             fill: Pass::new(device, "fill", shader!("fill"), 5, &constants)?,
             march: Pass::new(device, "march", shader!("march_kernel"), 7, &constants)?,
             entries: Buffer::new(device, "entries", bytes, MemoryLocation::GpuOnly)?,
@@ -40,38 +49,35 @@ impl<'d> Kernel<'d> {
     }
 
     pub fn memory(&self) -> u64 {
-        self.entries.size
+        self.cells.memory() + self.entries.size
     }
 
-    pub fn record(
-        &self,
-        frame: &mut Frame<'_>,
-        cells: &Cells<'_>,
-        chunk: &Chunk<'_>,
-    ) -> Result<(), Error> {
-        let (view, push) = (&cells.view, cells.push(chunk));
+    pub fn record(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
+        let (cells, Balls { view, records, tiles, .. }) = (&self.cells, &self.cells.balls);
+        let push = cells.push(chunk);
+        cells.record(frame, chunk)?;
         frame.scope("fill", |frame| {
             frame.barrier(&[(&cells.cells, UPDATE, UPDATE), (&self.entries, READ, WRITE)]);
-            let buffers =
-                [&cells.records, &cells.tiles, &cells.starts, &cells.cells, &self.entries];
+            let buffers = [records, tiles, &cells.starts, &cells.cells, &self.entries];
             frame.dispatch(&self.fill, view, &buffers, push, chunk.groups())
         })?;
         frame.scope("march", |frame| {
+            let thickness = &cells.balls.thickness;
             frame.barrier(&[
                 (&cells.cells, UPDATE, READ),
                 (&self.entries, WRITE, READ),
-                (&cells.thickness, UPDATE, UPDATE),
+                (thickness, UPDATE, UPDATE),
             ]);
             let buffers = [
-                &cells.records,
-                &cells.tiles,
+                records,
+                tiles,
                 &cells.starts,
                 &cells.cells,
                 &self.entries,
-                &cells.scene,
-                &cells.thickness,
+                &cells.balls.scene,
+                thickness,
             ];
-            frame.dispatch(&self.march, view, &buffers, push, cells.tile_count)
+            frame.dispatch(&self.march, view, &buffers, push, cells.balls.tile_count)
         })
     }
 }

@@ -1,19 +1,23 @@
-//! The two volume ray-casters of emission and absorption that *Screen Space Foam Rendering* (Akinci et al. 2013,
-//! Sec. 3, Table 1, Fig. 8) compares itself with, made for the comparison of `whitewater`'s foam with them:
+//! Volume ray-casters of emission and absorption, such as *Screen Space Foam Rendering* (Akinci et al. 2013, Sec. 3,
+//! Table 1, Fig. 8) compares itself with, made for the comparison of `whitewater`'s foam with them:
 //!
-//! - [`Method::Kernel`], the first: at each sample of each pixel's ray the sum of the kernels of the particles near it
-//!   (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for particle-based fluids, 2012), which a grid of
-//!   cells finds (counting sort);
+//! - [`Method::Kernel`], the source's first: at each sample of each pixel's ray the sum of the kernels of the particles
+//!   near it (Ihmsen, Akinci, Akinci, Teschner, Unified spray, foam and bubbles for particle-based fluids, 2012), which
+//!   a grid of cells finds (counting sort);
 //! - [`Method::Grid`], the second: particles are splatted into a grid of voxels that is aligned with the view and in
 //!   perspective, by integer atomics, and rays go through that (Fraedrich, Auer, Westermann, Efficient high-quality
-//!   volume rendering of SPH data, 2010).
+//!   volume rendering of SPH data, 2010);
+//! - [`Method::Plain`], the first again, as one writes it down: particles are sorted into a grid of cells in space, and
+//!   at each sample of a ray the cells about it are searched. The first two are faster by what they know of the
+//!   picture; the source tells of nothing of that kind.
 //!
-//! Both run on the GPU and are made as fast as we know how to, to be fair: cells and bricks are of tiles of the
-//! picture and slabs of depth, so that a group of rays goes through the same ones; they reach in each tile from the
-//! first particle to the last or the scene; voxels there are only in bricks with particles; a ray ends at the scene or
-//! when nothing behind can change its pixel by half a step of 8 bits; steps grow with the distance where particles
-//! are smaller than a pixel. Room is measured before the frames that are timed ([`Caster::new`]), and where a device's
-//! storage buffers are too small for it, particles are taken in chunks.
+//! All run on the GPU and are made as fast as we know how to, to be fair. A ray ends at the scene or when nothing behind
+//! can change its pixel by half a step of 8 bits; steps grow with the distance where particles are smaller than a pixel.
+//! Cells and bricks of the first two are of tiles of the picture and slabs of depth, so that a group of rays goes through
+//! the same ones; they reach in each tile from the first particle to the last or the scene; voxels there are only in
+//! bricks with particles. Cells of the third are a few kernels wide, and its rays go from where they enter the box of
+//! all particles to where they leave it: it looks at empty space as at full. Room is measured before the frames that
+//! are timed ([`Caster::new`]), and where a device's storage buffers are too small for it, particles are taken in chunks.
 //!
 //! # What is drawn
 //! The optical thickness ρ of a pixel's ray, and of that the intensity ι = ρ^e / (m + ρ^e) (Sec. 2.3), white: what
@@ -40,9 +44,12 @@
 //! The rays' midpoint rule meets the kernels' ends, which are roots: its error falls with the step to the power of
 //! 3/2 (`tests/casters.rs`).
 
+mod balls;
 mod cells;
 mod grid;
 mod kernel;
+mod plain;
+mod scan;
 mod vulkan;
 
 use glam::{Mat4, Vec4};
@@ -51,7 +58,7 @@ use whitewater::{Camera, Error, Timing};
 /// Diffuse particles; other kinds than foam, spray and bubbles are foam, those of NaN, infinite or past ages are not drawn.
 pub use whitewater_seas::Foam;
 
-use cells::Cells;
+use balls::Balls;
 use vulkan::Buffer;
 
 /// Coefficients A, B, C of a sprite's thickness Y (A + B Y + C Y²), Y = 1 − x² at x radii from its middle, by kind: 0 foam,
@@ -118,8 +125,12 @@ pub struct Settings {
     pub exponent: f32,
     /// Intensity from which on a ray ends, (0, 1]; default 1 − 1/512, half a step of 8 bits.
     pub opaque: f32,
-    /// Edge of a tile in pixels, 4, 8 or 16; `None`: what was measured to be the fastest.
+    /// Edge of a tile in pixels, 4, 8 or 16, of [`Method::Plain`] that of a group of rays; `None`: what was measured to
+    /// be the fastest.
     pub tile: Option<u32>,
+    /// Edge of a cell of [`Method::Plain`] in radii of the largest ball that may be there, [1, 16]: 1 as wide as a
+    /// kernel reaches, 27 cells to look at; `None`: what was measured to be the fastest.
+    pub cell: Option<f32>,
     /// Most particles that are taken at a time, from 1 on; `None`: as many as the device has room for.
     pub chunk: Option<u32>,
 }
@@ -133,6 +144,7 @@ impl Default for Settings {
             exponent: 1.25,
             opaque: 1.0 - 1.0 / 512.0,
             tile: None,
+            cell: None,
             chunk: None,
         }
     }
@@ -150,6 +162,7 @@ impl Settings {
         range("Settings.half", self.half, 1.0e-6, 1.0e6)?;
         range("Settings.exponent", self.exponent, 0.1, 16.0)?;
         range("Settings.opaque", self.opaque, 1.0e-6, 1.0)?;
+        range("Settings.cell", self.cell.unwrap_or(1.0), 1.0, 16.0)?;
         if self.chunk == Some(0) {
             return Err(bad("Settings.chunk", "0: at least 1 expected".into()));
         }
@@ -173,17 +186,20 @@ pub enum Method {
     Kernel,
     /// Rays go through a grid of densities.
     Grid,
+    /// Kernels are summed at each sample, and at each the cells about it are searched.
+    Plain,
 }
 
 impl Method {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Kernel, Self::Grid];
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Kernel, Self::Grid, Self::Plain];
 
     /// Its name at the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Kernel => "kernel",
             Self::Grid => "grid",
+            Self::Plain => "plain",
         }
     }
 }
@@ -293,13 +309,13 @@ impl Lens {
 
 /// One of the ray-casters with all that it needs for one picture, which can be drawn again and again.
 pub struct Caster<'d> {
-    cells: Cells<'d>,
     way: Way<'d>,
 }
 
 enum Way<'d> {
     Kernel(kernel::Kernel<'d>),
     Grid(grid::Grid<'d>),
+    Plain(plain::Plain<'d>),
 }
 
 impl<'d> Caster<'d> {
@@ -316,19 +332,19 @@ impl<'d> Caster<'d> {
     ) -> Result<Self, Error> {
         input.check()?;
         settings.check()?;
-        match method {
-            Method::Kernel => {
-                let layout = kernel::layout(settings);
-                let cells = Cells::new(device, input, settings, layout)?;
-                let kernel = kernel::Kernel::new(device, &cells)?;
-                Ok(Self { cells, way: Way::Kernel(kernel) })
-            }
-            Method::Grid => {
-                let layout = grid::layout(settings);
-                let cells = Cells::new(device, input, settings, layout)?;
-                let grid = grid::Grid::new(device, &cells)?;
-                Ok(Self { cells, way: Way::Grid(grid) })
-            }
+        let way = match method {
+            Method::Kernel => Way::Kernel(kernel::Kernel::new(device, input, settings)?),
+            Method::Grid => Way::Grid(grid::Grid::new(device, input, settings)?),
+            Method::Plain => Way::Plain(plain::Plain::new(device, input, settings)?),
+        };
+        Ok(Self { way })
+    }
+
+    fn balls(&self) -> &Balls<'d> {
+        match &self.way {
+            Way::Kernel(kernel) => &kernel.cells.balls,
+            Way::Grid(grid) => &grid.cells.balls,
+            Way::Plain(plain) => &plain.balls,
         }
     }
 
@@ -337,23 +353,24 @@ impl<'d> Caster<'d> {
     /// # Errors
     /// What Vulkan reports.
     pub fn draw(&self) -> Result<Vec<Timing>, Error> {
-        let cells = &self.cells;
-        cells.queue.run(|frame| {
-            cells.record_begin(frame)?;
-            for chunk in cells.chunks() {
-                cells.record_cells(frame, chunk)?;
+        let balls = self.balls();
+        balls.queue.run(|frame| {
+            balls.record_begin(frame);
+            for chunk in &balls.chunks {
                 match &self.way {
-                    Way::Kernel(kernel) => kernel.record(frame, cells, chunk)?,
-                    Way::Grid(grid) => grid.record(frame, cells, chunk)?,
+                    Way::Kernel(kernel) => kernel.record(frame, chunk)?,
+                    Way::Grid(grid) => grid.record(frame, chunk)?,
+                    Way::Plain(plain) => plain.record(frame, chunk)?,
                 }
             }
-            cells.record_end(frame)
+            balls.record_end(frame)
         })
     }
 
     fn picture(&self, buffer: &Buffer<'_>) -> Result<Picture<f32>, Error> {
-        let [width, height] = self.cells.size.map(|n| n as usize);
-        let words = self.cells.queue.read(buffer, 0, width * height)?;
+        let balls = self.balls();
+        let [width, height] = balls.size.map(|n| n as usize);
+        let words = balls.queue.read(buffer, 0, width * height)?;
         let data = words.into_iter().map(f32::from_bits).collect();
         Ok(Picture { width, height, data })
     }
@@ -363,7 +380,7 @@ impl<'d> Caster<'d> {
     /// # Errors
     /// What Vulkan reports.
     pub fn thickness(&self) -> Result<Picture<f32>, Error> {
-        self.picture(&self.cells.thickness)
+        self.picture(&self.balls().thickness)
     }
 
     /// Its intensity, 0 to 1.
@@ -371,20 +388,20 @@ impl<'d> Caster<'d> {
     /// # Errors
     /// What Vulkan reports.
     pub fn intensity(&self) -> Result<Picture<f32>, Error> {
-        self.picture(&self.cells.intensity)
+        self.picture(&self.balls().intensity)
     }
 
     /// Bytes of device memory, the particles' own included.
     pub fn memory(&self) -> u64 {
-        self.cells.memory()
-            + match &self.way {
-                Way::Kernel(kernel) => kernel.memory(),
-                Way::Grid(grid) => grid.memory(),
-            }
+        match &self.way {
+            Way::Kernel(kernel) => kernel.memory(),
+            Way::Grid(grid) => grid.memory(),
+            Way::Plain(plain) => plain.memory(),
+        }
     }
 
     /// In how many chunks the particles are taken.
     pub fn chunk_count(&self) -> usize {
-        self.cells.chunks().len()
+        self.balls().chunks.len()
     }
 }

@@ -42,6 +42,9 @@ struct Args {
     /// Edge of a tile in pixels: 4, 8 or 16 [default: the fastest that was measured]
     #[arg(long, value_name = "PIXELS", global = true)]
     tile: Option<u32>,
+    /// Edge of a cell of the plain ray-caster in radii, 1 to 16 [default: the fastest that was measured]
+    #[arg(long, value_name = "RADII", global = true)]
+    cell: Option<f32>,
     /// Frames of which the times are the median
     #[arg(long, value_name = "N", default_value_t = 5, global = true,
           value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -65,7 +68,7 @@ struct Args {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Measures both ray-casters, at the coarsest step that looks converged, beside whitewater
+    /// Measures all ray-casters, at the coarsest step that looks converged, beside whitewater
     Compare(compare::CompareArgs),
 }
 
@@ -75,6 +78,8 @@ enum MethodArg {
     Kernel,
     /// A grid of densities, aligned with the view
     Grid,
+    /// Kernels summed at each sample, by a search of the cells about it
+    Plain,
 }
 
 fn sea(text: &str) -> Result<Sea, String> {
@@ -110,6 +115,7 @@ fn line(error: Error) -> String {
     let option = |field: &str| match field {
         "Settings.step" => Some("--step"),
         "Settings.tile" => Some("--tile"),
+        "Settings.cell" => Some("--cell"),
         "Input.size" | "Config.extent" => Some("--size"),
         _ => None,
     };
@@ -130,6 +136,11 @@ fn device(args: &Args) -> Outcome<Device> {
     Device::new(&options).map_err(line)
 }
 
+fn settings(args: &Args, step: f32) -> Settings {
+    let Args { even, tile, cell, .. } = *args;
+    Settings { step, shifted: !even, tile, cell, ..Settings::default() }
+}
+
 fn draw(args: &Args) -> Outcome<()> {
     if args.output.is_none() && !args.timings {
         let message = "nothing to do: give -o OUT.png, or --timings, or both\n";
@@ -138,10 +149,10 @@ fn draw(args: &Args) -> Outcome<()> {
     let method = match args.method {
         MethodArg::Kernel => Method::Kernel,
         MethodArg::Grid => Method::Grid,
+        MethodArg::Plain => Method::Plain,
     };
     let [width, height] = args.size;
-    let settings =
-        Settings { step: args.step, shifted: !args.even, tile: args.tile, ..Settings::default() };
+    let settings = settings(args, args.step);
     let shot = compare::Shot::new(args);
     let (device, scene) = compare::scene_depth(device(args)?, &shot)?;
     let input = shot.input(&scene);

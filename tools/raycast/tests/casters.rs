@@ -1,4 +1,4 @@
-//! Both ray-casters against their twin, against closed forms, against each other and against whitewater.
+//! All ray-casters against their twin, against closed forms, against each other and against whitewater.
 
 mod twin;
 
@@ -117,7 +117,7 @@ fn draw(gpu: &Gpu, method: Method, foam: &Foam, scene: &SceneDepth, settings: &S
 /// Samples of a slab, which the twin has as the ray-casters.
 fn samples(method: Method, step: f32) -> u32 {
     match method {
-        Method::Kernel => (32.0 / step).ceil().max(1.0) as u32,
+        Method::Kernel | Method::Plain => (32.0 / step).ceil().max(1.0) as u32,
         Method::Grid => 8,
     }
 }
@@ -129,7 +129,7 @@ fn twin_of(method: Method, foam: &Foam, scene: &SceneDepth, settings: &Settings)
 /// What the grid's whole steps add.
 fn bound_of(method: Method, bound: Bound) -> Bound {
     let rounding = match method {
-        Method::Kernel => 0.0,
+        Method::Kernel | Method::Plain => 0.0,
         Method::Grid => f64::from(bound.hits) * 0.5 / STEPS,
     };
     Bound { error: bound.error + rounding, ..bound }
@@ -146,11 +146,12 @@ const WHOLE: Settings = Settings {
     exponent: 1.25,
     opaque: 1.0,
     tile: None,
+    cell: None,
     chunk: None,
 };
 
 #[test]
-fn both_are_their_twins() {
+fn all_are_their_twins() {
     let gpu = Gpu::new();
     let foam = cloud(500, 7);
     let mut random = Random(3);
@@ -254,9 +255,9 @@ fn profiles_are_near_the_sprites() {
     }
 }
 
-/// Of order 3/2 both, to the integral: an eighth of the step has a 22nd of the error.
+/// Of order 3/2 all, to the integral: an eighth of the step has a 22nd of the error.
 #[test]
-fn both_converge_to_the_integral() {
+fn all_converge_to_the_integral() {
     let gpu = Gpu::new();
     let foam = cloud(400, 11);
     for method in Method::ALL {
@@ -280,17 +281,53 @@ fn both_are_one_picture() {
     let gpu = Gpu::new();
     let foam = cloud(400, 5);
     let settings = Settings { step: 1.0 / 32.0, ..WHOLE };
-    let [kernel, grid] = Method::ALL.map(|m| draw(&gpu, m, &foam, &SceneDepth::Nothing, &settings));
+    let both = [Method::Kernel, Method::Grid];
+    let [kernel, grid] = both.map(|m| draw(&gpu, m, &foam, &SceneDepth::Nothing, &settings));
     // Slabs of as many samples or not: samples lie elsewhere only where steps grow, by a slab's growth.
-    let twins = Method::ALL.map(|m| twin_of(m, &foam, &SceneDepth::Nothing, &settings));
+    let twins = both.map(|m| twin_of(m, &foam, &SceneDepth::Nothing, &settings));
     for pixel in twins[0].pixels() {
-        let [a, b] = [0, 1].map(|i| bound_of(Method::ALL[i], twins[i].thickness(pixel.0, pixel.1)));
+        let [a, b] = [0, 1].map(|i| bound_of(both[i], twins[i].thickness(pixel.0, pixel.1)));
         // Each is so far from the integral; their rounding is in the bounds.
         let exact = twins[0].integral(pixel.0, pixel.1);
         let most = (a.value - exact).abs() + (b.value - exact).abs() + a.error + b.error;
         let d = (at(&kernel.thickness, pixel) - at(&grid.thickness, pixel)).abs();
         assert!(d <= most, "{pixel:?}: {d} apart, {most} expected");
         assert!(d < 0.01 * f64::from(a.met.max(1)), "{pixel:?}: {d} of {} particles", a.met);
+    }
+}
+
+/// Samples are the same: each is so far from the twin's sum, by rounding alone.
+#[test]
+fn plain_is_the_kernels_picture() {
+    let gpu = Gpu::new();
+    let mut random = Random(37);
+    let near = (0..SIZE[0] * SIZE[1]).map(|_| random.between(2.0, 9.0)).collect();
+    let near = SceneDepth::Depths(near);
+    for (seed, count, farther, step, cell, scene) in [
+        (41, 2000, 1.0, 0.5, None, &SceneDepth::Nothing),
+        // Two buckets where rows may begin: all of them share some.
+        (43, 1, 0.5, 0.1, Some(1.0), &SceneDepth::Nothing),
+        (47, 800, 1.0, 0.07, Some(2.0), &near),
+        // Most where cells grow with the depth.
+        (53, 2000, 5.0, 0.5, Some(1.0), &SceneDepth::Nothing),
+        (59, 4000, 1.0, 7.0, None, &SceneDepth::Nothing),
+    ] {
+        let mut foam = cloud(count, seed);
+        foam.positions.as_flattened_mut().iter_mut().for_each(|x| *x *= farther);
+        let settings = Settings { step, cell, ..WHOLE };
+        let [kernel, plain] =
+            [Method::Kernel, Method::Plain].map(|m| draw(&gpu, m, &foam, scene, &settings));
+        let twin = twin_of(Method::Plain, &foam, scene, &settings);
+        let (mut sum, mut errors) = (0.0, 0.0);
+        for pixel in twin.pixels() {
+            let (a, b) = (at(&kernel.thickness, pixel), at(&plain.thickness, pixel));
+            let Bound { value, error, .. } = twin.thickness(pixel.0, pixel.1);
+            let most = 2.0 * error;
+            assert!((a - b).abs() <= most, "step {step} {pixel:?}: {a} and {b}, {most} expected");
+            sum += value;
+            errors += error;
+        }
+        assert!(sum > 0.0 && errors < 0.01 * sum, "seed {seed}: ±{errors} of {sum}");
     }
 }
 
@@ -472,6 +509,8 @@ fn bad_input_is_an_error() {
         ("Settings.half", input, Settings { half: -1.0, ..settings }),
         ("Settings.exponent", input, Settings { exponent: 0.0, ..settings }),
         ("Settings.tile", input, Settings { tile: Some(5), ..settings }),
+        ("Settings.cell", input, Settings { cell: Some(0.9), ..settings }),
+        ("Settings.cell", input, Settings { cell: Some(f32::NAN), ..settings }),
         ("Settings.chunk", input, Settings { chunk: Some(0), ..settings }),
         ("Input.radius", Input { radius: 0.0, ..input }, settings),
         ("Input.size", Input { size: [0, 8], ..input }, settings),

@@ -16,14 +16,15 @@ fn out(output: &Output) -> String {
 fn draws_a_picture_and_prints_times() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut pictures = Vec::new();
-    for method in ["kernel", "grid"] {
+    for method in ["kernel", "grid", "plain"] {
         let name = format!("{method}.png");
         let arguments =
             ["--particles", "2000", "--size", "96x64", "--step", "0.1", "--repeat", "1"];
         let more = ["--method", method, "--timings", "-o", &name];
         let output = run(&[&arguments[..], &more].concat(), folder.path());
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        for pass in ["prepare", "tiles", "count", "scan", "march", "resolve", "memory"] {
+        let own = if method == "plain" { "sort" } else { "tiles" };
+        for pass in ["prepare", own, "count", "scan", "march", "resolve", "memory"] {
             assert!(out(&output).lines().any(|line| line.starts_with(pass)), "{}", out(&output));
         }
         let picture = image::open(folder.path().join(&name)).expect("a PNG").into_luma8();
@@ -35,27 +36,44 @@ fn draws_a_picture_and_prints_times() {
     }
     let apart = pictures[0].iter().zip(pictures[1].iter()).map(|(a, b)| a.abs_diff(*b)).max();
     assert!(apart < Some(16), "{apart:?} of 255");
+    let apart = pictures[0].iter().zip(pictures[2].iter()).map(|(a, b)| a.abs_diff(*b)).max();
+    assert!(apart < Some(2), "{apart:?} of 255");
 }
 
 #[test]
-fn compares_both_with_whitewater() {
+fn compares_all_with_whitewater() {
     let folder = tempfile::tempdir().expect("a folder");
     let arguments = ["compare", "--particles", "3000", "--size", "96x64", "--repeat", "1"];
     let output = run(&[&arguments[..], &["--pictures", "p"]].concat(), folder.path());
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = out(&output);
-    for row in ["ray-casting, kernel", "ray-casting, grid", "ours, intensity", "ours, total"] {
-        let line = text.lines().find(|line| line.starts_with(row)).expect(row);
-        let ms = line.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
-        assert!(ms.sum::<f64>() > 0.0, "{line}");
+    let row = |name: &str| -> Vec<f64> {
+        let line = text.lines().find(|line| line.starts_with(name)).expect(name);
+        let words = line[28..].split_whitespace().map(|word| word.trim_end_matches('x'));
+        words.map_while(|word| word.parse().ok()).collect()
+    };
+    let ours = ["ours, intensity", "ours, total"].map(|name| row(name)[0]);
+    for name in ["kernel", "grid", "plain"].map(|name| format!("ray-casting, {name}")) {
+        let [step, ms, intensity, total, flip, memory] = row(&name)[..] else {
+            panic!("{name}: {text}");
+        };
+        assert!(step > 0.0 && ms > 0.0 && flip <= 0.02 && memory > 0.0, "{text}");
+        for (ratio, ours) in [(intensity, ours[0]), (total, ours[1])] {
+            // Times are printed to hundredths, as ratios are.
+            let (least, most) = ((ms - 0.005) / (ours + 0.005), (ms + 0.005) / (ours - 0.005));
+            assert!(ratio > least - 0.0051 && (ours < 0.01 || ratio < most + 0.0051), "{text}");
+        }
     }
+    assert_eq!(row("ray-casting, plain")[0], row("ray-casting, kernel")[0], "{text}");
     let apart: Vec<f32> =
         text.lines().filter_map(|line| line.split_once("mean FLIP ")?.1.parse().ok()).collect();
     // Balls that the sea cuts: a ray has of them what is before it, a sprite all where its front is. Of few and large
     // ones that shows; both ray-casters have the same.
     assert!(apart.len() == 2 && apart.iter().all(|flip| *flip < 0.1), "{text}");
     assert!((apart[0] - apart[1]).abs() < 0.005, "{text}");
-    for name in ["ours", "kernel-converged", "kernel-step", "grid-converged", "grid-step"] {
+    for name in
+        ["ours", "kernel-converged", "kernel-step", "grid-converged", "grid-step", "plain-step"]
+    {
         assert!(folder.path().join(format!("p/{name}.png")).is_file(), "{name}");
     }
 }
@@ -72,6 +90,7 @@ fn ends_by_what_went_wrong() {
         (&["--step=-1", "--timings"], 2, "--step: -1"),
         (&["--step", "NaN", "--size", "8x8", "--timings"], 2, "expected"),
         (&["--tile", "5", "--timings"], 2, "--tile: 5: 4, 8 or 16"),
+        (&["--cell", "0.5", "--timings"], 2, "--cell: 0.5: from 1 to 16"),
         (&[], 2, "-o OUT.png"),
         (&["--size", "8x8", "-o", "no/such/folder.png"], 1, "no/such/folder.png"),
         (&["--device", "no such device", "--timings"], 1, "no such device"),

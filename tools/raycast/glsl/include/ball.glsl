@@ -18,16 +18,6 @@ Ball ball_of(uint i) {
     return Ball(where.xyz, where.w, what.xyz, what.w);
 }
 
-// 1 less the square of the distance of a ray from a centre, in radii.
-float rest_of(vec3 centre, float inverse, vec2 slope) {
-    vec2 d = (slope * centre.z - centre.xy) * inverse;
-    return 1.0 - dot(d, d);
-}
-
-float kernel_at(vec3 kernel, float y) {
-    return sqrt(y) * (kernel.x + y * (kernel.y + y * kernel.z));
-}
-
 // The first and the last of the samples of a slab that lie in a ball: at t + k dt radii from its centre. There are
 // none where the ray misses it.
 ivec2 samples_in(float rest, float t, float dt, int samples) {

@@ -1,4 +1,4 @@
-//! CPU twin of both ray-casters: every particle at every sample of every ray, in double precision, without cells,
+//! CPU twin of all ray-casters: every particle at every sample of every ray, in double precision, without cells,
 //! tiles or bricks; and how far single precision may be from it.
 
 use glam::{DMat4, DVec2, DVec3, Mat4, Vec3};

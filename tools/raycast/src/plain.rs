@@ -1,0 +1,126 @@
+//! The plain ray-caster (Ihmsen et al. 2012, as one writes it down): pass `prepare` of [`Balls`], then `count`, `scan` and
+//! `sort` of the balls into cells in space, then `march`, which searches at each sample the cells about it.
+//!
+//! Cells are hashed, not stored one by one: a grid about a sea has thousands of times as many as there are particles.
+//! So memory is by the particle: its record, another that is sorted, its place, two to four buckets.
+
+use whitewater::Error;
+use whitewater::gpu_allocator::MemoryLocation;
+use whitewater::headless::Device;
+
+use crate::balls::{Balls, Chunk, shader};
+use crate::scan::Scan;
+use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE, WRITE};
+use crate::{Input, Settings, kernel};
+
+/// Edge of a cell in reaches of the largest ball. Of 1 a sample looks at nine runs of three cells, of 2 at four of two, of
+/// 4 at two of one or two, of the more balls each: but most cells are empty, and cost their look-up.
+const CELL: f32 = 4.0;
+/// Edge of a group's pixels.
+const TILE: u32 = 8;
+/// Parts of the picture that are marched one after the other, so that no dispatch keeps a device for long.
+const BANDS: u32 = 16;
+/// Buckets of a row at most; cells farther out than that share one.
+const MOST_ACROSS: f32 = 65_536.0;
+
+/// All of it.
+pub(crate) struct Plain<'d> {
+    pub balls: Balls<'d>,
+    count: Pass<'d>,
+    scan: Scan<'d>,
+    sort: Pass<'d>,
+    march: Pass<'d>,
+    places: Buffer<'d>,
+    cells: Buffer<'d>,
+    blocks: Buffer<'d>,
+    sorted: Buffer<'d>,
+    /// Corners of the box of all balls.
+    bounds: Buffer<'d>,
+    /// Buckets where a row may begin, less 1.
+    mask: u32,
+    /// Buckets of a row.
+    span: u32,
+}
+
+impl<'d> Plain<'d> {
+    pub fn new(device: &'d Device, input: &Input<'_>, settings: &Settings) -> Result<Self, Error> {
+        let tile = settings.tile.unwrap_or(TILE);
+        // Samples where those of the kernel ray-caster are.
+        let samples = kernel::samples(settings);
+        let mut balls = Balls::new(device, input, settings, tile, samples)?;
+        let size = balls.most(input.foam.positions.len(), settings);
+        balls.take(device, input, size)?;
+        let starts = (2 * size as u32).next_power_of_two();
+        // A cell is no narrower than what is a least ball at its depth.
+        let across = (2.0 * balls.widest_slope / balls.least_reach).ceil();
+        let span = across.min(MOST_ACROSS) as u32 + 8;
+        let buckets = u64::from(starts) + u64::from(span);
+        let constants = [(1, tile), (2, settings.cell.unwrap_or(CELL).to_bits())];
+        let pass = |name, code, buffers| Pass::new(device, name, code, buffers, &constants);
+        let on_device = |name, bytes| Buffer::new(device, name, bytes, MemoryLocation::GpuOnly);
+        Ok(Self {
+            count: pass("count", shader!("plain_count"), 4)?,
+            scan: Scan::new(device, false)?,
+            sort: pass("sort", shader!("plain_sort"), 4)?,
+            march: pass("march", shader!("march_plain"), 5)?,
+            places: on_device("places", 8 * size as u64)?,
+            cells: on_device("cells", 4 * buckets)?,
+            blocks: on_device("blocks", Scan::bytes(buckets))?,
+            sorted: on_device("sorted", balls.records.size)?,
+            bounds: on_device("bounds", 24)?,
+            mask: starts - 1,
+            span,
+            balls,
+        })
+    }
+
+    pub fn memory(&self) -> u64 {
+        let own = [&self.places, &self.cells, &self.blocks, &self.sorted, &self.bounds];
+        self.balls.memory() + own.into_iter().map(|buffer| buffer.size).sum::<u64>()
+    }
+
+    pub fn record(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
+        let Self { places, cells, sorted, bounds, .. } = self;
+        let Balls { view, records, scene, thickness, .. } = &self.balls;
+        let push = |count| [count, self.mask, self.span];
+        self.balls.record_prepare(frame, chunk)?;
+        frame.scope("count", |frame| {
+            frame.barrier(&[(cells, READ, FILL), (bounds, READ, FILL)]);
+            frame.clear(cells);
+            frame.clear(bounds);
+            frame.barrier(&[
+                (cells, FILL, UPDATE),
+                (bounds, FILL, UPDATE),
+                (places, READ, WRITE),
+                (records, WRITE, READ),
+            ]);
+            let buffers = [records, places, cells, bounds];
+            frame.dispatch(&self.count, view, &buffers, push(chunk.count), chunk.groups())
+        })?;
+        frame.scope("scan", |frame| {
+            self.scan.record(frame, view, &self.blocks, cells, cells.size / 4)
+        })?;
+        frame.scope("sort", |frame| {
+            frame.barrier(&[(cells, UPDATE, UPDATE), (places, WRITE, READ), (sorted, READ, WRITE)]);
+            let buffers = [records, places, cells, sorted];
+            frame.dispatch(&self.sort, view, &buffers, push(chunk.count), chunk.groups())
+        })?;
+        frame.scope("march", |frame| {
+            frame.barrier(&[
+                (cells, UPDATE, READ),
+                (sorted, WRITE, READ),
+                (bounds, UPDATE, READ),
+                (thickness, UPDATE, UPDATE),
+            ]);
+            let buffers = [cells, sorted, bounds, scene, thickness];
+            let [across, down] = self.balls.tile_count;
+            let each = down.div_ceil(BANDS);
+            for first in (0..down).step_by(each as usize) {
+                let groups = [across, each.min(down - first)];
+                let above = push(first * self.balls.tile);
+                frame.dispatch(&self.march, view, &buffers, above, groups)?;
+            }
+            Ok(())
+        })
+    }
+}
