@@ -1,7 +1,8 @@
 #version 460
 // Pass `march` of the plain ray-caster: at each sample of a ray the sum of the kernels of the particles in the cells
 // about it (Ihmsen et al. 2012, Sec. 5), from where the ray enters the box of all particles to where it leaves it.
-// Reads: cells, sorted, box, scene depth. Writes: thickness.
+// In rounds: a ray that has looked at much goes on in the next one.
+// Reads: cells, sorted, box, scene depth, rays. Writes: box, thickness, rays.
 
 #include "view.glsl"
 #include "kernel.glsl"
@@ -10,12 +11,19 @@
 layout(local_size_x_id = 1, local_size_y_id = 1) in;
 layout(set = 0, binding = 1, std430) readonly buffer Cells { uint cells[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Sorted { uvec4 sorted[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Box { uint box[6]; };
+layout(set = 0, binding = 3, std430) buffer Box { uint box[7]; };
 layout(set = 0, binding = 4, std430) readonly buffer Scene { float scene[]; };
 layout(set = 0, binding = 5, std430) buffer Thickness { float thickness[]; };
+layout(set = 0, binding = 6, std430) buffer Rays { uint rays[]; };
 
-// Of all kernels at a sample.
-float density_at(vec2 slope, float depth) {
+// What a ray may look at in a round. A device is not kept for long then, and lavapipe ends all loops after 65535 turns of
+// eight rays together.
+const uint MOST_LOOKS = 6000u;
+// Of a ray in place of its next sample.
+const uint DONE = 0xffffffffu;
+
+// Of all kernels at a sample; adds what it looked at.
+float density_at(vec2 slope, float depth, inout uint looks) {
     float sum = 0.0;
     uvec2 layers = layers_about(depth);
     for (uint layer = layers.x; layer <= layers.y; ++layer) {
@@ -29,14 +37,14 @@ float density_at(vec2 slope, float depth) {
         for (float down = floor(at.y - reach.y); down <= last; down += 1.0) {
             uint row = row_of(down, layer);
             uint bucket = bucket_of(row);
+            uint begin = cells[bucket + left - 1u];
             uint end = cells[bucket + right];
-            for (uint i = cells[bucket + left - 1u]; i < end; ++i) {
+            looks += end - begin + 2u;
+            for (uint i = begin; i < end; ++i) {
                 vec4 ball = uintBitsToFloat(sorted[2u * i]);
                 float q = (depth - ball.z) * ball.w;
                 float y = rest_of(ball.xyz, ball.w, slope) - q * q;
-                // Most balls the sample misses: what is a loop a CPU goes past.
-                int hits = y > 0.0 ? 1 : 0;
-                for (int hit = 0; hit < hits; ++hit) {
+                if (y > 0.0) {
                     // Two rows may share buckets: each finds its own.
                     uvec4 what = sorted[2u * i + 1u];
                     sum += what.w == row ? kernel_at(uintBitsToFloat(what.xyz), y) : 0.0;
@@ -48,8 +56,9 @@ float density_at(vec2 slope, float depth) {
 }
 
 void main() {
-    uvec2 pixel = gl_GlobalInvocationID.xy + uvec2(0u, push.count);
-    if (any(greaterThanEqual(pixel, view.extent.xy)) || box[5] == 0u) {
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    uint at = pixel.y * view.extent.x + pixel.x;
+    if (any(greaterThanEqual(pixel, view.extent.xy)) || box[5] == 0u || rays[at] == DONE) {
         return;
     }
     vec2 slope = (vec2(pixel) + 0.5) * view.slope.xy + view.slope.zw;
@@ -58,28 +67,38 @@ void main() {
     vec2 inverse = 1.0 / mix(vec2(1.0e-12), slope, greaterThan(abs(slope), vec2(1.0e-12)));
     vec2 ins = min(low.xy * inverse, high.xy * inverse);
     vec2 outs = max(low.xy * inverse, high.xy * inverse);
-    uint at = pixel.y * view.extent.x + pixel.x;
     float near = 0.99999 * max(max(low.z, 0.0), max(ins.x, ins.y));
     float far = min(1.00001 * min(high.z, min(outs.x, outs.y)), scene[at]);
     if (near >= far) {
+        rays[at] = DONE;
         return;
     }
     float sum = thickness[at];
     float place = sample_place(pixel);
-    int samples = int(view.samples.x);
+    uint samples = view.samples.x;
     uvec2 slabs = slabs_between(near, far);
-    for (uint slab = slabs.x; slab <= slabs.y && sum < view.lens.w; ++slab) {
+    // All samples of all slabs in one row.
+    uint next = max(rays[at], slabs.x * samples);
+    uint looks = 0u;
+    for (uint slab = next / samples; slab <= slabs.y && sum < view.lens.w && looks < MOST_LOOKS; ++slab) {
         float begin = slab_depth(slab);
         float dz = (slab_depth(slab + 1u) - begin) / float(samples);
         float first = begin + place * dz;
-        int k = int(clamp(floor((near - first) / dz), 0.0, float(samples)));
-        int end = int(clamp(ceil((far - first) / dz), 0.0, float(samples)));
+        uint k = max(uint(clamp(floor((near - first) / dz), 0.0, float(samples))), next - slab * samples);
+        uint end = uint(clamp(ceil((far - first) / dz), 0.0, float(samples)));
         float slab_sum = 0.0;
-        while (k < end && sum + dz * slab_sum < view.lens.w) {
-            slab_sum += density_at(slope, first + float(k) * dz);
+        while (k < end && sum + dz * slab_sum < view.lens.w && looks < MOST_LOOKS) {
+            slab_sum += density_at(slope, first + float(k) * dz, looks);
             ++k;
         }
         sum += dz * slab_sum;
+        ++looks;
+        next = k < end ? slab * samples + k : (slab + 1u) * samples;
     }
     thickness[at] = sum;
+    bool done = next > slabs.y * samples + samples - 1u || sum >= view.lens.w;
+    rays[at] = done ? DONE : next;
+    if (!done) {
+        atomicMax(box[6], push.count + 1u);
+    }
 }

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 2, std430) writeonly buffer Places { uvec2 places[]; };
 layout(set = 0, binding = 3, std430) buffer Cells { uint cells[]; };
-layout(set = 0, binding = 4, std430) buffer Box { uint box[6]; };
+layout(set = 0, binding = 4, std430) buffer Box { uint box[7]; };
 
 // Of the group: an atomic for it in place of one for each ball.
 shared uint corners[6];

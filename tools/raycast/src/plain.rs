@@ -11,15 +11,15 @@ use whitewater::headless::Device;
 use crate::balls::{Balls, Chunk, shader};
 use crate::scan::Scan;
 use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE, WRITE};
-use crate::{Input, Settings, kernel};
+use crate::{Input, Settings, bad, kernel};
 
 /// Edge of a cell in reaches of the largest ball. Of 1 a sample looks at nine runs of three cells, of 2 at four of two, of
 /// 4 at two of one or two, of the more balls each: but most cells are empty, and cost their look-up.
 const CELL: f32 = 4.0;
 /// Edge of a group's pixels.
 const TILE: u32 = 8;
-/// Parts of the picture that are marched one after the other, so that no dispatch keeps a device for long.
-const BANDS: u32 = 16;
+/// Rounds of a chunk's rays that are tried first, and at most.
+const ROUNDS: [u32; 2] = [16, 256];
 /// Buckets of a row at most; cells farther out than that share one.
 const MOST_ACROSS: f32 = 65_536.0;
 
@@ -34,8 +34,12 @@ pub(crate) struct Plain<'d> {
     cells: Buffer<'d>,
     blocks: Buffer<'d>,
     sorted: Buffer<'d>,
-    /// Corners of the box of all balls.
+    /// Corners of the box of all balls; how many rounds have left something.
     bounds: Buffer<'d>,
+    /// Where each ray goes on.
+    rays: Buffer<'d>,
+    /// Of a frame's rays, for each chunk.
+    rounds: u32,
     /// Buckets where a row may begin, less 1.
     mask: u32,
     /// Buckets of a row.
@@ -58,34 +62,72 @@ impl<'d> Plain<'d> {
         let constants = [(1, tile), (2, settings.cell.unwrap_or(CELL).to_bits())];
         let pass = |name, code, buffers| Pass::new(device, name, code, buffers, &constants);
         let on_device = |name, bytes| Buffer::new(device, name, bytes, MemoryLocation::GpuOnly);
-        Ok(Self {
+        let mut plain = Self {
             count: pass("count", shader!("plain_count"), 4)?,
             scan: Scan::new(device, false)?,
             sort: pass("sort", shader!("plain_sort"), 4)?,
-            march: pass("march", shader!("march_plain"), 5)?,
+            march: pass("march", shader!("march_plain"), 6)?,
             places: on_device("places", 8 * size as u64)?,
             cells: on_device("cells", 4 * buckets)?,
             blocks: on_device("blocks", Scan::bytes(buckets))?,
             sorted: on_device("sorted", balls.records.size)?,
-            bounds: on_device("bounds", 24)?,
+            bounds: on_device("bounds", 28)?,
+            rays: on_device("rays", balls.thickness.size)?,
+            rounds: 0,
             mask: starts - 1,
             span,
             balls,
-        })
+        };
+        plain.find_rounds()?;
+        Ok(plain)
+    }
+
+    /// As many as all rays need.
+    fn find_rounds(&mut self) -> Result<(), Error> {
+        let queue = &self.balls.queue;
+        for chunk in &self.balls.chunks {
+            let [mut tried, most] = ROUNDS;
+            loop {
+                queue.run(|frame| {
+                    self.balls.record_begin(frame);
+                    self.record_rounds(frame, chunk, tried)
+                })?;
+                let left = queue.read(&self.bounds, 6, 1)?[0];
+                if left < tried {
+                    self.rounds = self.rounds.max(left + 1);
+                    break;
+                }
+                if tried >= most {
+                    let why = "too fine: rays take too many rounds";
+                    return Err(bad("Settings.step", why.into()));
+                }
+                tried *= 4;
+            }
+        }
+        Ok(())
     }
 
     pub fn memory(&self) -> u64 {
-        let own = [&self.places, &self.cells, &self.blocks, &self.sorted, &self.bounds];
+        let own = [&self.places, &self.cells, &self.blocks, &self.sorted, &self.bounds, &self.rays];
         self.balls.memory() + own.into_iter().map(|buffer| buffer.size).sum::<u64>()
     }
 
     pub fn record(&self, frame: &mut Frame<'_>, chunk: &Chunk<'_>) -> Result<(), Error> {
-        let Self { places, cells, sorted, bounds, .. } = self;
+        self.record_rounds(frame, chunk, self.rounds)
+    }
+
+    fn record_rounds(
+        &self,
+        frame: &mut Frame<'_>,
+        chunk: &Chunk<'_>,
+        rounds: u32,
+    ) -> Result<(), Error> {
+        let Self { places, cells, sorted, bounds, rays, .. } = self;
         let Balls { view, records, scene, thickness, .. } = &self.balls;
         let push = |count| [count, self.mask, self.span];
         self.balls.record_prepare(frame, chunk)?;
         frame.scope("count", |frame| {
-            frame.barrier(&[(cells, READ, FILL), (bounds, READ, FILL)]);
+            frame.barrier(&[(cells, READ, FILL), (bounds, UPDATE, FILL)]);
             frame.clear(cells);
             frame.clear(bounds);
             frame.barrier(&[
@@ -106,19 +148,15 @@ impl<'d> Plain<'d> {
             frame.dispatch(&self.sort, view, &buffers, push(chunk.count), chunk.groups())
         })?;
         frame.scope("march", |frame| {
-            frame.barrier(&[
-                (cells, UPDATE, READ),
-                (sorted, WRITE, READ),
-                (bounds, UPDATE, READ),
-                (thickness, UPDATE, UPDATE),
-            ]);
-            let buffers = [cells, sorted, bounds, scene, thickness];
-            let [across, down] = self.balls.tile_count;
-            let each = down.div_ceil(BANDS);
-            for first in (0..down).step_by(each as usize) {
-                let groups = [across, each.min(down - first)];
-                let above = push(first * self.balls.tile);
-                frame.dispatch(&self.march, view, &buffers, above, groups)?;
+            frame.barrier(&[(rays, UPDATE, FILL)]);
+            frame.clear(rays);
+            frame.barrier(&[(cells, UPDATE, READ), (sorted, WRITE, READ), (rays, FILL, UPDATE)]);
+            let buffers = [cells, sorted, bounds, scene, thickness, rays];
+            for round in 0..rounds {
+                let uses = [bounds, rays, thickness].map(|buffer| (buffer, UPDATE, UPDATE));
+                frame.barrier(&uses);
+                let groups = self.balls.tile_count;
+                frame.dispatch(&self.march, view, &buffers, push(round), groups)?;
             }
             Ok(())
         })

@@ -7,7 +7,7 @@
 layout(constant_id = 2) const float CELL = 4.0;
 
 layout(push_constant, std430) uniform Push {
-    uint count; // particles; of `march` the rows of pixels above its own
+    uint count; // particles; of `march` the rounds before
     uint mask;  // buckets where a row may begin, less 1: a power of 2
     uint span;  // buckets of a row; the one in the middle is on the axis
 } push;
@@ -61,7 +61,7 @@ uint across_of(float across) {
     return uint(clamp(floor(across) + middle, 1.0, float(push.span - 1u)));
 }
 
-// Of the box of all balls the corners, as numbers that are the larger the farther out: of nothing 0.
+// The box of all balls: its corners, as numbers that are the larger the farther out: of nothing 0.
 uint outwards(float at) {
     uint bits = floatBitsToUint(at);
     return bits >> 31 == 1u ? ~bits : bits | 0x80000000u;
