@@ -14,7 +14,7 @@ use crate::vulkan::{Buffer, FILL, Frame, Pass, READ, UPDATE, WRITE};
 use crate::{Input, Settings, bad, kernel};
 
 /// Edge of a cell in reaches of the largest ball. Of 1 a sample looks at nine runs of three cells, of 2 at four of two, of
-/// 4 at two of one or two, of the more balls each: but most cells are empty, and cost their look-up.
+/// 4 at two runs or so, of more balls each; but most cells are empty, and cost their look-up.
 const CELL: f32 = 4.0;
 /// Edge of a group's pixels.
 const TILE: u32 = 8;
