@@ -351,7 +351,8 @@ fn every_medium_and_reflectance() {
     let size = extent(96, 64);
     let make = |composite| {
         let depth_splat = Some(Splat::Raster);
-        let config = Config { depth_splat, composite: Some(composite), ..config(size) };
+        let config =
+            Config { depth_splat, coarsening: 0, composite: Some(composite), ..config(size) };
         let mut rig = Rig::new(&gpu, &config);
         rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
         rig
@@ -390,7 +391,7 @@ fn every_medium_and_reflectance() {
 fn a_hundredth_is_seen() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &config(size));
+    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let shot = shot(size, Lens::Standard);
     let mut flat = shot.clone();
@@ -425,7 +426,7 @@ fn a_hundredth_is_seen() {
 fn what_stands_before_the_water_is_not_refracted() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &config(size));
+    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     for depth_extent in [size, extent(192, 128), extent(50, 31)] {
         for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
