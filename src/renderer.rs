@@ -522,7 +522,7 @@ impl SlotState {
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
-        110 + 27 * water + 2 * diffuse + diffuse_sets(&gpu.limits, config)
+        110 + 27 * water + 4 * diffuse + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

@@ -109,8 +109,9 @@ impl Sprites {
         let chunks = Chunks::new(&gpu.limits, diffuse);
         let chosen = way(gpu, diffuse);
         let targets = Targets::new(gpu, config, chosen)?;
-        let covering =
-            |shader, constants: &[(u32, u32)]| Covering::new(gpu, shader, constants, diffuse);
+        let covering = |shader, constants: &[(u32, u32)]| {
+            Covering::new(gpu, "foam/splat/large", shader, constants, diffuse)
+        };
         let (way, resolve) = match chosen {
             Splat::Raster => {
                 let quads = Quads::new(gpu, &targets.thickness)?;
@@ -287,10 +288,10 @@ impl Sprites {
                 &own,
                 particles,
                 |places| places,
-                |at| {
+                |chunk| {
                     let arguments = self.arguments.handle;
                     // SAFETY: inside a render pass; the arguments are visible since `begin`.
-                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, at, 1, 16) };
+                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments, 16 * chunk, 1, 16) };
                 },
             )
         })?;
@@ -368,9 +369,11 @@ impl Sprites {
     pub fn memory(&self) -> (u64, u64) {
         let Targets { words, occluders, thickness, normal } = &self.targets;
         let mut images = [occluders, thickness, normal].map(|image| image.size).iter().sum();
-        if let Way::Quads(quads) = &self.way {
-            images += quads.memory();
+        let mut buffers = words.size + self.arguments.size;
+        match &self.way {
+            Way::Quads(quads) => images += quads.memory(),
+            Way::Compute(goes) => buffers += goes.iter().map(Covering::memory).sum::<u64>(),
         }
-        (images, words.size + self.arguments.size)
+        (images, buffers)
     }
 }

@@ -3,11 +3,14 @@
 
 use ash::vk;
 use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
 
 use crate::contract::{Count, DiffuseParticles, Packets, Stream};
 use crate::error::Error;
 use crate::foam::settings::DiffuseConfig;
 use crate::gpu::Gpu;
+use crate::gpu::access::{COMPUTE_READ, COMPUTE_READ_WRITE, COPY_WRITE, INDIRECT, buffer};
+use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader::{self, Shader};
@@ -115,7 +118,7 @@ impl Chunks {
     }
 
     /// Binds each chunk's streams and what else there is, pushes its places or what is made of them, and does
-    /// something by its arguments, which lie at so many bytes.
+    /// something with its number.
     pub fn each<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -123,7 +126,7 @@ impl Chunks {
         own: &[(u32, Resource)],
         particles: &DiffuseParticles,
         push: impl Fn(Places) -> P,
-        act: impl Fn(vk::DeviceSize),
+        act: impl Fn(u64),
     ) -> Result<(), Error> {
         let others = [&particles.kinds, &particles.radii, &particles.ages, &particles.ids];
         for chunk in 0..self.count {
@@ -155,31 +158,50 @@ impl Chunks {
                 chunk,
             };
             pipeline.push(r.gpu, r.cmd, &push(places));
-            act(16 * u64::from(chunk));
+            act(u64::from(chunk));
         }
         Ok(())
     }
 }
 
+/// Large particles of a chunk that have room in its list, glsl/include/diffuse_cover.glsl; the others are done by an
+/// invocation each.
+const ROOM: u64 = 16_384;
+/// Bytes of a chunk's list: arguments of a dispatch and how many there would be, then the particles.
+const LIST: u64 = 4 * (4 + ROOM);
+
 /// A shader that covers what each particle does (glsl/include/diffuse_cover.glsl): an invocation a particle, or a
-/// group for each of the host's packets.
+/// group for each of the host's packets; then a group for each large one.
 pub struct Covering {
     each: Pipeline,
     packets: Option<Pipeline>,
+    large: Pipeline,
+    list: Buffer,
 }
 
 impl Covering {
-    /// `constants`: of the shader's own, not number 1.
+    /// `name`: of its list. `constants`: of the shader's own, not numbers 1 and 2.
     pub fn new(
         gpu: &Gpu,
+        name: &str,
         shader: Shader,
         constants: &[(u32, u32)],
         config: &DiffuseConfig,
     ) -> Result<Self, Error> {
-        let make = |packets| {
-            Pipeline::compute(gpu, shader, &[constants, &[(1, u32::from(packets))]].concat())
+        let make = |packets, large| {
+            let own = [(1, u32::from(packets)), (2, u32::from(large))];
+            Pipeline::compute(gpu, shader, &[constants, &own].concat())
         };
-        Ok(Self { each: make(false)?, packets: config.packets.then(|| make(true)).transpose()? })
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::INDIRECT_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let bytes = LIST * u64::from(Chunks::new(&gpu.limits, config).count);
+        Ok(Self {
+            each: make(false, false)?,
+            packets: config.packets.then(|| make(true, false)).transpose()?,
+            large: make(false, true)?,
+            list: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
+        })
     }
 
     /// Invocations of a group.
@@ -187,8 +209,13 @@ impl Covering {
         self.each.local_size[0]
     }
 
-    /// Over all chunks; `arguments`: of their dispatches, visible. Atomics alone, in any order: no barrier between
-    /// chunks.
+    /// Bytes of its list.
+    pub fn memory(&self) -> u64 {
+        self.list.size
+    }
+
+    /// Over all chunks; `arguments`: of their dispatches, visible. What is covered is added to by atomics alone, in
+    /// any order: no barrier for that.
     pub fn record<P: NoUninit>(
         &self,
         r: &Recording<'_>,
@@ -198,26 +225,40 @@ impl Covering {
         arguments: vk::Buffer,
         push: impl Fn(Places) -> P,
     ) -> Result<(), Error> {
-        let device = &r.gpu.device;
-        let bound = |packets| [own, &[(9, packets)]].concat();
-        // `Config` was checked with the frame.
-        if let (Some(Packets { buffer, offset, count }), Some(pipeline)) =
-            (particles.packets, &self.packets)
-        {
-            if count == 0 {
-                return Ok(());
-            }
-            let packets = Resource::Buffer(buffer, offset, 32 * u64::from(count));
-            return chunks.each(r, pipeline, &bound(packets), particles, push, |_| {
-                // SAFETY: outside a render pass, pipeline and set are bound.
-                unsafe { device.cmd_dispatch(r.cmd, count, 1, 1) };
-            });
+        if particles.packets.is_some_and(|packets| packets.count == 0) {
+            return Ok(());
         }
+        let (gpu, device, list) = (r.gpu, &r.gpu.device, self.list.handle);
+        let used = INDIRECT.and(COMPUTE_READ);
+        gpu.barriers(r.cmd, &[], &[buffer(list, used, COPY_WRITE)]);
+        for chunk in 0..chunks.count {
+            let empty = bytemuck::bytes_of(&[0_u32, 1, 1, 0]);
+            // SAFETY: outside a render pass; who read it last is done (barrier).
+            unsafe { device.cmd_update_buffer(r.cmd, list, LIST * u64::from(chunk), empty) };
+        }
+        gpu.barriers(r.cmd, &[], &[buffer(list, COPY_WRITE, COMPUTE_READ_WRITE)]);
+
+        let bound = |packets| [own, &[(9, packets), (10, Resource::buffer(&self.list))]].concat();
         // Not read.
         let unread = Resource::Buffer(arguments, 0, 16);
-        chunks.each(r, &self.each, &bound(unread), particles, push, |at| {
-            // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible.
-            unsafe { device.cmd_dispatch_indirect(r.cmd, arguments, at) };
+        // That the configuration has them was checked with the frame.
+        match (particles.packets, &self.packets) {
+            (Some(Packets { buffer, offset, count }), Some(pipeline)) => {
+                let packets = Resource::Buffer(buffer, offset, 32 * u64::from(count));
+                chunks.each(r, pipeline, &bound(packets), particles, &push, |_| {
+                    // SAFETY: outside a render pass, pipeline and set are bound.
+                    unsafe { device.cmd_dispatch(r.cmd, count, 1, 1) };
+                })?;
+            }
+            _ => chunks.each(r, &self.each, &bound(unread), particles, &push, |chunk| {
+                // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible.
+                unsafe { device.cmd_dispatch_indirect(r.cmd, arguments, 16 * chunk) };
+            })?,
+        }
+        gpu.barriers(r.cmd, &[], &[buffer(list, COMPUTE_READ_WRITE, used)]);
+        chunks.each(r, &self.large, &bound(unread), particles, &push, |chunk| {
+            // SAFETY: outside a render pass, pipeline and set are bound; the list is visible.
+            unsafe { device.cmd_dispatch_indirect(r.cmd, list, LIST * chunk) };
         })
     }
 }

@@ -82,7 +82,13 @@ impl Diffuse {
         let desc = map_desc("light/diffuse", edge, vk::Format::R16G16B16A16_SFLOAT, usage);
         Ok(Self {
             begin: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_BEGIN_COMP, &[])?,
-            splat: Covering::new(gpu, shader::LIGHT_DIFFUSE_COMP, &[], diffuse)?,
+            splat: Covering::new(
+                gpu,
+                "light/diffuse/large",
+                shader::LIGHT_DIFFUSE_COMP,
+                &[],
+                diffuse,
+            )?,
             resolve: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_RESOLVE_COMP, &[])?,
             arguments: made("light/diffuse/arguments", chunks.arguments(), arguments)?,
             words: made("light/diffuse/words", words, fill)?,
@@ -208,7 +214,8 @@ impl Diffuse {
 
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.image.size, self.words.size + self.arguments.size)
+        let buffers = self.words.size + self.arguments.size + self.splat.memory();
+        (self.image.size, buffers)
     }
 }
 
@@ -223,5 +230,5 @@ fn rows(limits: &vk::PhysicalDeviceLimits, edge: u32) -> u32 {
 pub fn sets(limits: &vk::PhysicalDeviceLimits, diffuse: &DiffuseConfig, edge: u32) -> u32 {
     let rows = rows(limits, edge);
     let own = if rows < edge { rows - 2 } else { edge };
-    1 + edge.div_ceil(rows) * Chunks::new(limits, diffuse).count + edge.div_ceil(own)
+    1 + 2 * edge.div_ceil(rows) * Chunks::new(limits, diffuse).count + edge.div_ceil(own)
 }

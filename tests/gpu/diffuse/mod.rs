@@ -2,7 +2,7 @@
 
 mod fluid;
 pub mod packets;
-mod ways;
+pub mod ways;
 
 use ash::vk;
 use glam::{DVec3, Vec3};

@@ -89,6 +89,34 @@ fn the_frontmost_of_equals_is_the_same() {
     assert!(equals > 100, "{equals} pixels with two at one depth");
 }
 
+/// More large ones than their list has room for: an invocation does what a group does, as where they
+/// come in chunks with a list each.
+#[test]
+fn more_large_ones_than_there_is_room_for() {
+    let gpu = Gpu::shared();
+    let mut cloud = Diffuse::new(Lens::Standard);
+    cloud.shot = Shot::new(SIZE, Lens::Standard, 0.2, &[]);
+    let points = scenes::cloud(7, 30_000, 5.0, 6.0);
+    let n = points.len();
+    cloud.positions = scenes::world(&cloud.shot.camera, &points);
+    // At the depth of the farthest 18 pixels wide and more.
+    let scale = cloud.shot.camera.projection.y_axis.y.abs() * 0.5 * SIZE.height as f32;
+    cloud.radii = Some(vec![5.0 * 9.0 * 6.0 / scale; n]);
+    (cloud.kinds, cloud.ages, cloud.ids) = (vec![0; n], vec![0.0; n], Some(vec![4; n]));
+    let range = u64::from(gpu.limits().max_storage_buffer_range);
+    for way in ways(&gpu).into_iter().filter(|way| *way != Splat::Raster) {
+        // A chunk of all, and chunks of a few thousand.
+        let [found, expected] = [12, range as u32 / 5000 / 4 * 4].map(|max_stride| {
+            let config = by(way, SIZE);
+            let max_particles = n as u32;
+            let diffuse =
+                config.diffuse.map(|own| DiffuseConfig { max_particles, max_stride, ..own });
+            cloud.draw(&mut Rig::lit(&gpu, &Config { diffuse, ..config }, 1))
+        });
+        same(way, &found, &expected);
+    }
+}
+
 /// The same particles in other buffers.
 #[test]
 fn streams_of_any_shape_are_the_same() {
@@ -167,6 +195,13 @@ fn size_and_configuration_change() {
     }
 }
 
+/// Bytes of the lists of large particles: 64 KiB and 16 bytes for what is bound at once, a dispatch of 64 an
+/// invocation each.
+pub fn lists(gpu: &Gpu, most: u32) -> f64 {
+    let bound = (gpu.limits().max_storage_buffer_range - 256) / 12;
+    f64::from(most.div_ceil(bound.min(64 * 65_535))) * (65_536.0 + 16.0)
+}
+
 #[test]
 fn memory_is_by_the_pixel() {
     let gpu = Gpu::shared();
@@ -185,8 +220,10 @@ fn memory_is_by_the_pixel() {
     let without = of(1, Splat::Compute);
     for way in ways(&gpu) {
         let a_pixel = if way == Splat::Raster { 100.0 } else { 88.0 };
-        let said = a_pixel * 1280.0 * 720.0;
+        let goes = [(Splat::Raster, 0.0), (Splat::Compute, 2.0), (Splat::Compute64, 1.0)];
+        let goes = goes.iter().find(|(of, _)| *of == way).expect("one of them").1;
         for most in [2, 30_000_000] {
+            let said = a_pixel * 1280.0 * 720.0 + goes * lists(&gpu, most);
             let found = of(most, way) - without;
             assert!((found - said).abs() < 0.01 * said + 128.0 * 1024.0, "{way:?} {most}: {found}");
         }
