@@ -10,7 +10,7 @@ layout(constant_id = 1) const uint PACKETS = 0;
 layout(constant_id = 2) const uint LARGE = 0;
 
 layout(set = 0, binding = 9, std430) readonly buffer HostPackets { uint packets[]; };
-// Of each chunk the groups to dispatch, how many there would be, and the large ones that have room.
+// Of each chunk the groups to dispatch (4 words, the last: how many large ones there are), then those that have room.
 layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 
 #include "packets.glsl"
@@ -18,7 +18,7 @@ layout(set = 0, binding = 10, std430) buffer List { uint list[]; };
 // Pixels of a box that an invocation does by itself; also where the list is full.
 const int SMALL = 256;
 const uint ROOM = 16384u;
-const uint BLOCK_OF = ROOM + 4u;
+const uint LIST = ROOM + 4u; // words of a chunk's
 
 // Of the chunk, none from the last on.
 void cover_one(uint i, uint past) {
@@ -31,10 +31,11 @@ void cover_one(uint i, uint past) {
     int left = size.x * size.y;
     // The end of a loop, not a branch: a CPU runs branches whole.
     for (bool done = left <= SMALL; !done; done = true) {
-        uint head = BLOCK_OF * push.chunk;
+        uint head = LIST * push.chunk;
         uint slot = atomicAdd(list[head + 3u], 1u);
         if (slot < ROOM) {
-            // A store in a shader that does not come to it counts as one where dispatches are checked for hazards.
+            // An atomic: the synchronization check takes a plain store for one of the large ones' dispatches too, which
+            // have the shader and not the branch.
             atomicExchange(list[head + 4u + slot], i);
             atomicMax(list[head], slot + 1u);
             left = 0;
@@ -63,7 +64,7 @@ void cover_large(uint i) {
 
 void cover() {
     if (LARGE == 1u) {
-        cover_large(list[BLOCK_OF * push.chunk + 4u + gl_WorkGroupID.x]);
+        cover_large(list[LIST * push.chunk + 4u + gl_WorkGroupID.x]);
         return;
     }
     uint count = arguments[push.chunk].w;

@@ -221,9 +221,9 @@ fn a_coarser_level_is_the_configured_one() {
 }
 
 /// Between two levels each pixel has of both, by its own distance. Only the slope goes straight from one to
-/// the other, the colour nearly, of what is seen through it of an even change. Of what the pixels say of their way (found - fine) / (coarse - fine) the mean by
-/// the squares of their differences is taken, as of their fades. Inside the water: the thickness at its rim goes by
-/// the finer level alone.
+/// the other, the colour nearly, of what is seen through it of an even change. Of what the pixels say of their
+/// way (found - fine) / (coarse - fine) the mean by the squares of their differences is taken, as of their
+/// fades. Inside the water: the thickness at its rim goes by the finer level alone.
 #[test]
 fn the_next_level_fades_in() {
     let gpu = Gpu::shared();
