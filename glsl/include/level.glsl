@@ -18,6 +18,15 @@ layout(set = 0, binding = 7, std140) uniform Levels {
     vec4 near;
 } levels;
 
+// The coarser levels' tiles that hold something near enough, found by `reduce`.
+const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
+
+struct Marked {
+    uint groups[3]; // of a dispatch over them, a tile each
+    uint count;
+    uint needed;    // the coarsest level needed in the frame
+};
+
 // The level that a texel of the images belongs to; LEVELS: none.
 uint level_of(ivec2 texel) {
     uint own = LEVELS;

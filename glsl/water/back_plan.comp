@@ -15,7 +15,7 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
-layout(set = 0, binding = 8, std430) readonly buffer Needed { uint needed; };
+layout(set = 0, binding = 8, std430) readonly buffer Counts { Marked marked; };
 
 #include "reduction.glsl"
 
@@ -32,7 +32,7 @@ void main() {
         most = 0u;
     }
     barrier();
-    bool wanted = coarser == 0u || coarser < needed;
+    bool wanted = coarser == 0u || coarser < marked.needed;
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (wanted && all(lessThan(texel, level.rect.zw))) {
         float z = EMPTY;

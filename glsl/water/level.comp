@@ -2,7 +2,7 @@
 // Pass `level`: the reduction again for each level that is coarser than the configured one, in the tiles
 // where some of the water is so near as to need it. Not in the source, whose cap leaves near water
 // rough.
-// Reads: levels, depth (occluded pixels emptied), marks of the levels' tiles. Writes: both smoothing images,
+// Reads: levels, depth (occluded pixels emptied), marks and list of the levels' tiles. Writes: both smoothing images,
 // plan, work of the levels' tiles.
 
 #include "frame.glsl"
@@ -17,6 +17,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Counts { Marked marked; };
+layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
 
 #include "block.glsl"
 #include "reduction.glsl"
@@ -24,24 +26,21 @@ layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
 shared uint most;
 
 void main() {
-    uint level = gl_WorkGroupID.z + 1u;
+    uint slot = gl_WorkGroupID.y * MOST_GROUPS + gl_WorkGroupID.x;
+    if (slot >= marked.count) {
+        return;
+    }
+    uint index = list[slot];
+    uint mark = tile_work[index];
+    ivec2 corner = ivec2(int(index) % levels.atlas.z, int(index) / levels.atlas.z) * 16;
+    uint level = level_of(corner);
     Level own = levels.level[level];
     int edge = int(own.texel.z);
-    ivec2 tile = ivec2(gl_WorkGroupID.xy);
-    if (any(greaterThanEqual(16 * tile, own.rect.zw))) {
-        return;
-    }
-    tile += own.rect.xy / 16;
-    uint index = uint(tile.y * levels.atlas.z + tile.x);
-    uint mark = tile_work[index];
-    if (mark == 0u) {
-        return;
-    }
     if (gl_LocalInvocationIndex == 0u) {
         most = 0u;
     }
     barrier();
-    ivec2 block = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 block = corner - own.rect.xy + ivec2(gl_LocalInvocationID.xy);
     if (all(lessThan(block, own.rect.zw))) {
         // Beside the tiles that need it there is nothing to smooth with.
         float z = EMPTY;

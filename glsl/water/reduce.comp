@@ -3,7 +3,7 @@
 // (but no drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1,
 // Listing A.12).
 // Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan,
-// work of every tile, marks of the coarser levels' tiles, levels needed.
+// work of every tile, marks and list of the coarser levels' tiles, levels needed.
 
 #include "frame.glsl"
 #include "plan.glsl"
@@ -22,8 +22,8 @@ layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 // whether one may show. Of a coarser level's tile until `level` has made it: 2 where something in it needs it,
 // 1 beside such, else 0.
 layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
-// The coarsest level needed in the frame.
-layout(set = 0, binding = 8, std430) buffer Needed { uint needed; };
+layout(set = 0, binding = 8, std430) buffer Counts { Marked marked; };
+layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
 
 #include "foam_texels.glsl"
 #include "beside.glsl"
@@ -71,7 +71,13 @@ void mark(ivec2 own, uint coarsest) {
             ivec2 at = over + ivec2(k % 3, k / 3) - 1;
             if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(16 * at, rect.zw))) {
                 at += rect.xy / 16;
-                atomicMax(tile_work[at.y * levels.atlas.z + at.x], k == 4 ? 2u : 1u);
+                uint tile = uint(at.y * levels.atlas.z + at.x);
+                if (atomicMax(tile_work[tile], k == 4 ? 2u : 1u) == 0u) {
+                    uint slot = atomicAdd(marked.count, 1u);
+                    list[slot] = tile;
+                    atomicMax(marked.groups[0], min(slot + 1u, MOST_GROUPS));
+                    atomicMax(marked.groups[1], 1u + slot / MOST_GROUPS);
+                }
             }
         }
     }
@@ -109,7 +115,7 @@ void main() {
         uint shows = near < 0.9 ? 0u : 1u;
         tile_work[gl_WorkGroupID.y * levels.atlas.z + gl_WorkGroupID.x] = most | coarsest << 16 | shows << 24;
         if (coarsest > 0u) {
-            atomicMax(needed, coarsest);
+            atomicMax(marked.needed, coarsest);
             mark(ivec2(gl_WorkGroupID.xy), coarsest);
         }
     }

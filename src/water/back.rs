@@ -167,7 +167,7 @@ impl Back {
                 (5, Resource::storage(plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (7, r.levels),
-                (8, Resource::buffer(&level.needed)),
+                (8, Resource::buffer(&level.marked)),
             ],
         )?;
         dispatch(self.levels);

@@ -6,7 +6,7 @@
 //! iterations for the same width. The levels share the smoothing images, and so do those of the back
 //! sheet (pass `back`); the tile list holds the tiles of all of them, so that every form of the smoothing
 //! runs all in its one dispatch or draw.
-//! Reads: depth, each tile's mark. Writes: for the coarser ones both smoothing
+//! Reads: depth, each tile's mark, the list of those marked. Writes: for the coarser ones both smoothing
 //! images, plan, each tile's work.
 
 use ash::vk;
@@ -22,7 +22,7 @@ use crate::frame::{Lens, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED,
-    buffer,
+    INDIRECT, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -37,6 +37,9 @@ const BACK: usize = 4;
 /// The next level fades in from this part of the most iterations on, until at twice that it is alone. The width is 6
 /// to 8 texels then, 3 to 4 of the next one, which still has all that is left of the surface.
 const FADE: f32 = 0.25;
+
+/// No groups, one in each of the other directions, no tile, no level: `Marked` of glsl/include/level.glsl.
+pub const NONE_MARKED: [u32; 5] = [0, 1, 1, 0, 0];
 
 /// Levels coarser that a configuration may go: the other rules are the source's, with its cap.
 pub fn coarsening(config: &Config) -> u32 {
@@ -142,23 +145,22 @@ shader::assert_layout!(shader::WATER_LEVEL_COMP, "Levels", SmoothingLevels { lev
 pub struct Level {
     /// There is none when the configuration never goes coarser.
     reduce: Option<Pipeline>,
-    /// Levels coarser.
-    coarsening: u32,
-    /// The coarsest level that the frame needs.
-    pub needed: Buffer,
+    /// What `reduce` found to be made, [`NONE_MARKED`] before it.
+    pub marked: Buffer,
 }
 
 impl Level {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let coarsening = coarsening(config);
         let rule = [(1, rule_constant(config.rule))];
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::INDIRECT_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST;
         Ok(Self {
             reduce: (coarsening > 0)
                 .then(|| Pipeline::compute(gpu, shader::WATER_LEVEL_COMP, &rule))
                 .transpose()?,
-            coarsening,
-            needed: Buffer::new(gpu, "water/level/needed", 4, usage, MemoryLocation::GpuOnly)?,
+            marked: Buffer::new(gpu, "water/level/marked", 4 * 5, usage, MemoryLocation::GpuOnly)?,
         })
     }
 
@@ -173,8 +175,11 @@ impl Level {
     ) -> Result<(), Error> {
         let scope = r.begin(c"level");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let needed = [buffer(self.needed.handle, COMPUTE_READ_WRITE, COMPUTE_READ)];
-        gpu.barriers(cmd, &[], &needed);
+        let listed = [
+            buffer(self.marked.handle, COMPUTE_READ_WRITE, COMPUTE_READ.and(INDIRECT)),
+            buffer(tiles.list.handle, COMPUTE_WRITE, COMPUTE_READ),
+        ];
+        gpu.barriers(cmd, &[], &listed);
         if let Some(pipeline) = &self.reduce {
             // What `reduce` wrote is beside what is written here.
             let beside = |image| access::image(image, COMPUTE_WRITE, COMPUTE_WRITE);
@@ -200,12 +205,12 @@ impl Level {
                     (5, Resource::storage(&reduce.plan)),
                     (6, Resource::buffer(&tiles.work)),
                     (7, r.levels),
+                    (8, Resource::buffer(&self.marked)),
+                    (9, Resource::buffer(&tiles.list)),
                 ],
             )?;
-            let size = reduced(r.extent, reduce.level + 1);
-            let groups = [size.width.div_ceil(TILE), size.height.div_ceil(TILE)];
-            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
-            unsafe { gpu.device.cmd_dispatch(cmd, groups[0], groups[1], self.coarsening) };
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound; `reduce` wrote the groups.
+            unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.marked.handle, 0) };
         }
         gpu.barriers(
             cmd,
@@ -224,6 +229,6 @@ impl Level {
     }
 
     pub fn memory(&self) -> u64 {
-        self.needed.size
+        self.marked.size
     }
 }

@@ -3,12 +3,12 @@
 //! pixel's iterations and step from the depth before any smoothing.
 //!
 //! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
-//! plan, each tile's work, marks of the coarser levels' tiles, the coarsest level needed.
+//! plan, each tile's work, marks and list of the coarser levels' tiles, the coarsest level needed.
 
 use ash::vk;
 
 use super::Recording;
-use super::level::{Atlas, Level};
+use super::level::{Atlas, Level, NONE_MARKED};
 use super::smooth::Smooth;
 use super::tiles::Tiles;
 use crate::contract::Config;
@@ -17,7 +17,7 @@ use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-    COPY_WRITE, FRAGMENT_SAMPLED, buffer,
+    COPY_WRITE, FRAGMENT_SAMPLED, INDIRECT, VERTEX_READ, buffer,
 };
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
@@ -124,12 +124,17 @@ impl Reduce {
     ) -> Result<(), Error> {
         let scope = r.begin(c"reduce");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let cleared = [level.needed.handle, tiles.work.handle];
-        let moved = |from, to| cleared.map(|handle| buffer(handle, from, to));
-        gpu.barriers(cmd, &[], &moved(COMPUTE_READ, COPY_WRITE));
-        for handle in cleared {
-            // SAFETY: outside a render pass; the frame before has read it (barrier).
-            unsafe { gpu.device.cmd_fill_buffer(cmd, handle, 0, vk::WHOLE_SIZE, 0) };
+        let (marked, work) = (level.marked.handle, tiles.work.handle);
+        let read = COMPUTE_READ.and(INDIRECT);
+        gpu.barriers(
+            cmd,
+            &[],
+            &[buffer(marked, read, COPY_WRITE), buffer(work, COMPUTE_READ, COPY_WRITE)],
+        );
+        // SAFETY: outside a render pass; the frame before has read both (barrier).
+        unsafe {
+            gpu.device.cmd_update_buffer(cmd, marked, 0, bytemuck::bytes_of(&NONE_MARKED));
+            gpu.device.cmd_fill_buffer(cmd, work, 0, vk::WHOLE_SIZE, 0);
         }
         let smooth_before = super::smooth::BEFORE.discarded();
         let plan_before = PLAN_AFTER.and(COPY_READ).discarded();
@@ -140,7 +145,12 @@ impl Reduce {
                 access::image(&smooth.b, smooth_before, COMPUTE_WRITE),
                 access::image(&self.plan, plan_before, COMPUTE_WRITE),
             ],
-            &moved(COPY_WRITE, COMPUTE_READ_WRITE),
+            &[
+                buffer(marked, COPY_WRITE, COMPUTE_READ_WRITE),
+                buffer(work, COPY_WRITE, COMPUTE_READ_WRITE),
+                // In the place of the list that `tiles` writes.
+                buffer(tiles.list.handle, COMPUTE_READ.and(VERTEX_READ), COMPUTE_WRITE),
+            ],
         );
         let [foam, spray, diffuse] = depths.beside(r);
         r.descriptors.bind(
@@ -156,7 +166,8 @@ impl Reduce {
                 (5, Resource::storage(&self.plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (7, r.levels),
-                (8, Resource::buffer(&level.needed)),
+                (8, Resource::buffer(&level.marked)),
+                (9, Resource::buffer(&tiles.list)),
                 foam,
                 spray,
                 diffuse,
