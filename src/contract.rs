@@ -111,7 +111,7 @@ pub struct Config {
     /// one its own surface where the nearer covers it. 1 saves the passes `gaps` and `back`.
     pub sheets: u32,
     /// Foam is drawn (default: not): the passes `foam`, and the particles' water shrinks by what of
-    /// them is foam. 52 bytes a particle more.
+    /// them is foam. 68 bytes a particle more.
     pub foam: bool,
     /// Spray is drawn (default: not): the pass `spray`, of particles as [`SprayLook::densities`] say,
     /// which count for water and foam too. 32 bytes a particle more.

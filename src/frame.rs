@@ -47,6 +47,9 @@ pub struct FrameUniforms {
     pub ambient: [f32; 4],
     pub foam: [f32; 4],
     pub foam_noise: [f32; 4],
+    pub foam_pattern: [f32; 4],
+    pub foam_octaves: [f32; 4],
+    pub foam_phases: [f32; 4],
     pub foam_back: [f32; 4],
     pub foam_front: [f32; 4],
     pub spray: [f32; 4],
@@ -111,6 +114,9 @@ shader::assert_layout!(
         ambient,
         foam,
         foam_noise,
+        foam_pattern,
+        foam_octaves,
+        foam_phases,
         foam_back,
         foam_front,
         spray,
@@ -296,6 +302,7 @@ impl FrameUniforms {
         };
         let (medium_a, medium_b) = medium(&water.medium);
         let look = &frame.settings.foam;
+        let (parts, carried, began) = pattern_phases(look);
         let ripples = &frame.settings.noise;
         let diffuse = &frame.settings.diffuse;
         let falloff = match diffuse.submerged {
@@ -356,6 +363,9 @@ impl FrameUniforms {
             ambient: light_vector(light.ambient),
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
             foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
+            foam_pattern: [3.0 * look.pattern, 0.0, 0.0, 0.5 * look.pattern_period],
+            foam_octaves: [look.pattern_size, began[0], began[1], 0.0],
+            foam_phases: [parts[0], parts[1], carried[0], carried[1]],
             foam_back: with(foam_color(look.back_color, light), foam_step(water.spacing)),
             foam_front: with(foam_color(look.front_color, light), look.front_power),
             spray: spray_shape(&frame.settings.spray, water),
@@ -516,6 +526,25 @@ fn with([x, y, z, _]: [f32; 4], w: f32) -> [f32; 4] {
 const TO_PLACE: Mat4 = Mat4::from_cols_array(&[
     0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.5, 0.5, 0.0, 1.0,
 ]);
+
+/// Of the two phases of the foam's pattern: how much there is of each, so that their sum varies as one does; how far
+/// it is carried, of half a period, -1 to 1; where in the noise it begins, anew each time.
+fn pattern_phases(look: &FoamLook) -> ([f32; 2], [f32; 2], [f32; 2]) {
+    let cycles = look.time / f64::from(look.pattern_period);
+    let [one, other] = [0.0, 0.5].map(|late| {
+        let at = cycles + late;
+        let carried = 2.0 * (at - at.floor()) - 1.0;
+        // Far from each other in the noise, those of one phase after the other and those of both.
+        let began = 2.0 * at.floor() + if late > 0.0 { 1.0 } else { 0.0 };
+        (1.0 - carried.abs(), carried, (17.0 * began).rem_euclid(256.0))
+    });
+    let whole = one.0.hypot(other.0);
+    (
+        [(one.0 / whole) as f32, (other.0 / whole) as f32],
+        [one.1 as f32, other.1 as f32],
+        [one.2 as f32, other.2 as f32],
+    )
+}
 
 /// Light in shade over that in the sun; foam's extinction of sunlight.
 fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {

@@ -107,7 +107,7 @@
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
 //! | foam: depth, thickness and its sums, what water is before it (`foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
 //! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
-//! | foam: sprites and shares (`foam`) | 52 n | 3.3 MiB for 65 536 | 520 MB for 10 million |
+//! | foam: sprites and shares (`foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
 //! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
@@ -149,6 +149,8 @@
 //!   front where it hides what is behind, under the water before that; to the thesis it is at the
 //!   frontmost's depth, and a thin veil brings up what lies deep, with its own outline (so it stays with
 //!   [`water::Medium::Source`]).
+//! - Foam is thick here and thin there by one noise in space that it carries along ([`water::FoamLook::pattern`]); in the
+//!   thesis each sprite has a noise of its own, and many over each other are a mist. It is there as a pattern of 0.
 //! - The thickness of foam shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
 //!   looks nine times a pixel, at depths that jump from sprite to sprite.

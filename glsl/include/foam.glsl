@@ -5,6 +5,7 @@ struct FoamSprite {
     vec4 centre;   // eye space; foam, 0 to 1
     vec4 velocity; // eye space; age in seconds
     vec4 rest;     // bits of the id; share of the sun's light
+    vec4 pattern;  // w: logarithm of how much more there is of it in its middle; xyz: how that grows a metre
 };
 
 // Sprites to a workgroup of the compute path.

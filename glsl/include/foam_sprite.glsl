@@ -1,5 +1,5 @@
 // A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl,
-// gradient_noise.glsl, foam.glsl, kernel.glsl.
+// gradient_noise.glsl, foam.glsl, pattern.glsl, kernel.glsl.
 
 // Over the foam, the depth's part of the half-axes: whole before there is enough foam to be seen, for what
 // is behind the frontmost foam and what is before it changes at its outline.
@@ -12,7 +12,15 @@ struct FoamPlane {
     vec2 axes;   // half-axes
     vec3 normal;
     float texel; // width of one at its centre
-    float torn;  // strength of its noise
+};
+
+// What tears it: a noise of its own, or the finest octave of the pattern.
+struct FoamNoise {
+    vec3 place;  // in its middle
+    vec3 along;  // how that goes on to its half-axes
+    vec3 across;
+    vec3 coarse; // logarithm of the pattern in its middle, and what it gains to its half-axes
+    vec2 torn;   // strength of the noise; share of the sun's light
 };
 
 FoamPlane foam_plane(FoamSprite sprite, bool thick) {
@@ -22,30 +30,57 @@ FoamPlane foam_plane(FoamSprite sprite, bool thick) {
     plane.normal = cross(plane.e1, plane.e2);
     plane.texel = -sprite.centre.z * max(abs(frame.thick_slope.x), abs(frame.thick_slope.y));
     float b = frame.particle.x * FOAM_AXIS;
-    // Cells of less than a texel cannot be told from each other; those of two are seen whole.
-    plane.torn = frame.foam_noise.x * smoothstep(1.0, 2.0, b / (NOISE_CELLS * plane.texel));
     float part = thick ? 1.0 : min(DEPTH_GROWTH * sprite.centre.w, 1.0);
     plane.axes = max(vec2(b * (1.0 + stretch), b), vec2(LEAST_FOAM_AXIS * plane.texel)) * part;
     return plane;
 }
 
-// Metres in its middle, and its place in the noise. As a thickness sprite of water: the integral over the
-// picture's plane is the volume.
-vec4 foam_look(FoamSprite sprite, FoamPlane plane) {
+// Metres in its middle. As a thickness sprite of water: the integral over the picture's plane is the volume.
+float foam_amount(FoamSprite sprite, FoamPlane plane) {
     float facing = max(abs(plane.normal.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
-    vec3 phase = noise_phase(floatBitsToUint(sprite.rest.x)) * 64.0;
-    return vec4(sprite.centre.w * volume / (plane.axes.x * plane.axes.y * facing),
-                phase + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y));
+    return sprite.centre.w * volume / (plane.axes.x * plane.axes.y * facing);
+}
+
+bool has_pattern() {
+    return frame.foam_pattern.x > 0.0;
+}
+
+FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
+    uint id = floatBitsToUint(sprite.rest.x);
+    FoamNoise noise;
+    if (has_pattern()) {
+        // Each phase has half of the sprites: in each texel there are some of both.
+        uint phase = pcg(id) >> 31;
+        float width = frame.particle.y * frame.foam_octaves.x * OCTAVES[2];
+        mat3 turn = mat3(frame.world);
+        noise.place = pattern_place((frame.world * vec4(plane.centre, 1.0)).xyz, turn * sprite.velocity.xyz, phase, 2u);
+        noise.along = turn * plane.e1 * (plane.axes.x / width);
+        noise.across = turn * plane.e2 * (plane.axes.y / width);
+        float strength = frame.foam_pattern.x * HEIGHTS[2] * told_apart(width, plane.texel);
+        noise.torn.x = strength * frame.foam_phases[phase];
+        vec2 rise = vec2(dot(sprite.pattern.xyz, plane.e1), dot(sprite.pattern.xyz, plane.e2)) * plane.axes;
+        noise.coarse = vec3(sprite.pattern.w, clamp(rise, -MOST_PATTERN, MOST_PATTERN));
+        noise.coarse.x -= 0.5 * VARIANCE * noise.torn.x * noise.torn.x;
+    } else {
+        noise.place = noise_phase(id) * 64.0 + vec3(0.0, 0.0, sprite.velocity.w * frame.foam_noise.y);
+        noise.along = vec3(NOISE_CELLS, 0.0, 0.0);
+        noise.across = vec3(0.0, NOISE_CELLS, 0.0);
+        noise.coarse = vec3(0.0);
+        float cell = frame.particle.x * FOAM_AXIS / NOISE_CELLS;
+        noise.torn.x = frame.foam_noise.x * told_apart(cell, plane.texel);
+    }
+    noise.torn.y = sprite.rest.y;
+    return noise;
 }
 
 // What it adds where a ray meets it: to all foam, to the layer right behind the frontmost, to what of that the
 // sun lights, and by how far behind the frontmost it lies. Whole steps, their sums are exact, in any order.
-// torn: strength of the noise, share of the sun's light. before: metres to the scene.
-vec4 foam_steps(vec4 look, vec2 torn, vec2 place, float depth, float front, float before) {
-    float noise = gradient_noise(vec3(NOISE_CELLS * place, 0.0) + look.yzw);
-    float amount = look.x * thickness_kernel(dot(place, place));
-    amount *= max(1.0 + torn.x * noise, 0.0);
+// before: metres to the scene.
+vec4 foam_steps(float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
+    float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
+    amount *= thickness_kernel(dot(place, place));
+    amount *= has_pattern() ? exp(own.coarse.x + dot(own.coarse.yz, place) + noise) : max(1.0 + noise, 0.0);
     // It sinks into the scene softly: a sprite that the scene cuts would end in steps of the texels.
     amount *= min(before / (0.5 * frame.particle.y), 1.0);
     // The layer ends softly, within a spacing: what passes its end would pop.
@@ -54,5 +89,5 @@ vec4 foam_steps(vec4 look, vec2 torn, vec2 place, float depth, float front, floa
     // Bounded, so that steps can hold its sum, and led by what is near, which hides the rest.
     float behind = max(depth - front - frame.particle.y, 0.0);
     float far = behind / (behind + frame.particle.y);
-    return floor(amount * vec4(1.0, first, first * torn.y, far) / frame.foam_back.w + 0.5);
+    return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + 0.5);
 }

@@ -31,6 +31,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 ambient;
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
+    vec4 foam_pattern;  // its strength, 0 0; half its period in seconds
+    vec4 foam_octaves;  // spacings of its first octave; where its two phases begin in the noise; 0
+    vec4 foam_phases;   // how much there is of each; how far it is carried, of half a period, -1 to 1
     vec4 foam_back;     // radiance of little foam, and of much; w: step of its thickness
     vec4 foam_front;    // w: power of the other rule, or 0
     vec4 spray;         // optical depth and half-axis of a droplet, spread; seconds of a streak

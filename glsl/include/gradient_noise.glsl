@@ -25,6 +25,29 @@ float row_noise(uint x, uint row, vec3 off, float fade) {
                lattice_gradient((x + LATTICE.x) ^ row, off - vec3(1.0, 0.0, 0.0)), fade);
 }
 
+// The same with how it grows a cell: xyz, w the noise.
+vec4 gradient_noise_slope(vec3 p) {
+    vec3 cell = floor(p);
+    vec3 f = p - cell;
+    vec3 fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+    vec3 rise = 30.0 * f * f * (f - 1.0) * (f - 1.0);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 8; ++i) {
+        vec3 side = vec3(i & 1, i >> 1 & 1, i >> 2);
+        uvec3 at = uvec3(ivec3(cell + side)) * LATTICE;
+        uint joined = at.x ^ at.y ^ at.z;
+        vec3 gradient = vec3(lattice_gradient(joined, vec3(1.0, 0.0, 0.0)),
+                             lattice_gradient(joined, vec3(0.0, 1.0, 0.0)),
+                             lattice_gradient(joined, vec3(0.0, 0.0, 1.0)));
+        float along = dot(gradient, f - side);
+        vec3 part = mix(1.0 - fade, fade, side);
+        vec3 change = (2.0 * side - 1.0) * rise;
+        sum += part.x * part.y * part.z * vec4(gradient, along);
+        sum.xyz += along * change * vec3(part.y * part.z, part.x * part.z, part.x * part.y);
+    }
+    return sum;
+}
+
 // Mean 0, within 1.23 of it.
 float gradient_noise(vec3 p) {
     vec3 cell = floor(p);

@@ -1,7 +1,7 @@
 #version 460
 // Pass `foam`, compute path: the frontmost foam (thesis Sec. 4.6.2), then the metres of all foam and of the
 // layer right behind the frontmost (Sec. 4.8), in whole steps. An invocation a sprite, or all of a group the
-// large ones. A noise of its own in each sprite, that changes as it ages, breaks up the discs.
+// large ones. A noise breaks up the discs, that of a pattern or one of its own in each sprite, that changes as it ages.
 // Reads: Counts, sprites, words. Writes: words.
 
 #include "frame.glsl"
@@ -10,6 +10,7 @@
 #include "random.glsl"
 #include "gradient_noise.glsl"
 #include "foam.glsl"
+#include "pattern.glsl"
 #include "kernel.glsl"
 #include "foam_sprite.glsl"
 #include "foam_sums.glsl"
@@ -37,8 +38,8 @@ struct Splat {
     FoamPlane plane;
     vec3 along;  // over its half-axis
     vec3 across;
-    vec4 look;
-    vec2 torn;   // strength of the noise; share of the sun's light
+    float amount;
+    FoamNoise noise;
     ivec4 box;   // texels that may see it
 };
 
@@ -64,8 +65,8 @@ Splat splat_of(uint index) {
     s.along = s.plane.e1 / s.plane.axes.x;
     s.across = s.plane.e2 / s.plane.axes.y;
     if (THICK == 1u) {
-        s.look = foam_look(sprite, s.plane);
-        s.torn = vec2(s.plane.torn, sprite.rest.y);
+        s.amount = foam_amount(sprite, s.plane);
+        s.noise = foam_noise(sprite, s.plane);
     }
     vec3 a = s.plane.e1 * s.plane.axes.x;
     vec3 b = s.plane.e2 * s.plane.axes.y;
@@ -113,7 +114,7 @@ void splat(ivec2 texel, Splat s) {
         return;
     }
     float frontmost = front < scene ? uintBitsToFloat(front) : EMPTY;
-    uvec4 steps = uvec4(foam_steps(s.look, s.torn, place, depth, frontmost, before));
+    uvec4 steps = uvec4(foam_steps(s.amount, s.noise, place, depth, frontmost, before));
     if (steps.x > 0u) {
         uvec2 behind = uvec2(min(steps.w, steps.x), steps.x - min(steps.x, steps.y));
         uint unlit = steps.y - min(steps.z, steps.y);

@@ -9,6 +9,7 @@
 #include "random.glsl"
 #include "gradient_noise.glsl"
 #include "foam.glsl"
+#include "pattern.glsl"
 #include "kernel.glsl"
 #include "foam_sprite.glsl"
 
@@ -21,8 +22,8 @@ layout(location = 0) flat out vec3 centre;
 layout(location = 1) flat out vec3 along;  // over its half-axis
 layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
-layout(location = 4) flat out vec4 look;   // amplitude; place in the noise
-layout(location = 5) flat out vec2 torn;   // strength of the noise; share of the sun's light
+layout(location = 4) flat out float amount;
+layout(location = 5) flat out FoamNoise noise;
 
 void main() {
     FoamSprite sprite = sprites[gl_InstanceIndex];
@@ -31,8 +32,8 @@ void main() {
     along = plane.e1 / plane.axes.x;
     across = plane.e2 / plane.axes.y;
     normal = plane.normal;
-    torn = vec2(plane.torn, sprite.rest.y);
-    look = foam_look(sprite, plane);
+    amount = foam_amount(sprite, plane);
+    noise = foam_noise(sprite, plane);
 
     vec4 scale = frame.thick_slope;
     vec2 extent = frame.thick_extent.xy;

@@ -8,7 +8,10 @@
 #include "frustum.glsl"
 #include "counts.glsl"
 #include "density.glsl"
+#include "random.glsl"
+#include "gradient_noise.glsl"
 #include "foam.glsl"
+#include "pattern.glsl"
 #include "convolution.glsl"
 #include "intensity.glsl"
 #include "sunlight.glsl"
@@ -67,6 +70,8 @@ void visit(uint index) {
     if (-centre.z <= frame.depth.z || !in_frustum(centre, reach)) {
         return;
     }
+    vec4 pattern = coarse_pattern(position, velocity, texel);
+    pattern.xyz = mat3(frame.view) * pattern.xyz;
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;
     age = age > 0.0 && age < 1.0e6 ? age : 0.0;
     uint slot = atomicAdd(counts.foam, 1u);
@@ -75,7 +80,7 @@ void visit(uint index) {
         atomicAdd(counts.foam_groups[0], 1u);
     }
     sprites[slot] = FoamSprite(vec4(centre, foam), vec4(mat3(frame.view) * velocity, age),
-                               vec4(uintBitsToFloat(id), sun_in_foam(centre), 0.0, 0.0));
+                               vec4(uintBitsToFloat(id), sun_in_foam(centre), 0.0, 0.0), pattern);
 }
 
 void main() {

@@ -1,19 +1,20 @@
 #version 460
 // Pass `foam`, raster path: metres of foam, of all, of the layer right behind the frontmost (thesis
 // Sec. 4.8.2, Listing A.16), of what of that layer the sun lights, and of all by how far behind the frontmost it
-// lies. A noise of its own in each sprite, that changes as it ages, breaks up the discs.
+// lies. A noise breaks up the discs, that of a pattern or one of its own in each sprite, that changes as it ages.
 // Reads: scene depth, foam depth. Writes: foam thickness (RGBA32F).
 
 #include "frame.glsl"
 #include "random.glsl"
 #include "gradient_noise.glsl"
 #include "foam.glsl"
+#include "pattern.glsl"
 #include "kernel.glsl"
 #include "foam_sprite.glsl"
 #include "sprite_hit.glsl"
 
-layout(location = 4) flat in vec4 look;
-layout(location = 5) flat in vec2 torn;
+layout(location = 4) flat in float amount;
+layout(location = 5) flat in FoamNoise noise;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D foam_depth;
@@ -33,5 +34,5 @@ void main() {
     }
     float front = texelFetch(foam_depth, ivec2(gl_FragCoord.xy), 0).x;
     float before = scene > 0.0 ? scene - depth : EMPTY;
-    thickness = foam_steps(look, torn, place, depth, front, before) * frame.foam_back.w;
+    thickness = foam_steps(amount, noise, place, depth, front, before) * frame.foam_back.w;
 }

@@ -102,7 +102,7 @@ Sprite sprite_of(uint index, bool foamy) {
         vec3 e1;
         vec3 e2;
         float b = FOAM_AXIS * frame.particle.x;
-        float a = b * (1.0 + foam_axes(FoamSprite(vec4(s.centre, foam), vec4(velocity, 0.0), vec4(0.0)), e1, e2));
+        float a = b * (1.0 + foam_axes(FoamSprite(vec4(s.centre, foam), vec4(velocity, 0.0), vec4(0.0), vec4(0.0)), e1, e2));
         a = max(a, least);
         s.along = e1 / a;
         s.across = e2 / max(b, least);

@@ -45,7 +45,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 
 /// Bytes of a sprite.
-pub const SPRITE: u64 = 48;
+pub const SPRITE: u64 = 64;
 
 /// Both images are read by compute (`reduce`) and by what shades.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);

@@ -333,6 +333,16 @@ pub struct FoamLook {
     pub noise: f32,
     /// Cells of the noise that pass in a second of age, [0, ∞), default 2.
     pub noise_rate: f32,
+    /// How much thicker it is here than there by a noise in space that the foam carries along, [0, 2], default 1: a
+    /// tenth of it is twice as thick or more, a tenth a quarter or less. Not in the source; 0: none of that.
+    pub pattern: f32,
+    /// Width of the largest of the clumps, spacings, (0, 1e3], default 3.
+    pub pattern_size: f32,
+    /// Seconds after which a clump is drawn out and another has taken its place, (0, 1e3], default 1.
+    pub pattern_period: f32,
+    /// The time of the frame in seconds, by which the pattern moves on; default 0. One that stands still leaves the
+    /// pattern where it is in space, and foam moves through it.
+    pub time: f64,
     /// Thickness below which foam is less than it is, scene units, [0, ∞), default a spacing: a veil
     /// reads as steam. Not in the source; 0: none of that.
     pub veil: f32,
@@ -360,6 +370,10 @@ impl FoamLook {
             motion_threshold: 21.0,
             noise: 1.0,
             noise_rate: 2.0,
+            pattern: 1.0,
+            pattern_size: 3.0,
+            pattern_period: 1.0,
+            time: 0.0,
             veil: spacing,
             relief: 0.35,
             shadow: 0.25 / spacing,
@@ -376,6 +390,13 @@ impl FoamLook {
         range("Settings.foam.front_depth", self.front_depth, 0.0, f32::MAX)?;
         range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
         range("Settings.foam.noise", self.noise, 0.0, 1.0)?;
+        range("Settings.foam.pattern", self.pattern, 0.0, 2.0)?;
+        range("Settings.foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
+        range("Settings.foam.pattern_period", self.pattern_period, 1.0e-3, 1.0e3)?;
+        if !self.time.is_finite() {
+            let why = format!("{}: not finite", self.time);
+            return Err(crate::error::Error::bad("Settings.foam.time", why));
+        }
         range("Settings.foam.shadow", self.shadow, 0.0, f32::MAX)?;
         range("Settings.foam.veil", self.veil, 0.0, f32::MAX)?;
         range("Settings.foam.relief", self.relief, 0.0, 2.0)?;

@@ -163,6 +163,12 @@ fn spoils() -> Vec<Spoil> {
         ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),
         ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
         ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
+        ("pattern", "Settings.foam.pattern", |g| g.settings.foam.pattern = -0.5),
+        ("pattern size", "Settings.foam.pattern_size", |g| g.settings.foam.pattern_size = 0.0),
+        ("pattern period", "Settings.foam.pattern_period", |g| {
+            g.settings.foam.pattern_period = 0.0
+        }),
+        ("time", "Settings.foam.time", |g| g.settings.foam.time = f64::INFINITY),
         ("threshold", "Settings.foam.motion_threshold", |g| {
             g.settings.foam.motion_threshold = 0.0;
         }),

@@ -7,7 +7,7 @@ use whitewater::water::{Shading, Splat};
 use whitewater::{Config, Particles};
 
 use crate::depth::spheres;
-use crate::reference::foam::{self, Sprite};
+use crate::reference::foam::{self, Pattern, Sprite};
 use crate::reference::{EMPTY, Image, is_surface, smoothstep};
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -55,7 +55,9 @@ impl Streams {
 impl Foamy {
     /// Particles of all amounts of foam, at all speeds up to `fastest` spacings a second.
     pub fn new(size: ash::vk::Extent2D, lens: Lens, fastest: f32) -> Self {
-        let shot = Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0));
+        let mut shot = Shot::new(size, lens, 0.2, &scenes::cloud(31, 160, 2.0, 9.0));
+        // Both phases of the pattern show.
+        shot.settings.foam.time = 1.13;
         let mut random = Random(5);
         let most = fastest * shot.settings.water.spacing / 3.0_f32.sqrt();
         let count = shot.positions.len();
@@ -110,6 +112,12 @@ impl Foamy {
             front_depth: f64::from(look.front_depth),
             noise: f64::from(look.noise),
             noise_rate: f64::from(look.noise_rate),
+            pattern: (look.pattern > 0.0).then(|| Pattern {
+                strength: f64::from(look.pattern),
+                size: f64::from(look.pattern_size),
+                period: f64::from(look.pattern_period),
+                time: look.time,
+            }),
             step: f64::from(spacing).log2().floor().exp2() / 2048.0,
         }
     }
@@ -157,9 +165,10 @@ fn foam_is_the_twins() {
         let mut rig = Rig::new(&gpu, &config);
         let lenses = if level == 1 { &LENSES[..] } else { &[Lens::OffAxis] };
         for lens in lenses {
-            for fastest in [0.0, 40.0] {
+            for (fastest, pattern) in [(0.0, 1.0), (40.0, 1.0), (40.0, 0.0)] {
                 let mut case = Foamy::new(size, *lens, fastest);
-                let name = format!("foam-{level}-{splat:?}-{lens:?}-{fastest}");
+                case.shot.settings.foam.pattern = pattern;
+                let name = format!("foam-{level}-{splat:?}-{lens:?}-{fastest}-{pattern}");
                 let drawn = case.draw(&mut rig);
                 check(&name, &case, &drawn, level);
                 let covered = of(&drawn).depth.data.iter().filter(|z| **z < 1e9).count();
@@ -367,7 +376,7 @@ fn sums_of_foam_end_where_they_are_full() {
     let config = Config { thickness_level: 1, max_particles: 1 << 14, ..foaming(size) };
     let mut rig = Rig::new(&gpu, &config);
     let mut case = Foamy::new(size, Lens::Standard, 0.0);
-    case.shot.settings.foam.noise = 0.0;
+    (case.shot.settings.foam.noise, case.shot.settings.foam.pattern) = (0.0, 0.0);
     let spot = scenes::world(&case.shot.camera, &[[0.0, 0.0, 2.0]])[0];
     let most = case.settings().step * f64::from(1 << 24);
     let mut full = 0;

@@ -38,7 +38,7 @@ fn foam_covers_what_is_behind_it() {
         case.velocities = vec![[0.0; 3]];
         case.ids = None;
         let look = &mut case.shot.settings.foam;
-        (look.noise, look.relief, look.veil) = (0.0, 0.0, 0.05);
+        (look.noise, look.pattern, look.relief, look.veil) = (0.0, 0.0, 0.0, 0.05);
         (look.extinction, look.front_extinction) = (3.0, 5.0);
         (look.back_color, look.front_color) = ([0.2, 0.4, 0.6], [0.9, 0.8, 0.7]);
         case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
@@ -124,7 +124,7 @@ fn veiled(size: ash::vk::Extent2D) -> Foamy {
     water.fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };
     water.medium = Medium::Physical { absorption: [0.9, 0.4, 0.2], scattering: [0.1, 0.2, 0.3] };
     let look = &mut case.shot.settings.foam;
-    (look.noise, look.relief, look.veil) = (0.0, 0.0, 0.0);
+    (look.noise, look.pattern, look.relief, look.veil) = (0.0, 0.0, 0.0, 0.0);
     (look.extinction, look.front_extinction, look.front_depth) = (2.0, 5.0, 1.0);
     (look.back_color, look.front_color) = ([0.7, 0.6, 0.5], [0.9, 0.8, 0.7]);
     case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
@@ -199,7 +199,7 @@ fn the_last_of_foam_shows_in_every_tile() {
         case.velocities = vec![[0.0; 3]; block.len()];
         case.ids = None;
         let look = &mut case.shot.settings.foam;
-        (look.noise, look.veil, look.extinction) = (0.0, 0.0, 1.0e4);
+        (look.noise, look.pattern, look.veil, look.extinction) = (0.0, 0.0, 0.0, 1.0e4);
         let [white, black] = [0.9, 0.0].map(|albedo| {
             let look = &mut case.shot.settings.foam;
             (look.back_color, look.front_color) = ([albedo; 3], [albedo; 3]);
@@ -308,6 +308,7 @@ fn the_ladder_adds_a_layer_a_rung() {
     case.shot.settings.water.medium = Medium::Physical { absorption, scattering: [0.0; 3] };
     let look = &mut case.shot.settings.foam;
     (look.relief, look.veil, look.extinction, look.front_extinction) = (0.0, 0.0, 2.0, 3.0);
+    look.pattern = 0.0;
     (look.front_depth, look.back_color, look.front_color) = (1.5, [0.2, 0.3, 0.4], [0.9, 0.8, 0.7]);
     case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
     let view = case.shot.view(size);

@@ -104,7 +104,8 @@ pub fn thickness_bounds(
             let farthest = foam_depth.high.at(x, y);
             let found = span(&ellipses, |(ellipse, strength)| {
                 let hit = ellipse.meet(ray, near, scene)?;
-                let bounds = value_bounds(sprite, (ellipse, *strength), &hit, foam, settings);
+                let bounds =
+                    value_bounds((sprite, view), (ellipse, *strength), &hit, foam, settings);
                 // The scene's depth is made of the projection, 8u; the difference, the product and the
                 // quotient 4u.
                 let sunk = |sign: f64| {
@@ -173,7 +174,7 @@ pub fn thickness_bounds(
 /// on; what is under its root is rounded once, u/2, the root by 9u, the exponential by 7 ulp, the
 /// three products by 3u.
 fn value_bounds(
-    sprite: &Sprite,
+    (sprite, view): (&Sprite, &View),
     (ellipse, strength): (&LooseEllipse, Rounded),
     hit: &LooseHit,
     foam: f64,
@@ -183,6 +184,14 @@ fn value_bounds(
     let rho_squared = hit.rho_squared;
     let least = kernel((rho_squared.v + rho_squared.e).min(1.0));
     let most = kernel((rho_squared.v - rho_squared.e).max(0.0));
+    let rounding = U * (0.5 + 9.0 + 14.0 + 3.0);
+    if let Some(pattern) = &settings.pattern {
+        let texel = ellipse.texel(view);
+        let more = pattern.logarithm(sprite, view, (ellipse, texel), hit, settings).exp();
+        let low = (amplitude.v - amplitude.e) * least * (more.v - more.e);
+        let high = (amplitude.v + amplitude.e) * most * (more.v + more.e);
+        return (low.max(0.0) * (1.0 - rounding), high * (1.0 + rounding));
+    }
     let place = sprite.place(hit.x.v, hit.y.v, settings);
     // One sum an axis, and the product with the age.
     let sums = place.abs().element_sum() + (sprite.age * settings.noise_rate).abs();
@@ -194,7 +203,6 @@ fn value_bounds(
         let rounding = strength.e * noise.abs() + U * (part.abs() + (1.0 + part).abs());
         (1.0 + part + sign * rounding).max(0.0)
     };
-    let rounding = U * (0.5 + 9.0 + 14.0 + 3.0);
     let low = (amplitude.v - amplitude.e) * least * torn(here - error, -1.0);
     let high = (amplitude.v + amplitude.e) * most * torn(here + error, 1.0);
     (low.max(0.0) * (1.0 - rounding), high * (1.0 + rounding))

@@ -110,14 +110,19 @@ impl LooseEllipse {
 
     /// See [`Ellipse::wide`]. A texel: the depth's error, 2u of the slope and a product.
     pub(super) fn wide(self, view: &View, settings: &Settings) -> (Self, Rounded) {
-        let z = Rounded { v: -self.center.v.z, e: self.center.e };
-        let pixel = z * off(view.slope_step().abs().max_element(), 3.0);
+        let pixel = self.texel(view);
         let cell = self.b / (off(CELLS, 1.0) * pixel);
         let (from, to) = TOLD_APART;
         let told = rounded::smoothstep(exact(from), exact(to), cell);
         let least = exact(LEAST_AXIS) * pixel;
         let (a, b) = (larger(self.a, least), larger(self.b, least));
         (Self { a, b, ..self }, off(settings.noise, 1.0) * told)
+    }
+
+    /// Width of a texel at its centre.
+    pub(super) fn texel(&self, view: &View) -> Rounded {
+        let z = Rounded { v: -self.center.v.z, e: self.center.e };
+        z * off(view.slope_step().abs().max_element(), 3.0)
     }
 
     /// Whether and where a ray may meet it before the scene.

@@ -16,6 +16,7 @@ mod layers;
 mod loose;
 mod noise;
 mod off;
+mod pattern;
 #[cfg(test)]
 mod single;
 #[cfg(test)]
@@ -31,6 +32,7 @@ pub use layers::{depth, seen, thickness};
 pub use loose::LooseEllipse;
 pub use noise::{noise, noise_reach, noise_rounding, noise_slope, origin};
 pub use off::{Off, ray_off};
+pub use pattern::Pattern;
 pub use texels::{pixels, scene_depth};
 
 /// Drawn radius of a whole particle over the spacing.
@@ -91,6 +93,8 @@ pub struct Settings {
     pub noise: f64,
     /// Cells of the noise that pass in a second.
     pub noise_rate: f64,
+    /// In the place of that noise.
+    pub pattern: Option<Pattern>,
     /// What a sprite adds is rounded to multiples of this, world units; 0: it is not. A power of two.
     pub step: f64,
 }
@@ -99,7 +103,15 @@ impl Settings {
     /// The defaults for a spacing in world units.
     pub fn new(spacing: f64) -> Self {
         let (front_depth, noise) = (7.0 * spacing, 0.9);
-        Self { spacing, motion_threshold: 21.0, front_depth, noise, noise_rate: 2.0, step: 0.0 }
+        Self {
+            spacing,
+            motion_threshold: 21.0,
+            front_depth,
+            noise,
+            noise_rate: 2.0,
+            pattern: None,
+            step: 0.0,
+        }
     }
 
     /// What an addend may be rounded to, at least or at most by the sign. The quotient is rounded

@@ -13,7 +13,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 16] = [
+pub const ALL: [(&str, Figure); 17] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -21,6 +21,7 @@ pub const ALL: [(&str, Figure); 16] = [
     ("shadows", shadows),
     ("bamboo", bamboo),
     ("foam", foam),
+    ("pattern", pattern),
     ("sheets", sheets),
     ("zoom", zoom),
     ("flight-waterfall", |tool, docs| flight(tool, docs, "waterfall")),
@@ -139,6 +140,19 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
         amount(&tool.frame("waterfall", 240, under)?.layers, "water.foam.thickness", 0.05)?,
     ];
     grid(&panels, 2, &pictures(docs, "foam.png"))
+}
+
+/// Foam by a noise of each sprite's own, and by one that all share.
+fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
+    let own = tool.settings("[foam]\npattern = 0\n")?;
+    let panels = [
+        tool.frame("waterfall", 195, &own)?.picture,
+        tool.frame("waterfall", 195, "")?.picture,
+        tool.frame("corridor", 233, &format!("{wave} {own}"))?.picture,
+        tool.frame("corridor", 233, wave)?.picture,
+    ];
+    grid(&panels, 2, &pictures(docs, "foam-pattern.png"))
 }
 
 /// Figure 5.13: one sheet of water, whose thickness counts what is behind the air, and two.

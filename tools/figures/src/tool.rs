@@ -105,6 +105,13 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
+    /// The argument that draws by such settings, TOML.
+    pub fn settings(&self, text: &str) -> Outcome<String> {
+        let path = self.temporary("settings.toml");
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(format!("--settings {}", path.display()))
+    }
+
     /// The picture of a sea, of so many diffuse particles. `look`: its table `[diffuse]`.
     pub fn sea(&self, sea: &str, diffuse: &str, size: &str, look: &str) -> Outcome<RgbImage> {
         let png = self.draw_sea("png", [sea, diffuse, size, look])?;

@@ -454,6 +454,8 @@ impl<'a> Session<'a> {
             })?;
             self.staged = number;
         }
+        let fps = self.look.fps.unwrap_or(f32::INFINITY);
+        self.look.settings.foam.time = number as f64 / f64::from(fps);
         for _ in 0..self.args.repeat.get() {
             times.step("draw", number, || {
                 headless.render(&camera, &self.look.settings, &Background::Scene)

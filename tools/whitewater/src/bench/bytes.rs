@@ -30,7 +30,7 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "foam" => {
             let summed = drawn.config.thickness_splat != Some(Splat::Raster);
             let texel = if summed { 4 + 8 + 16 } else { 4 + 8 };
-            8 * u64::from(drawn.particles) + (24 + 3 * 48) * drawn.foaming + texel * thick
+            8 * u64::from(drawn.particles) + (24 + 3 * 64) * drawn.foaming + texel * thick
         }
         // Positions and densities in; of those that are spray position in, the sprite out and in; the
         // image cleared. What blending moves is not counted.

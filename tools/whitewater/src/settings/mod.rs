@@ -55,6 +55,9 @@ pub struct FoamTable {
     motion_threshold: Option<f32>,
     noise: Option<f32>,
     noise_rate: Option<f32>,
+    pattern: Option<f32>,
+    pattern_size: Option<f32>,
+    pattern_period: Option<f32>,
     front_power: Option<f32>,
     veil: Option<f32>,
     relief: Option<f32>,
@@ -213,6 +216,9 @@ impl SettingsFile {
         set(&mut foam.motion_threshold, table.motion_threshold);
         set(&mut foam.noise, table.noise);
         set(&mut foam.noise_rate, table.noise_rate);
+        set(&mut foam.pattern, table.pattern);
+        set(&mut foam.pattern_size, table.pattern_size);
+        set(&mut foam.pattern_period, table.pattern_period);
         set(&mut foam.front_power, table.front_power);
         set(&mut foam.veil, table.veil);
         set(&mut foam.relief, table.relief);
@@ -330,6 +336,9 @@ pub fn to_toml(settings: &Settings) -> String {
         ("motion_threshold", foam.motion_threshold),
         ("noise", foam.noise),
         ("noise_rate", foam.noise_rate),
+        ("pattern", foam.pattern),
+        ("pattern_size", foam.pattern_size),
+        ("pattern_period", foam.pattern_period),
         ("front_power", foam.front_power),
         ("veil", foam.veil),
         ("relief", foam.relief),

@@ -1,0 +1,45 @@
+// The pattern of foam: thick here and thin there by a noise in space that the foam carries along, and that begins
+// anew before neighbours have carried it far apart, in two phases that fade into each other (flow maps, Vlachos 2010;
+// Neyret 2003). Not in the source, in which each sprite has a noise of its own: many over each other are a mist. Coarse
+// octaves are a sprite's, the finest is looked up at each texel. Needs frame.glsl, gradient_noise.glsl.
+
+// Width of a cell of the coarse octaves and of the finest to the first's, their heights.
+const vec3 OCTAVES = vec3(1.0, 0.53, 0.23);
+const vec3 HEIGHTS = vec3(1.0, 0.7, 1.1);
+// Mean of the square of the noise.
+const float VARIANCE = 0.073;
+// Most of the logarithm in a sprite's middle, and on the way to its rim: one by itself is no disc.
+const float MOST_PATTERN = 1.0;
+// Widths of the first octave from the world's origin, half of them to each side, after which they begin again: single
+// precision holds their parts.
+const float WRAP = 65536.0;
+
+// Cells of less than a texel cannot be told from each other; those of two are seen whole. In metres.
+float told_apart(float cell, float texel) {
+    return smoothstep(1.0, 2.0, cell / texel);
+}
+
+// Where a point is in a phase of an octave, for one that moves so.
+vec3 pattern_place(vec3 position, vec3 velocity, uint phase, uint octave) {
+    float width = frame.particle.y * frame.foam_octaves.x;
+    vec3 place = position / width;
+    place -= WRAP * floor(place / WRAP + 0.5);
+    vec3 way = velocity * (frame.foam_pattern.w * frame.foam_phases[2u + phase] / width);
+    return (place - way + frame.foam_octaves[1u + phase]) / OCTAVES[octave];
+}
+
+// Of the coarse octaves: w the logarithm of how much more foam there is, xyz how that grows a metre. 1 more in the mean.
+vec4 coarse_pattern(vec3 position, vec3 velocity, float texel) {
+    vec4 sum = vec4(0.0);
+    float square = 0.0;
+    for (uint i = 0u; i < 4u; ++i) {
+        uint phase = i & 1u;
+        uint octave = i >> 1;
+        float width = frame.particle.y * frame.foam_octaves.x * OCTAVES[octave];
+        float height = frame.foam_pattern.x * HEIGHTS[octave] * told_apart(width, texel);
+        vec4 noise = gradient_noise_slope(pattern_place(position, velocity, phase, octave));
+        sum += height * frame.foam_phases[phase] * vec4(noise.xyz / width, noise.w);
+        square += 0.5 * height * height;
+    }
+    return vec4(sum.xyz, min(sum.w - 0.5 * VARIANCE * square, MOST_PATTERN));
+}
