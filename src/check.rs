@@ -2,7 +2,9 @@
 
 use ash::vk;
 
-use crate::contract::{Config, Count, DiffuseParticles, Frame, Packets, Particles, Slot, Stream};
+use crate::contract::{
+    Blobs, Config, Count, DiffuseParticles, Frame, Packets, Particles, Slot, Stream,
+};
 use crate::error::Error;
 use crate::frame::{Lens, check_settings};
 use crate::water::MOST_COARSENING;
@@ -20,6 +22,7 @@ pub fn frame(
     frame.settings.shadow.check()?;
     frame.settings.noise.check()?;
     frame.settings.diffuse.check()?;
+    frame.settings.bubbles.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
     if part.width > most.width || part.height > most.height {
         return Err(Error::bad(
@@ -84,6 +87,9 @@ pub fn frame(
     particles(&frame.particles, config, limits)?;
     if let Some(particles) = &frame.diffuse {
         diffuse(frame, particles, config, limits)?;
+    }
+    if let Some(blobs) = &frame.bubbles {
+        bubbles(blobs, config, limits)?;
     }
     sun(frame, config)?;
     previous(frame, config)?;
@@ -173,6 +179,23 @@ fn diffuse(
         Some(those) => packets(fields, those, limits),
         None => Ok(()),
     }
+}
+
+fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) -> Result<(), Error> {
+    let Some(config) = &config.bubbles else {
+        return Err(Error::bad("Frame.bubbles", "given, but Config.bubbles is None"));
+    };
+    let fields = ["Frame.bubbles.count", "Frame.bubbles.count.offset"];
+    let most = ("Config.bubbles.max_blobs", config.max_blobs);
+    let count = count(fields, blobs.count, most, limits)?;
+    // All are bound at once.
+    let stride = (limits.max_storage_buffer_range / config.max_blobs) & !3;
+    let most = ("what the device binds of Config.bubbles.max_blobs", stride);
+    blobs.balls.check("Frame.bubbles.balls", 16, count, most)?;
+    if let Some(turns) = &blobs.turns {
+        turns.check("Frame.bubbles.turns", 16, count, most)?;
+    }
+    blobs.ids.map_or(Ok(()), |ids| ids.check("Frame.bubbles.ids", 4, count, most))
 }
 
 /// How many the host says there are, 0 where only the GPU knows. The fields are the count and its offset's;
@@ -306,6 +329,9 @@ pub fn config(config: &Config) -> Result<(), Error> {
     }
     if let Some(diffuse) = &config.diffuse {
         diffuse.check()?;
+    }
+    if let Some(bubbles) = &config.bubbles {
+        bubbles.check()?;
     }
     if let Some(level) = config.noise
         && level > 3

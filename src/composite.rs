@@ -6,6 +6,7 @@
 
 use ash::vk;
 
+use crate::bubbles::Bubbles;
 use crate::contract::Config;
 use crate::error::Error;
 use crate::foam::Foam;
@@ -70,6 +71,7 @@ fn pipelines(
         (10, u32::from(config.spray)),
         (14, u32::from(config.noise.is_some())),
         (20, u32::from(config.diffuse.is_some())),
+        (22, u32::from(config.bubbles.is_some())),
     ];
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();
@@ -146,13 +148,14 @@ impl Composite {
         }
     }
 
-    /// All layers come and go as sampled by fragments, those of `diffuse` by compute too.
+    /// All layers come and go as sampled by fragments, those of `diffuse` and `bubbles` by compute too.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         around: &Surroundings,
         layers: &WaterLayers<'_>,
         diffuse: Option<&Foam>,
+        bubbles: Option<&Bubbles>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -163,6 +166,8 @@ impl Composite {
         let diffuse = diffuse.map_or([layers.thickness; 3], Foam::layers);
         let [diffuse, diffuse_thickness, diffuse_light] =
             diffuse.map(|image| Resource::Sampled(image.view, nearest));
+        let soap = bubbles.map_or([layers.thickness; 2], |own| [own.depth(), own.image()]);
+        let soap = soap.map(|image| Resource::Sampled(image.view, nearest));
         let [shadow, light_thickness, basis, span, light_diffuse] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
@@ -190,6 +195,8 @@ impl Composite {
             (22, diffuse_thickness),
             (23, diffuse_light),
             light_diffuse,
+            (25, soap[0]),
+            (26, soap[1]),
         ];
         let arguments = layers.split.arguments.handle;
         let first = |i: u32| layers.split.most * i;

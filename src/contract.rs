@@ -13,6 +13,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use gpu_allocator::vulkan::Allocator;
 
+use crate::bubbles::settings::{BubbleConfig, BubbleLook};
 use crate::error::Error;
 use crate::foam::generate::settings::GenerateSettings;
 use crate::foam::settings::{DiffuseConfig, DiffuseLook};
@@ -119,6 +120,9 @@ pub struct Config {
     /// Diffuse particles are drawn (spray, foam and bubbles of their own, [`Frame::diffuse`]): the passes
     /// `splat`, `radiance`, `blur`. `None` (default): they are not. 88 bytes a pixel more.
     pub diffuse: Option<DiffuseConfig>,
+    /// Blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`. `None` (default): they
+    /// are not. 12 bytes a pixel more, 4 a layer and pixel, 64 a blob.
+    pub bubbles: Option<BubbleConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
     /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4
     /// a texel.
@@ -166,6 +170,7 @@ impl Config {
             foam: false,
             spray: false,
             diffuse: None,
+            bubbles: None,
             noise: None,
             shadow: None,
             cast: None,
@@ -385,6 +390,40 @@ impl DiffuseParticles {
     }
 }
 
+/// Blobs of bubble foam of one frame (Huszár, Szécsi): balls of soap bubbles round a white core. Only read.
+#[derive(Clone, Copy, Debug)]
+pub struct Blobs {
+    /// Centre (world space) and radius of each (4×f32). NaN, infinite and huge ones, and radii of 0 or less, are not
+    /// drawn.
+    pub balls: Stream,
+    /// How each is turned, from its own space to the world: quaternions (4×f32, the real part last) of any length; of
+    /// none it is not turned. `None`: none is.
+    pub turns: Option<Stream>,
+    /// Numbers that follow them from frame to frame (u32), for which of the different blobs one is and for its films;
+    /// `None`: their place.
+    pub ids: Option<Stream>,
+    /// How many.
+    pub count: Count,
+    /// Last use of all these buffers before `record` (layout ignored).
+    pub before: Access,
+    /// First use of them after `record` (layout ignored).
+    pub after: Access,
+}
+
+impl Blobs {
+    /// Balls alone, in buffers that the CPU wrote before the submit.
+    pub fn new(balls: Stream, count: Count) -> Self {
+        Self {
+            balls,
+            turns: None,
+            ids: None,
+            count,
+            before: crate::gpu::access::NOTHING,
+            after: crate::gpu::access::NOTHING,
+        }
+    }
+}
+
 /// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
 /// as they are after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
@@ -541,6 +580,8 @@ pub struct Frame<'a> {
     pub particles: Particles,
     /// Diffuse particles, with [`Config::diffuse`]; `None`: there are none.
     pub diffuse: Option<DiffuseParticles>,
+    /// Blobs of bubble foam, with [`Config::bubbles`]; `None`: there are none.
+    pub bubbles: Option<Blobs>,
     /// The view.
     pub camera: Camera,
     /// The sun's way, with [`Config::shadow`] and [`Config::cast`].
@@ -569,6 +610,8 @@ pub struct Settings {
     pub spray: SprayLook,
     /// Foam of diffuse particles.
     pub diffuse: DiffuseLook,
+    /// Bubble foam.
+    pub bubbles: BubbleLook,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
     /// Noise on its surface.
@@ -649,6 +692,10 @@ pub struct Recorded {
     /// row by row, the eye depth between the two sheets; 1e10 where there is but one. Transfer
     /// source; last written by a compute shader, read by compute and fragment shaders.
     pub sheets: Option<vk::Buffer>,
+    /// With [`Config::bubbles`]: a buffer of that many `u32` for each pixel of the frame, row by row: of each layer from
+    /// the front on 256 times the blob's place in the streams and its bubble, 0xffff_ffff of none; then the bits of the
+    /// most opacity (f32). Transfer source; last written by a compute shader, read by one.
+    pub bubbles: Option<(vk::Buffer, u32)>,
 }
 
 /// Where the levels of the smoothing lie in the images `water.surface` and `water.iterations`, and how near

@@ -484,7 +484,7 @@ fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
 }
 
 /// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
-fn sun_on(light: &Light) -> [f32; 4] {
+pub fn sun_on(light: &Light) -> [f32; 4] {
     let height = light.direction[1].max(0.1);
     let part = |i: usize| (light.irradiance[i] - light.shade[i]).max(0.0) / height;
     light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))

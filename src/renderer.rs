@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
+use crate::bubbles::{self, BubbleUniforms, Bubbles};
 use crate::check;
 use crate::composite::{Composite, Surroundings};
 use crate::contract::{
@@ -26,10 +27,13 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
 use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
-use crate::water::{Recording, Water, buffers_of};
+use crate::water::{Beside, Recording, Water, buffers_of};
 
 /// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
 const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
+
+/// Where the numbers of bubble foam do.
+const BUBBLES: usize = (LEVELS + size_of::<SmoothingLevels>()).next_multiple_of(256);
 
 /// What one frame in flight owns.
 struct SlotState {
@@ -58,6 +62,7 @@ pub struct Renderer {
     light: Option<Light>,
     convolving: Option<Convolving>,
     foam: Option<Foam>,
+    bubbles: Option<Bubbles>,
     environment: Environment,
     /// Copy of the scene's colour, when it is the output itself.
     scene_copy: Option<Image>,
@@ -102,18 +107,23 @@ impl Renderer {
             light: parts.light,
             convolving: parts.convolving,
             foam: parts.foam,
+            bubbles: parts.bubbles,
             environment,
             scene_copy: parts.scene_copy,
         })
     }
 
-    /// Records the first contents of what is read before it is written. Once, before the first
-    /// `record`; again after `reconfigure`.
+    /// Records the first contents of what is read before it is written, and what bubble foam is made of. Once, before
+    /// the first `record`; again after `reconfigure`.
+    ///
+    /// # Errors
+    /// What Vulkan reports.
     ///
     /// # Safety
     /// `cmd` is recording outside a render pass and is submitted before any `record`.
-    pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
+    pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) -> Result<(), Error> {
         self.environment.record_setup(&self.gpu, cmd);
+        self.bubbles.as_ref().map_or(Ok(()), |bubbles| bubbles.record_setup(&self.gpu, cmd))
     }
 
     /// Records the environment that the water reflects, once per environment.
@@ -184,6 +194,11 @@ impl Renderer {
         mapped[..size_of::<FrameUniforms>()].copy_from_slice(bytemuck::bytes_of(&uniforms));
         mapped[LEVELS..][..size_of::<SmoothingLevels>()]
             .copy_from_slice(bytemuck::bytes_of(&levels));
+        if let Some(bubbles) = &self.config.bubbles {
+            let numbers = BubbleUniforms::new(frame, &self.config, bubbles);
+            mapped[BUBBLES..][..size_of::<BubbleUniforms>()]
+                .copy_from_slice(bytemuck::bytes_of(&numbers));
+        }
 
         gpu.begin_label(cmd, c"whitewater");
         slot.timer.reset(gpu, cmd);
@@ -214,6 +229,11 @@ impl Renderer {
                 LEVELS as u64,
                 size_of::<SmoothingLevels>() as u64,
             ),
+            bubbles: Resource::Buffer(
+                slot.uniforms.handle,
+                BUBBLES as u64,
+                size_of::<BubbleUniforms>() as u64,
+            ),
             scene_depth,
             sunlight: sunlight(frame, from, gpu, (scene_depth, uniforms)),
             read_back,
@@ -224,9 +244,14 @@ impl Renderer {
             convolving.record(&mut r, &convolution, shadow, shadow_map(shadow, gpu))?;
         }
         let diffuse = self.foam.as_ref().map(|foam| (foam, frame.diffuse.as_ref()));
-        self.water.record(&mut r, &frame.particles, self.light.as_ref(), diffuse)?;
+        let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, frame.bubbles.as_ref()));
+        let beside = Beside { light: self.light.as_ref(), diffuse, bubbles };
+        self.water.record(&mut r, &frame.particles, &beside)?;
         if let Some(foam) = &self.foam {
             foam.record_radiance(&mut r, &self.environment, &self.water.layers())?;
+        }
+        if let Some(bubbles) = &self.bubbles {
+            bubbles.record_soap(&mut r, &self.environment, &self.water.layers())?;
         }
         let scene_color = match (&self.scene_copy, &self.light) {
             (_, Some(light)) => {
@@ -259,6 +284,7 @@ impl Renderer {
             },
             &self.water.layers(),
             self.foam.as_ref(),
+            self.bubbles.as_ref(),
         )?;
 
         let cmd = r.cmd;
@@ -269,13 +295,17 @@ impl Renderer {
             let back = |handle| buffer(handle, foam.reading(), diffuse.after);
             buffers.extend(streams::buffers_of(diffuse).into_iter().map(back));
         }
+        if let (Some(blobs), Some(_)) = (&frame.bubbles, &self.bubbles) {
+            let back = |handle| buffer(handle, bubbles::READING, blobs.after);
+            buffers.extend(bubbles::buffers_of(blobs).into_iter().map(back));
+        }
         gpu.barriers(cmd, &release(frame, &uses), &buffers);
         gpu.end_label(cmd);
         let recorded = Recorded {
             layers: kept(
                 &self.config,
                 &self.water,
-                self.foam.as_ref(),
+                (self.foam.as_ref(), self.bubbles.as_ref()),
                 from,
                 frame.output.rect.extent,
             ),
@@ -284,6 +314,7 @@ impl Renderer {
             levels: Some(levels),
             tiles: Some(self.water.tiles()),
             sheets: self.water.boundaries(),
+            bubbles: self.bubbles.as_ref().map(Bubbles::layers),
         };
         Ok((recorded, cmd))
     }
@@ -348,6 +379,9 @@ impl Renderer {
         if let Some(foam) = &mut self.foam {
             foam.resize(&self.gpu, config, &mut self.retired)?;
         }
+        if let Some(bubbles) = &mut self.bubbles {
+            bubbles.resize(&self.gpu, config, &mut self.retired)?;
+        }
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
@@ -372,6 +406,7 @@ impl Renderer {
         retired.replace(&mut self.light, parts.light);
         retired.replace(&mut self.convolving, parts.convolving);
         retired.replace(&mut self.foam, parts.foam);
+        retired.replace(&mut self.bubbles, parts.bubbles);
         retired.replace(&mut self.scene_copy, parts.scene_copy);
         if let Some(new) = environment {
             retired.replace(&mut self.environment, new);
@@ -408,7 +443,8 @@ impl Renderer {
         let light = self.light.as_ref().map(Light::memory);
         let convolving = self.convolving.as_ref().map(Convolving::memory);
         let foam = self.foam.as_ref().map(Foam::memory);
-        for (images, buffers) in light.into_iter().chain(convolving).chain(foam) {
+        let bubbles = self.bubbles.as_ref().map(Bubbles::memory);
+        for (images, buffers) in light.into_iter().chain(convolving).chain(foam).chain(bubbles) {
             memory.images += images;
             memory.buffers += buffers;
         }
@@ -467,6 +503,7 @@ struct Parts {
     light: Option<Light>,
     convolving: Option<Convolving>,
     foam: Option<Foam>,
+    bubbles: Option<Bubbles>,
     scene_copy: Option<Image>,
 }
 
@@ -478,6 +515,7 @@ impl Parts {
             light: Self::light(gpu, config)?,
             convolving: Self::convolving(gpu, config)?,
             foam: config.diffuse.map(|diffuse| Foam::new(gpu, config, &diffuse)).transpose()?,
+            bubbles: config.bubbles.map(|own| Bubbles::new(gpu, config, &own)).transpose()?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
     }
@@ -509,7 +547,7 @@ impl SlotState {
             uniforms: Buffer::new(
                 gpu,
                 "slot/uniforms",
-                (LEVELS + size_of::<SmoothingLevels>()) as u64,
+                (BUBBLES + size_of::<BubbleUniforms>()) as u64,
                 vk::BufferUsageFlags::UNIFORM_BUFFER,
                 MemoryLocation::CpuToGpu,
             )?,
@@ -522,7 +560,7 @@ impl SlotState {
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
-        110 + 27 * water + 4 * diffuse + diffuse_sets(&gpu.limits, config)
+        136 + 27 * water + 4 * diffuse + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -549,7 +587,7 @@ impl SlotState {
 fn kept(
     config: &Config,
     water: &Water,
-    foam: Option<&Foam>,
+    (foam, bubbles): (Option<&Foam>, Option<&Bubbles>),
     (light, convolving): (Option<&Light>, Option<&Convolving>),
     size: vk::Extent2D,
 ) -> Vec<Layer> {
@@ -559,6 +597,7 @@ fn kept(
         layers.extend(light.into_iter().flat_map(Light::layers));
         layers.extend(convolving.map(Convolving::layer));
         layers.extend(foam.into_iter().flat_map(|foam| foam.kept(size)));
+        layers.extend(bubbles.into_iter().flat_map(|bubbles| bubbles.kept(size)));
     }
     layers.extend(water.motion(size));
     layers

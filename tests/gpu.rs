@@ -8,6 +8,8 @@
 mod reference;
 mod support;
 
+#[path = "gpu/bubbles/mod.rs"]
+mod bubbles;
 #[path = "gpu/classify.rs"]
 mod classify;
 #[path = "gpu/composite.rs"]

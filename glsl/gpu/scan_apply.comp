@@ -1,5 +1,5 @@
 #version 460
-// Passes `grid`, `advance` and `emit`, sums of all before each: of each number.
+// Passes `grid`, `advance`, `emit` and `blobs`, sums of all before each: of each number.
 // Reads: counts, blocks, values. Writes: values.
 
 #include "scan.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Passes `grid`, `advance` and `emit`, sums of all before each: of the blocks, by one group.
+// Passes `grid`, `advance`, `emit` and `blobs`, sums of all before each: of the blocks, by one group.
 // Reads: counts, blocks. Writes: blocks, the sum of all in counts.
 
 #include "scan.glsl"

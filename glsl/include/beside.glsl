@@ -1,20 +1,23 @@
 // What is drawn where there is no water. Needs frame.glsl, foam_texels.glsl. Reads: foam depth, spray, depth and
-// intensity of diffuse particles.
+// intensity of diffuse particles, depth of bubble foam.
 
 // 1: there may be some; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 layout(constant_id = 10) const uint SPRAY = 0;
 layout(constant_id = 20) const uint DIFFUSE = 0;
+layout(constant_id = 22) const uint SOAP = 0;
 // Width of the foam's texels: known, loops over them are no loops.
 layout(constant_id = 3) const uint FOAM_EDGE = 4;
 
 layout(set = 0, binding = 13) uniform sampler2D foam_depth;
 layout(set = 0, binding = 15) uniform sampler2D spray;
 layout(set = 0, binding = 21) uniform sampler2D diffuse;
+layout(set = 0, binding = 25) uniform sampler2D soap_depth;
 
 bool spray_at(ivec2 pixel) {
     return SPRAY == 1u && texelFetch(spray, pixel, 0).x > 0.0
-        || DIFFUSE == 1u && texelFetch(diffuse, pixel, 0).x < EMPTY;
+        || DIFFUSE == 1u && texelFetch(diffuse, pixel, 0).x < EMPTY
+        || SOAP == 1u && texelFetch(soap_depth, pixel, 0).x < EMPTY;
 }
 
 // Whether any of a block of so many pixels a side may show foam, whatever the scene hides. Its corner is a

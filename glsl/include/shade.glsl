@@ -4,7 +4,7 @@
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
-// light of diffuse particles.
+// light of diffuse particles, bubble foam.
 // Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
 // surface_noise.glsl, intensity.glsl.
 
@@ -22,6 +22,7 @@ layout(set = 0, binding = 12) uniform sampler2D sheets;
 layout(set = 0, binding = 14) uniform sampler2D foam_thickness;
 layout(set = 0, binding = 22) uniform sampler2D diffuse_thickness;
 layout(set = 0, binding = 23) uniform sampler2D diffuse_light;
+layout(set = 0, binding = 26) uniform sampler2D soap;
 
 #include "ripples.glsl"
 
@@ -568,6 +569,15 @@ vec3 layers_at(vec2 pixel, float front) {
     return dry && foam.depth >= EMPTY ? c : seen;
 }
 
+// Bubble foam over all: what of it is in water knows of that.
+vec3 with_soap(vec3 c, vec2 pixel) {
+    if (SOAP == 0u) {
+        return c;
+    }
+    vec4 over = texelFetch(soap, ivec2(pixel), 0);
+    return frame.target.z >= FOAM_TOO ? c * (1.0 - over.a) + over.rgb : c;
+}
+
 // All layers at a pixel where water, foam or spray is: spray lies over the others.
 vec3 shade(vec2 pixel, float front) {
     vec3 c = layers_at(pixel, front);
@@ -576,10 +586,11 @@ vec3 shade(vec2 pixel, float front) {
         c = mix(c, diffuse_color(texelFetch(diffuse_light, ivec2(pixel), 0)), over);
     }
     if (SPRAY == 0u) {
-        return c;
+        return with_soap(c, pixel);
     }
     vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;
     float kept = frame.target.z >= WHOLE ? exp(-droplets.x) : 1.0;
     float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
-    return c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
+    c = c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
+    return with_soap(c, pixel);
 }

@@ -10,6 +10,7 @@ pub mod pass;
 pub mod pipeline;
 pub mod requirements;
 pub mod retire;
+pub mod scan;
 pub mod shader;
 pub mod target;
 pub mod timing;

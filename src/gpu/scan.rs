@@ -6,7 +6,6 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::passes::{Counts, MOST_GROUPS};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{COMPUTE_READ_WRITE, buffer};
@@ -15,6 +14,8 @@ use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
+/// Groups of a dispatch at most: their invocations go on from block to block.
+const MOST_GROUPS: u32 = 4096;
 /// Numbers of a block (glsl/include/scan.glsl).
 const BLOCK: u32 = 1024;
 
@@ -28,7 +29,7 @@ struct Push {
     count: u32,
     total: u32,
 }
-shader::assert_layout!(shader::GENERATE_SCAN_SUM_COMP, "Push", Push { most, count, total });
+shader::assert_layout!(shader::GPU_SCAN_SUM_COMP, "Push", Push { most, count, total });
 
 /// The three passes.
 pub struct Scan {
@@ -40,14 +41,14 @@ pub struct Scan {
 
 impl Scan {
     /// For up to `most` numbers.
-    pub fn new(gpu: &Gpu, most: u32) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, name: &str, most: u32) -> Result<Self, Error> {
         Ok(Self {
-            sum: Pipeline::compute(gpu, shader::GENERATE_SCAN_SUM_COMP, &[])?,
-            blocks: Pipeline::compute(gpu, shader::GENERATE_SCAN_BLOCKS_COMP, &[])?,
-            apply: Pipeline::compute(gpu, shader::GENERATE_SCAN_APPLY_COMP, &[])?,
+            sum: Pipeline::compute(gpu, shader::GPU_SCAN_SUM_COMP, &[])?,
+            blocks: Pipeline::compute(gpu, shader::GPU_SCAN_BLOCKS_COMP, &[])?,
+            apply: Pipeline::compute(gpu, shader::GPU_SCAN_APPLY_COMP, &[])?,
             sums: Buffer::new(
                 gpu,
-                "generate/scan",
+                name,
                 4 * u64::from(most.div_ceil(BLOCK)).max(1),
                 vk::BufferUsageFlags::STORAGE_BUFFER,
                 MemoryLocation::GpuOnly,
@@ -62,11 +63,10 @@ impl Scan {
         (gpu, cmd, descriptors): (&Gpu, vk::CommandBuffer, &Descriptors),
         counts: &Buffer,
         (values, most): (&Buffer, u32),
-        count: Option<Counts>,
-        total: Counts,
+        count: Option<u32>,
+        total: u32,
     ) -> Result<(), Error> {
-        let push =
-            Push { most, count: count.map_or(u32::MAX, |word| word as u32), total: total as u32 };
+        let push = Push { most, count: count.unwrap_or(u32::MAX), total };
         let groups = most.div_ceil(BLOCK).clamp(1, MOST_GROUPS);
         for (pipeline, groups) in [(&self.sum, groups), (&self.blocks, 1), (&self.apply, groups)] {
             let both = COMPUTE_READ_WRITE;

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use super::inputs::Diffusing;
+use super::inputs::{Diffusing, Foamed};
 use super::submit::Parts;
 use super::transfer::staging;
 use super::{COLOR_REST, DEPTH_REST, Headless};
@@ -146,6 +146,7 @@ impl Headless {
             scene_depth: host_image(&self.depth, DEPTH_REST),
             particles,
             diffuse,
+            bubbles: self.bubbles.as_ref().map(Foamed::streams),
             camera: *camera,
             sun,
             previous: self.previous,

@@ -7,7 +7,9 @@ use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
 use super::Headless;
-use crate::contract::{Access, Count, DiffuseParticles, Packets, Particles, Slot, Step, Stream};
+use crate::contract::{
+    Access, Blobs, Count, DiffuseParticles, Packets, Particles, Slot, Step, Stream,
+};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::COPY_WRITE;
@@ -247,6 +249,37 @@ impl DiffuseParts<'_> {
     }
 }
 
+/// A blob of bubble foam. What it is is said at [`Blobs`].
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Bubble {
+    /// World-space centre, radius.
+    pub ball: [f32; 4],
+    /// Quaternion, the real part last.
+    pub turn: [f32; 4],
+    /// Number that follows it from frame to frame.
+    pub id: u32,
+}
+
+/// Blobs on the device.
+pub(super) struct Foamed {
+    count: u32,
+    blobs: Buffer,
+}
+
+impl Foamed {
+    pub fn streams(&self) -> Blobs {
+        let all = stream(&self.blobs, size_of::<Bubble>() as u32);
+        Blobs {
+            turns: Some(Stream { offset: 16, ..all }),
+            ids: Some(Stream { offset: 32, ..all }),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..Blobs::new(all, Count::Cpu(self.count))
+        }
+    }
+}
+
 /// Written by the CPU before the submit.
 pub(super) const HOST_WRITE: Access = Access::new(
     vk::PipelineStageFlags2::HOST,
@@ -317,6 +350,23 @@ impl Headless {
         if let Some(ids) = ids {
             self.ids = Some(make("headless/ids", bytemuck::cast_slice(ids))?);
         }
+        Ok(())
+    }
+
+    /// Uploads the blobs of bubble foam of a frame, with [`Config::bubbles`](crate::Config::bubbles).
+    ///
+    /// # Errors
+    /// More than [`BubbleConfig::max_blobs`](crate::bubbles::BubbleConfig::max_blobs), no memory; then there are none.
+    pub fn bubbles(&mut self, blobs: &[Bubble]) -> Result<(), Error> {
+        self.bubbles = None;
+        self.gpu.bury();
+        let most = self.renderer.config().bubbles.map_or(u32::MAX, |config| config.max_blobs);
+        let Some(count) = u32::try_from(blobs.len()).ok().filter(|count| *count <= most) else {
+            let why = format!("{} is more than Config.bubbles.max_blobs, {most}", blobs.len());
+            return Err(Error::bad("bubbles", why));
+        };
+        let blobs = input(&self.gpu, "headless/bubbles", bytemuck::cast_slice(blobs))?;
+        self.bubbles = Some(Foamed { count, blobs });
         Ok(())
     }
 

@@ -27,8 +27,8 @@ pub use device::{Device, DeviceOptions};
 pub use draw::Background;
 pub use generate::Generated;
 use generate::Generating;
-pub use inputs::{Diffuse, DiffuseParts};
-use inputs::{Diffusing, Foaming};
+pub use inputs::{Bubble, Diffuse, DiffuseParts};
+use inputs::{Diffusing, Foamed, Foaming};
 pub use readback::Picture;
 use stage::Stage;
 use submit::{Commands, begin, submit};
@@ -84,6 +84,7 @@ pub struct Headless {
     velocities: Option<Buffer>,
     ids: Option<Buffer>,
     diffuse: Option<Diffusing>,
+    bubbles: Option<Foamed>,
     generating: Option<Generating>,
     foam: Option<Foaming>,
     region: Option<Region>,
@@ -131,6 +132,7 @@ impl Headless {
             velocities: None,
             ids: None,
             diffuse: None,
+            bubbles: None,
             generating: None,
             foam: None,
             region: None,
@@ -154,7 +156,7 @@ impl Headless {
     fn first_contents(&mut self) -> Result<(), Error> {
         self.run(|this, cmd| {
             // SAFETY: cmd is recording and submitted before any record.
-            unsafe { this.renderer.record_setup(cmd) };
+            unsafe { this.renderer.record_setup(cmd) }?;
             this.gpu.barriers(
                 cmd,
                 &[
@@ -247,6 +249,7 @@ impl Headless {
         // Freed with the shared objects.
         drop((self.commands, self.color, self.depth, self.scene));
         drop((self.positions, self.densities, self.velocities, self.ids, self.diffuse));
+        drop(self.bubbles);
         // SAFETY: the device is idle, or lost.
         unsafe { renderer.destroy() };
         gpu.destroy();

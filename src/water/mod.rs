@@ -23,7 +23,10 @@ mod tiles;
 
 use ash::vk;
 
-use crate::contract::{Config, DiffuseParticles, Layer, MemoryUse, ParticleCounts, Particles};
+use crate::bubbles::Bubbles;
+use crate::contract::{
+    Blobs, Config, DiffuseParticles, Layer, MemoryUse, ParticleCounts, Particles,
+};
 use crate::error::Error;
 use crate::foam::Foam;
 use crate::frame::reduced;
@@ -58,6 +61,8 @@ pub(crate) struct Recording<'a> {
     pub uniforms: Resource,
     /// Its [`SmoothingLevels`](crate::SmoothingLevels).
     pub levels: Resource,
+    /// The numbers of bubble foam.
+    pub bubbles: Resource,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
     /// What tells where the sun does not come.
@@ -89,6 +94,16 @@ impl Recording<'_> {
         // SAFETY: cmd is recording outside a render pass with a compute pipeline and its set bound.
         unsafe { self.gpu.device.cmd_dispatch(self.cmd, groups[0], groups[1], 1) };
     }
+}
+
+/// What else is drawn, whose passes come in between those of the water.
+#[derive(Clone, Copy)]
+pub(crate) struct Beside<'a> {
+    /// Its maps are made of the particles on the screen.
+    pub light: Option<&'a Light>,
+    /// Where they are has to be known before the tiles are that are drawn.
+    pub diffuse: Option<(&'a Foam, Option<&'a DiffuseParticles>)>,
+    pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
 }
 
 /// The images that `composite` reads, with the tiles that it draws.
@@ -196,14 +211,14 @@ impl Water {
         self.split.resize(gpu, config, retired)
     }
 
-    /// The passes of a frame; `light`: its maps are made on the way, as is where `diffuse` shows.
+    /// The passes of a frame.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
-        light: Option<&Light>,
-        diffuse: Option<(&Foam, Option<&DiffuseParticles>)>,
+        beside: &Beside<'_>,
     ) -> Result<(), Error> {
+        let Beside { light, diffuse, bubbles } = *beside;
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
             let diffuse = diffuse.and_then(|(_, particles)| particles);
@@ -223,6 +238,9 @@ impl Water {
             let particles = particles.map(|p| DiffuseParticles { before: before(p), ..*p });
             foam.record_splat(r, particles.as_ref(), &self.depth.image)?;
         }
+        if let Some((bubbles, blobs)) = bubbles {
+            bubbles.record_peel(r, blobs)?;
+        }
         let gaps = self.sheets.as_ref().map(|sheets| &sheets.gaps);
         if let Some(gaps) = gaps {
             gaps.record(r, &self.front.list, &self.cull.list)?;
@@ -231,7 +249,8 @@ impl Water {
         let foam = self.foam.as_ref().map(foam::Foam::depth);
         let spray = self.spray.as_ref().map(spray::Spray::image);
         let diffuse = diffuse.map(|(foam, _)| foam.layers()[0]);
-        let depths = reduce::Depths { water: &self.depth.image, foam, spray, diffuse };
+        let bubbles = bubbles.map(|(bubbles, _)| bubbles.depth());
+        let depths = reduce::Depths { water: &self.depth.image, foam, spray, diffuse, bubbles };
         self.reduce.record(r, &depths, &self.smooth, &self.tiles, &self.level)?;
         self.level.record(r, &depths, &self.reduce, &self.smooth, &self.tiles)?;
         let (plan, tiles) = (&self.reduce.plan, &self.tiles);

@@ -37,16 +37,23 @@ pub struct Depths<'a> {
     pub spray: Option<&'a Image>,
     /// Of diffuse particles.
     pub diffuse: Option<&'a Image>,
+    /// Of bubble foam.
+    pub bubbles: Option<&'a Image>,
 }
 
 impl Depths<'_> {
     /// What glsl/include/beside.glsl reads, or anything where there is none.
-    pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 3] {
+    pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 4] {
         let nearest = r.gpu.samplers.nearest;
         let bound = |image: Option<&Image>| {
             image.map_or(r.scene_depth, |image| Resource::Sampled(image.view, nearest))
         };
-        [(13, bound(self.foam)), (15, bound(self.spray)), (21, bound(self.diffuse))]
+        [
+            (13, bound(self.foam)),
+            (15, bound(self.spray)),
+            (21, bound(self.diffuse)),
+            (25, bound(self.bubbles)),
+        ]
     }
 }
 
@@ -80,6 +87,7 @@ impl Reduce {
             (9, u32::from(config.foam)),
             (10, u32::from(config.spray)),
             (20, u32::from(config.diffuse.is_some())),
+            (22, u32::from(config.bubbles.is_some())),
         ];
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_REDUCE_COMP, &constants)?,
@@ -152,7 +160,7 @@ impl Reduce {
                 buffer(tiles.list.handle, COMPUTE_READ.and(VERTEX_READ), COMPUTE_WRITE),
             ],
         );
-        let [foam, spray, diffuse] = depths.beside(r);
+        let [foam, spray, diffuse, bubbles] = depths.beside(r);
         r.descriptors.bind(
             gpu,
             cmd,
@@ -171,6 +179,7 @@ impl Reduce {
                 foam,
                 spray,
                 diffuse,
+                bubbles,
             ],
         )?;
         r.dispatch_over(reduced(r.extent, self.level), self.pipeline.local_size);

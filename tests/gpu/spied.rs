@@ -4,6 +4,7 @@
 use std::mem;
 
 use ash::vk;
+use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
@@ -13,7 +14,7 @@ use crate::foam::Foamy;
 use crate::light::{even, everything};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, Shot, config, extent, stream};
+use crate::support::rig::{Foamed, Rig, Shot, config, extent, stream};
 use crate::support::scenes::{self, Lens};
 use crate::support::{slow, spy};
 
@@ -30,7 +31,11 @@ fn water(size: vk::Extent2D) -> Shot {
 
 fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
     let (color, depth) = rig.scene(shot);
-    let frame = shot.frame(color.host_image(), depth.host_image(), particles);
+    let blobs = rig.config.bubbles.map(|_| rig.blobs(shot));
+    let frame = Frame {
+        bubbles: blobs.as_ref().map(Foamed::streams),
+        ..shot.frame(color.host_image(), depth.host_image(), particles)
+    };
     let shadow = shot.sun.shadow.map(|shadow| shadow.image.image);
     for _ in 0..3 {
         let cmd = rig.stub.begin(0);
@@ -68,6 +73,8 @@ fn record_only_records() {
     let size = extent(48, 32);
     let base = config(size);
     let query = Some(Smoothing::Query(Gate::VertexCull));
+    let bubbles = BubbleConfig { templates: 2, bubbles: 16, ..BubbleConfig::new(64) };
+    let billboards = BubbleConfig { sort: BubbleSort::Peel, ..bubbles };
     let mut configs = vec![
         ("one sheet", base),
         ("two sheets", Config { sheets: 2, ..base }),
@@ -85,6 +92,8 @@ fn record_only_records() {
         ("motion", Config { motion: true, ..base }),
         ("noise", Config { noise: Some(1), ..base }),
         ("diffuse", Config { diffuse: Some(DiffuseConfig::new(1024)), ..base }),
+        ("bubbles", Config { bubbles: Some(bubbles), ..base }),
+        ("billboards", Config { bubbles: Some(billboards), ..base }),
     ];
     if gpu.enabled.conditional_rendering {
         let smoothing = Some(Smoothing::Query(Gate::Predicate));

@@ -10,6 +10,7 @@ use glam::{DMat4, DVec2, DVec3};
 use std::fmt;
 use std::ops::Range;
 
+pub mod bubbles;
 pub mod classify;
 pub mod composite;
 pub mod convolution;

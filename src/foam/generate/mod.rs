@@ -10,7 +10,6 @@
 //! Reads: the fluid's positions, velocities and ids. Writes: diffuse particles, potentials.
 
 mod passes;
-mod scan;
 pub mod settings;
 
 use std::sync::Arc;

@@ -4,7 +4,6 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::scan::{self, Scan};
 use super::settings::{GenerateConfig, Limits};
 use crate::contract::{Access, Count, GenerateStep};
 use crate::error::Error;
@@ -15,6 +14,7 @@ use crate::gpu::access::{
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::pipeline::Pipeline;
+use crate::gpu::scan::{self, Scan};
 use crate::gpu::shader;
 use crate::gpu::timing::Timer;
 use crate::water::{Window, capacity, each_once};
@@ -350,7 +350,7 @@ impl Passes {
                 end: compute(shader::GENERATE_END_COMP)?,
             },
             buffers: Buffers::new(gpu, config, buckets)?,
-            scan: Scan::new(gpu, buckets.max(config.max_particles))?,
+            scan: Scan::new(gpu, "generate/scan", buckets.max(config.max_particles))?,
             config: *config,
             buckets,
             chunk: fits.clamp(1, MOST_CHUNK),
@@ -526,7 +526,13 @@ impl Passes {
         let none = [(6, Resource::buffer(&b.wanted)), (7, Resource::buffer(&b.potentials))];
         chunked(&self.pipelines.count, &none)?;
         let values = (&b.buckets, self.buckets);
-        self.scan.record((gpu, cmd, r.descriptors), &b.counts, values, None, Counts::Sorted)?;
+        self.scan.record(
+            (gpu, cmd, r.descriptors),
+            &b.counts,
+            values,
+            None,
+            Counts::Sorted as u32,
+        )?;
         r.wait();
         let sorted = [(6, Resource::buffer(&b.places)), (7, Resource::buffer(&b.motions))];
         chunked(&self.pipelines.fill, &sorted)?;
@@ -546,9 +552,9 @@ impl Passes {
         let own = own.map(|(binding, own)| (binding, Resource::buffer(own)));
         let most = self.config.max_particles;
         r.dispatch(&self.pipelines.advance, &[grid, &own].concat(), push, most)?;
-        let (values, high) = ((&b.gone, most), Some(Counts::High));
+        let (values, high) = ((&b.gone, most), Some(Counts::High as u32));
         let to = (r.gpu, r.cmd, r.descriptors);
-        self.scan.record(to, &b.counts, values, high, Counts::Free)?;
+        self.scan.record(to, &b.counts, values, high, Counts::Free as u32)?;
         r.wait();
         let resources = [
             (1, Resource::buffer(&b.counts)),
@@ -562,9 +568,9 @@ impl Passes {
     /// New ones, and how many there are then.
     fn record_emit(&self, r: &Recorder<'_>, fluid: u32, push: &Push) -> Result<(), Error> {
         let b = &self.buffers;
-        let (values, count) = ((&b.wanted, self.config.max_fluid), Some(Counts::Fluid));
+        let (values, count) = ((&b.wanted, self.config.max_fluid), Some(Counts::Fluid as u32));
         let to = (r.gpu, r.cmd, r.descriptors);
-        self.scan.record(to, &b.counts, values, count, Counts::Made)?;
+        self.scan.record(to, &b.counts, values, count, Counts::Made as u32)?;
         r.wait();
         let resources = [
             (1, &b.counts),

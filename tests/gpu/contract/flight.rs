@@ -170,6 +170,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             particles: clouds[i].particles(),
             camera: shots[i].camera,
             diffuse: None,
+            bubbles: None,
             sun: Default::default(),
             previous: None,
             settings: &shots[i].settings,

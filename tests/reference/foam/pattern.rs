@@ -130,7 +130,7 @@ impl Pattern {
         let told = |v| Off { v, e: 0.0 };
         let mut centre = exact(0.0);
         let mut slope = Off { v: DVec3::ZERO, e: 0.0 };
-        for octave in 0..2 {
+        for (octave, (scale, _)) in OCTAVES.iter().enumerate().take(2) {
             let height = self.height(octave, texel, spacing);
             for phase in &phases {
                 let place = self.place(told(point), told(velocity), phase, octave, spacing);
@@ -141,7 +141,7 @@ impl Pattern {
                 };
                 let part = height * off(phase.part, 2.0);
                 centre = centre + part * here;
-                let cell = OCTAVES[octave].0 * self.size * spacing;
+                let cell = scale * self.size * spacing;
                 // By differences: not as the shader does.
                 let step = 1.0e-5;
                 let along = |axis: DVec3| {

@@ -3,7 +3,7 @@
 use ash::vk;
 use whitewater::{HostImage, Layer, Recorded, SmoothingLevel, SmoothingLevels};
 
-use super::{Rig, Shot};
+use super::{Rig, Shot, Soaped};
 use crate::reference::{Image, foam};
 use crate::support::host;
 
@@ -45,6 +45,8 @@ pub struct Drawn {
     pub caustics: Option<Image<f32>>,
     /// With diffuse particles.
     pub diffuse: Option<Diffused>,
+    /// With bubble foam.
+    pub soap: Option<Soaped>,
     /// The host's shadow map as a Fourier basis, all pages.
     pub shadow_basis: Option<Image<[f32; 4]>>,
     pub work: Work,
@@ -74,6 +76,7 @@ impl Drawn {
             light_diffuse: None,
             caustics: None,
             diffuse: None,
+            soap: None,
             shadow_basis: None,
             work: Work::default(),
         }
@@ -209,6 +212,12 @@ impl Rig<'_> {
         let mut diffuse =
             Diffused { occluders: four(), thickness: four(), normal: four(), light: four() };
         let mut diffuses = false;
+        let mut soap = recorded.bubbles.map(|layers| Soaped {
+            depth: empty(),
+            color: four(),
+            film: four(),
+            layers: self.soap_layers(layers, output.rect.extent),
+        });
         for layer in &recorded.layers {
             let whole = layer.extent.into();
             match layer.name {
@@ -272,12 +281,18 @@ impl Rig<'_> {
                 "foam.thickness" => diffuse.thickness = self.fours(layer),
                 "foam.normal" => diffuse.normal = self.fours(layer),
                 "foam.irradiance" => diffuse.light = self.fours(layer),
+                "bubbles" => {
+                    soap.as_mut().expect("layers").depth = self.floats(layer, whole);
+                }
+                "bubbles.color" => soap.as_mut().expect("layers").color = self.fours(layer),
+                "bubbles.film" => soap.as_mut().expect("layers").film = self.fours(layer),
                 other => panic!("an unknown layer {other}"),
             }
         }
         drawn.sheets = sheets;
         drawn.foam = foams.then_some(foam);
         drawn.diffuse = diffuses.then_some(diffuse);
+        drawn.soap = soap;
         drawn
     }
 

@@ -1,5 +1,6 @@
 //! A renderer in a host: the host stub with the images and buffers of a frame.
 
+mod bubbles;
 mod diffuse;
 mod drawn;
 mod shot;
@@ -14,6 +15,7 @@ use whitewater::{
 use super::device::Gpu;
 use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
 
+pub use bubbles::{Foamed, Soaped};
 pub use diffuse::{attenuation, twins};
 pub use drawn::{Diffused, Drawn, Foaming, Sheets};
 pub use shot::{AROUND, Shot};
@@ -61,7 +63,7 @@ impl<'g> Rig<'g> {
         // SAFETY: the device outlives the rig.
         let mut renderer = unsafe { Renderer::new(&gpu.host(slots), config) }?;
         // SAFETY: submitted before any record.
-        stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+        stub.run(|cmd| unsafe { renderer.record_setup(cmd) })?;
         Ok(Self { gpu, stub, config: *config, renderer: Some(renderer) })
     }
 
@@ -73,7 +75,7 @@ impl<'g> Rig<'g> {
     pub fn set_up(&mut self) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
         // SAFETY: submitted before any record.
-        self.stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
+        self.stub.run(|cmd| unsafe { renderer.record_setup(cmd) }).expect("record_setup");
     }
 
     /// Leaves the renderer to a plain drop: it leaks.
@@ -231,8 +233,10 @@ impl<'g> Rig<'g> {
             ..texture.host_image()
         };
         let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
+        let blobs = self.config.bubbles.map(|_| self.blobs(shot));
         let frame = Frame {
             scene_color: placed(&color, shot.size),
+            bubbles: blobs.as_ref().map(Foamed::streams),
             diffuse,
             ..shot.frame(output, placed(&depth, shot.depth_extent), *particles)
         };

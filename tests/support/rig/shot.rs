@@ -1,6 +1,7 @@
 //! What a frame shows: its camera, particles, scene and settings.
 
 use ash::vk;
+use whitewater::headless::Bubble;
 use whitewater::{Camera, Frame, HostImage, Particles, Previous, Settings, Slot, Sun};
 
 use super::extent;
@@ -26,6 +27,8 @@ pub struct Shot {
     pub settings: Settings,
     pub positions: Vec<[f32; 3]>,
     pub densities: Option<Vec<f32>>,
+    /// Drawn where a renderer draws bubble foam.
+    pub blobs: Vec<Bubble>,
     /// The scene's colour, of the output's size.
     pub color: Vec<[f32; 4]>,
     /// The scene's device depth and its size.
@@ -47,6 +50,7 @@ impl Shot {
             previous: None,
             settings: scenes::settings(radius),
             densities: None,
+            blobs: Vec::new(),
             color: Vec::new(),
             depth: Vec::new(),
             depth_extent: size,
@@ -72,6 +76,7 @@ impl Shot {
             particles,
             camera: self.camera,
             diffuse: None,
+            bubbles: None,
             sun: self.sun,
             previous: self.previous,
             settings: &self.settings,

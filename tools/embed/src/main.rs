@@ -168,6 +168,7 @@ pub fn draw(
             particles,
             camera: Camera { view, projection },
             diffuse: None,
+            bubbles: None,
             sun: Sun::default(),
             previous: None,
             settings: &settings,
@@ -177,7 +178,7 @@ pub fn draw(
         unsafe {
             gpu.clear(cmd, &color, &depth);
             if number == 0 {
-                water.record_setup(cmd);
+                water.record_setup(cmd)?;
                 water.record_environment(cmd, slot, &EnvironmentSource::Sky(Sky::default()))?;
             }
             water.record(cmd, &frame)?;

@@ -1,0 +1,116 @@
+#version 460
+// Pass `blobs`: the border, and lists of blobs for every tile and slice of depth, front to back (the source draws a
+// billboard each). Three goes: to eye space, and how far they lie; how many there are in a cell; which. Between the last
+// two the numbers become sums of all before each, after them those up to each.
+// Reads: the host's streams, count. Writes: blobs, range, cells, list.
+
+#include "frame.glsl"
+#include "frustum.glsl"
+#include "sphere.glsl"
+#include "random.glsl"
+#include "bubbles.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint GO = 0;
+
+layout(set = 0, binding = 2, std430) readonly buffer Balls { float balls[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Turns { float turns[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Ids { uint ids[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Count { uint count; };
+layout(set = 0, binding = 6, std430) buffer Blobs { Blob blobs[]; };
+layout(set = 0, binding = 7, std430) buffer Range { BlobRange range; };
+layout(set = 0, binding = 8, std430) buffer Cells { uint cells[]; };
+layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
+
+layout(push_constant, std430) uniform Push {
+    uint ball_word; // of the first blob
+    uint ball_stride; // in words
+    uint turn_word;
+    uint turn_stride; // 0: none is turned
+    uint id_word;
+    uint id_stride; // 0: their place
+    uint most;      // from the host, or the most there may be
+    uint from_gpu;
+} push;
+
+// From the world to the blob's space, of the host's that turns it the other way.
+vec4 turn_of(uint index) {
+    vec4 q = vec4(0.0, 0.0, 0.0, 1.0);
+    if (push.turn_stride > 0u) {
+        uint at = push.turn_word + index * push.turn_stride;
+        q = vec4(turns[at], turns[at + 1u], turns[at + 2u], turns[at + 3u]);
+        float square = dot(q, q);
+        // Comparisons with NaN are false.
+        q = square > 1.0e-12 && square < 1.0e12 ? q * inversesqrt(square) : vec4(0.0, 0.0, 0.0, 1.0);
+    }
+    return turned_back(q);
+}
+
+// To the eye; of what cannot be seen there is no ball.
+void place(uint index) {
+    uint at = push.ball_word + index * push.ball_stride;
+    vec4 ball = vec4(balls[at], balls[at + 1u], balls[at + 2u], balls[at + 3u]);
+    Blob blob = Blob(vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.0, 1.0), 0u, 0u, 0.0, 0u);
+    bool good = all(lessThan(abs(ball), vec4(1.0e18))) && ball.w > 0.0;
+    if (!good) {
+        atomicAdd(range.dropped, 1u);
+    }
+    vec3 centre = (frame.view * vec4(good ? ball.xyz : vec3(0.0), 1.0)).xyz;
+    // One that the eye is in has no bounds on the screen; the near plane cuts it away.
+    if (good && in_frustum(centre, ball.w)) {
+        blob.ball = vec4(mat3(frame.world) * centre, ball.w);
+        blob.nearest = max(-centre.z - ball.w, 0.0);
+        blob.turn = turn_of(index);
+        blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
+        blob.template_ = pcg(blob.id) % bubbly.blobs.y;
+        atomicAdd(range.seen, 1u);
+        uint near = floatBitsToUint(blob.nearest);
+        atomicMin(range.nearest, near);
+        atomicMax(range.farthest, near);
+    }
+    blobs[index] = blob;
+}
+
+// First and last tile it may be in.
+bool tiles_of(Blob blob, out ivec4 span) {
+    vec4 slopes;
+    span = ivec4(0, 0, ivec2(bubbly.tiles.xy) - 1);
+    if (sphere_bounds(mat3(frame.view) * blob.ball.xyz, blob.ball.w, slopes)) {
+        ivec4 pixels = pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
+        if (any(lessThan(pixels.zw, pixels.xy))) {
+            return false;
+        }
+        span = pixels / TILE;
+    }
+    return true;
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    uint here = push.from_gpu == 1u ? min(count, push.most) : push.most;
+    if (index >= here) {
+        // All that there may be are drawn, where they are drawn.
+        if (GO == 0u && index < push.most) {
+            blobs[index].ball = vec4(0.0, 0.0, 0.0, -1.0);
+        }
+        return;
+    }
+    if (GO == 0u) {
+        place(index);
+        return;
+    }
+    Blob blob = blobs[index];
+    ivec4 span;
+    if (blob.ball.w <= 0.0 || !tiles_of(blob, span)) {
+        return;
+    }
+    uint slice = slice_of(range, blob.nearest);
+    for (int y = span.y; y <= span.w; ++y) {
+        for (int x = span.x; x <= span.z; ++x) {
+            uint at = atomicAdd(cells[cell_of(slice, uvec2(x, y))], 1u);
+            if (GO == 2u && at < bubbly.tiles.w) {
+                list[at] = index;
+            }
+        }
+    }
+}

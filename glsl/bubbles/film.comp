@@ -1,0 +1,51 @@
+#version 460
+// Pass `film`: what a soap film reflects, by the cosine and the film's thickness, once per renderer (Huszar, Szecsi,
+// GPU-supported bubble and foam rendering, Sec. 3.1). Airy's formula with the phase of the refracted ray; the print has
+// the angle outside, and a sine of the whole phase, whose maxima come at half their thickness.
+// Of three wavelengths, as the source, or of the spectrum.
+// Reads: nothing. Writes: table (RGBA16F), the cosine 0 to 1 across, the thickness from 0 on down.
+
+#include "film.glsl"
+#include "spectrum.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+// 0: three lines, 1: the spectrum.
+layout(constant_id = 0) const uint SPECTRAL = 1;
+layout(constant_id = 1) const uint KIND = 0;
+
+// Representative of red, green and blue.
+const vec3 LINES = vec3(610.0, 550.0, 465.0);
+
+layout(set = 0, binding = 0, rgba16f) uniform writeonly image2D table;
+layout(push_constant, std430) uniform Push {
+    float index; // of refraction
+    float most;  // thickness of the last row in nm
+} push;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = imageSize(table);
+    if (any(greaterThanEqual(texel, size))) {
+        return;
+    }
+    vec2 at = vec2(texel) / vec2(size - 1);
+    float thickness = at.y * push.most;
+    vec3 color;
+    if (SPECTRAL == 1u) {
+        vec3 sum = vec3(0.0);
+        vec3 all_light = vec3(0.0);
+        for (int i = 0; i < SPECTRUM_COUNT; ++i) {
+            float wavelength = SPECTRUM_FIRST + SPECTRUM_STEP * float(i);
+            vec3 weight = spectrum_color(wavelength);
+            sum += weight * film_reflectance(at.x, push.index, thickness, wavelength, KIND);
+            all_light += weight;
+        }
+        // Colours beyond Rec. 709's are cut.
+        color = clamp(sum / all_light, 0.0, 1.0);
+    } else {
+        for (int i = 0; i < 3; ++i) {
+            color[i] = film_reflectance(at.x, push.index, thickness, LINES[i], KIND);
+        }
+    }
+    imageStore(table, texel, vec4(color, 1.0));
+}

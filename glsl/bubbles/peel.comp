@@ -1,0 +1,103 @@
+#version 460
+// Pass `peel` by tiles: the nearest blobs of each pixel, and how opaque all are together (Huszar, Szecsi, Sec. 5, which draws all
+// once a layer and once more). Here once: a pixel goes through its tile's blobs, slice by slice from the front, keeps
+// the nearest, and ends where nothing behind can change it.
+// Reads: blobs, range, cells, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
+
+#include "frame.glsl"
+#include "bubbles.glsl"
+#include "cube.glsl"
+#include "blob.glsl"
+#include "blob_ray.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint LAYERS = 3;
+
+// What of the light behind is too little to matter.
+const float HIDDEN = 1.0 / 256.0;
+
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Range { BlobRange range; };
+layout(set = 0, binding = 5, std430) readonly buffer Cells { uint cells[]; };
+layout(set = 0, binding = 6, std430) readonly buffer List { uint list[]; };
+// Of a pixel its layers, front to back, then the most opacity.
+layout(set = 0, binding = 7, std430) writeonly buffer Layers { uint layers[]; };
+layout(set = 0, binding = 11, r32f) uniform writeonly image2D bubble_depth;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
+        return;
+    }
+    WorldRay ray = world_ray(ray_slope(vec2(pixel) + 0.5, frame.slope));
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
+    // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+    scene = scene > 0.0 ? min(scene, EMPTY) : EMPTY;
+    float depths[LAYERS];
+    uint found[LAYERS];
+    float opacities[LAYERS];
+    for (uint i = 0u; i < LAYERS; ++i) {
+        depths[i] = EMPTY;
+        found[i] = NO_LAYER;
+        opacities[i] = 0.0;
+    }
+    float most = 0.0;
+    uvec2 tile = uvec2(pixel) / uint(TILE);
+    uint slice = 0u;
+    bool done = range.seen == 0u;
+    // Loops ask at their end: lavapipe runs what follows a break once more.
+    while (!done) {
+        uint cell = cell_of(slice, tile);
+        uint place = cell > 0u ? min(cells[cell - 1u], bubbly.tiles.w) : 0u;
+        uint end = min(cells[cell], bubbly.tiles.w);
+        while (place < end) {
+            uint index = list[place];
+            Seen seen = blob_seen(blobs[index], ray);
+            bool shows = seen.depth < scene;
+            while (shows) {
+                most = max(most, seen.opacity);
+                float depth = seen.depth;
+                float opacity = seen.opacity;
+                uint layer = layer_of(index, seen.id);
+                // Of two at one depth the one with the lower number, whatever their order in the list.
+                for (uint i = 0u; i < LAYERS; ++i) {
+                    bool nearer = depth < depths[i] || (depth == depths[i] && layer < found[i]);
+                    vec2 farther = nearer ? vec2(depths[i], opacities[i]) : vec2(depth, opacity);
+                    uint other = nearer ? found[i] : layer;
+                    depths[i] = nearer ? depth : depths[i];
+                    opacities[i] = nearer ? opacity : opacities[i];
+                    found[i] = nearer ? layer : found[i];
+                    depth = farther.x;
+                    opacity = farther.y;
+                    layer = other;
+                }
+                shows = false;
+            }
+            ++place;
+        }
+        ++slice;
+        float begin = slice_begin(range, slice);
+        float through = 1.0 - most;
+        float behind = 1.0;
+        for (uint i = 0u; i < LAYERS; ++i) {
+            behind *= 1.0 - opacities[i];
+        }
+        // Whatever is still to come could not plug a hole that can be seen.
+        bool hidden = min(through, behind) < HIDDEN || bubbly.mirror.w < 0.5;
+        bool full = depths[LAYERS - 1u] <= begin && hidden;
+        done = slice >= bubbly.tiles.z || full || begin >= scene;
+    }
+    // Which bubble it is to the last pixel, of those that are kept.
+    uint at = BY_ID == 1u ? 0u : LAYERS;
+    while (at < LAYERS && found[at] != NO_LAYER) {
+        found[at] = exact_layer(blobs[found[at] >> 8], ray, found[at], depths[at]);
+        ++at;
+    }
+    uint first = (uint(pixel.y) * uint(frame.extent.x) + uint(pixel.x)) * (LAYERS + 1u);
+    for (uint i = 0u; i < LAYERS; ++i) {
+        layers[first + i] = found[i];
+    }
+    layers[first + LAYERS] = floatBitsToUint(most);
+    imageStore(bubble_depth, pixel, vec4(depths[0]));
+}

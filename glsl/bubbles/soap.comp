@@ -1,0 +1,269 @@
+#version 460
+// Pass `soap`: what the blobs of a pixel look like, its layers front to back (Huszar, Szecsi, Sec. 4.4 and 5): the film
+// before, the wall between two bubbles, the core, the film behind, each over what lies behind it.
+// Reads: blobs, layers, film, core, environment, irradiance, smoothed water, what blob.glsl and sunlight.glsl read.
+// Writes: bubbles (RGBA16F), premultiplied.
+
+#include "frame.glsl"
+#include "convolution.glsl"
+#include "intensity.glsl"
+#include "sunlight.glsl"
+#include "octahedral.glsl"
+#include "random.glsl"
+#include "gradient_noise.glsl"
+#include "bubbles.glsl"
+#include "cube.glsl"
+#include "blob.glsl"
+#include "blob_ray.glsl"
+#include "wall.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(constant_id = 0) const uint LAYERS = 3;
+
+layout(set = 0, binding = 2) uniform sampler2D water_depth;
+layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Layers { uint layers[]; };
+layout(set = 0, binding = 5) uniform sampler2D film_table;
+layout(set = 0, binding = 6) uniform sampler2D core_map;
+layout(set = 0, binding = 7) uniform samplerCube environment;
+layout(set = 0, binding = 11) uniform sampler2D irradiance;
+layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D bubbles_image;
+
+vec2 border_place(sampler2D map, vec3 direction) {
+    vec2 texels = vec2(textureSize(map, 0));
+    return ((0.5 * octahedral_place(direction) + 0.5) * (texels - 2.0) + 1.0) / texels;
+}
+
+// What a film reflects of each colour.
+vec3 film_at(float cosine, float thickness) {
+    vec2 size = vec2(textureSize(film_table, 0));
+    vec2 at = vec2(clamp(cosine, 0.0, 1.0), clamp(thickness, 1.0, bubbly.film.w) / bubbly.film.w);
+    return textureLod(film_table, (at * (size - 1.0) + 0.5) / size, 0.0).rgb;
+}
+
+float fraction_of(uint hash) {
+    return float(pcg(hash) >> 8) * (1.0 / 16777216.0);
+}
+
+// Its thickness in nm: each bubble's own, uneven, thinner on top, where it drains from (Sec. 3.1).
+float film_thickness(uint number, vec3 place, float high) {
+    float own = 2.0 * fraction_of(number) - 1.0;
+    float uneven = gradient_noise(place + 64.0 * fraction_of(number + 1u));
+    return bubbly.film.x * (1.0 + bubbly.film.y * (0.7 * own + 0.6 * uneven)) * (1.0 - bubbly.film.z * high);
+}
+
+struct Look {
+    Blob blob;
+    BlobRay ray;
+    vec3 seen;     // direction of the ray, world
+    float pixels;  // of a radius of the blob's
+    vec3 sun;      // how much of it comes here
+};
+
+vec3 to_world(Look look, vec3 v) {
+    return turned(turned_back(look.blob.turn), v);
+}
+
+// What a film sends to the eye, and in `back` what share of what is behind it it keeps back. Of a sphere of some pixels'
+// radius, which widens the cone that a pixel sees by it. `open`: how much of its surroundings are the environment's, the
+// rest is foam.
+vec3 film_light(Look look, vec3 normal, float radius, float thickness, float open, vec3 foam, out vec3 back) {
+    vec3 n = to_world(look, normal);
+    float cosine = dot(n, look.seen);
+    n = cosine > 0.0 ? -n : n;
+    back = film_at(abs(cosine), thickness);
+    vec3 mirrored = reflect(look.seen, n);
+    float texels = 4.0 / max(radius, 0.5) * float(textureSize(environment, 0).x) / 1.5707963;
+    vec3 light = textureLod(environment, mirrored, max(log2(texels), 0.0)).rgb;
+    float glint = pow(max(dot(mirrored, mat3(frame.world) * frame.sun_direction.xyz), 0.0), bubbly.mirror.y);
+    light += glint * bubbly.sun_mirror.rgb * look.sun;
+    return bubbly.mirror.x * back * mix(foam, light, open);
+}
+
+// Light of the core where it is seen at a place, behind a bubble's normal.
+vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
+    vec3 at = normalize(mix(normalize(past), -normal, bubbly.core.z));
+    vec4 pattern = textureLod(core_map, border_place(core_map, at), 0.0);
+    float shown = bubbly.albedo.w * fine;
+    vec3 n = normalize(mix(normal, round_, bubbly.core.w) + shown * pattern.xyz);
+    n = to_world(look, n);
+    vec3 sky = textureLod(irradiance, border_place(irradiance, n), 0.0).rgb;
+    // Foam is soft: it is lit beyond where it is turned away.
+    float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
+    vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
+    // Between bubbles it is darker.
+    float crease = mix(0.72, 1.0, smoothstep(0.6, 1.0, length(past)));
+    return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
+}
+
+// Beyond the bubble that is met first: the one whose wall with it the ray crosses first, NO_BUBBLE where it crosses none
+// within a way. Told by the planes that their spheres cut each other in, near which the walls lie. The source takes
+// what its search finds next, and can miss one.
+uint second_bubble(Look look, uint id, vec4 a, vec2 way) {
+    uint other = NO_BUBBLE;
+    float nearest = way.y;
+    float at_origin = dot(a.xyz, a.xyz) - a.w * a.w;
+    uint i = 0u;
+    do {
+        uint at = neighbour_of(look.blob.template_, id, i);
+        vec4 b = bubble_of(look.blob.template_, at);
+        vec3 apart = b.xyz - a.xyz;
+        float plane = 0.5 * (dot(b.xyz, b.xyz) - b.w * b.w - at_origin) - dot(apart, look.ray.origin);
+        float towards = dot(apart, look.ray.direction);
+        float t = towards > 0.0 ? plane / towards : -1.0;
+        bool nearer = t > way.x && t < nearest;
+        nearest = nearer ? t : nearest;
+        other = nearer ? at : other;
+        ++i;
+    } while (i < 16u);
+    return other;
+}
+
+// A blob, and what it leaves of what is behind it.
+vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body) {
+    BlobRay ray = look.ray;
+    vec2 way = ray.span;
+    vec3 middle = vec3(0.0);
+    float radius = 1.0;
+    if (BY_ID == 1u) {
+        id = min(id, BUBBLES - 1u);
+        ball_hits(ray.origin, ray.direction, bubble_of(look.blob.template_, id), way);
+        vec4 bubble = bubble_of(look.blob.template_, id);
+        middle = bubble.xyz;
+        radius = bubble.w;
+    } else {
+        BlobHit hit = blob_hit(look.blob.template_, ray.origin, ray.direction, ray.span);
+        way = vec2(hit.t, hit.past);
+        radius = 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
+    }
+    way.x = max(way.x, ray.span.x);
+    vec3 met = ray.origin + way.x * ray.direction;
+    vec3 past = ray.origin + way.y * ray.direction;
+    vec3 round_ = normalize(met);
+    vec3 normal;
+    if (BY_ID == 1u) {
+        normal = (met - middle) / radius;
+    } else {
+        // Of the surface |p| = d(p / |p|), from how d changes across it.
+        vec3 side = normalize(abs(round_.x) < 0.7 ? cross(round_, vec3(1.0, 0.0, 0.0)) : cross(round_, vec3(0.0, 1.0, 0.0)));
+        vec3 other = cross(round_, side);
+        const float step = 0.03;
+        float d = length(met);
+        float a = distance_at(look.blob.template_, round_ + step * side) - distance_at(look.blob.template_, round_ - step * side);
+        float b = distance_at(look.blob.template_, round_ + step * other) - distance_at(look.blob.template_, round_ - step * other);
+        normal = normalize(round_ - (a * side + b * other) / (2.0 * step * d));
+    }
+    // Bubbles too small to be seen are a rough white ball.
+    float pixels = radius * look.pixels;
+    float fine = smoothstep(0.7, 3.0, pixels);
+    normal = normalize(mix(round_, normal, fine));
+    uint number = pcg(look.blob.id * 977u + id);
+    float high = dot(to_world(look, normal), vec3(0.0, 1.0, 0.0));
+    float thick = film_thickness(number, 2.5 * met / radius, high);
+
+    vec3 core = core_light(look, past, normal, round_, fine);
+    body = core;
+    vec3 mirrored = reflect(ray.direction, normal);
+    float open = smoothstep(-0.35, 0.45, dot(mirrored, round_));
+    vec3 back;
+    vec3 light = film_light(look, normal, pixels, thick, open, core, back);
+    through = 1.0 - back;
+
+    bool walled = BY_ID == 1u && bubbly.mirror.z > 0.5 && fine > 0.0;
+    vec4 a = vec4(middle, radius);
+    uint other = NO_BUBBLE;
+    while (walled) {
+        other = second_bubble(look, id, a, way);
+        walled = false;
+    }
+    walled = other != NO_BUBBLE;
+    while (walled) {
+        vec4 b = bubble_of(look.blob.template_, other);
+        Wall wall = wall_between(a, b);
+        float at = wall_hit(wall, a, b, ray.origin, ray.direction, way.x);
+        if (at > 0.0 && at < way.y) {
+            vec3 on = ray.origin + at * ray.direction;
+            float own = film_thickness(number ^ other, 2.5 * on / radius, 0.0);
+            vec3 kept;
+            vec3 more = film_light(look, wall_normal(wall, on), pixels, own, 0.4, core, kept);
+            light += fine * through * more;
+            through *= 1.0 - fine * kept;
+            // On into the other bubble.
+            vec2 ends;
+            ball_hits(ray.origin, ray.direction, b, ends);
+            way.y = max(way.y, ends.y);
+            past = ray.origin + way.y * ray.direction;
+            middle = b.xyz;
+        }
+        walled = false;
+    }
+    float solid = core_opacity(past);
+    light += through * solid * core;
+    through *= 1.0 - solid;
+    // The film behind, from within.
+    vec3 behind = normalize(past - middle);
+    vec3 kept;
+    float far = film_thickness(number, 2.5 * past / radius, dot(to_world(look, behind), vec3(0.0, 1.0, 0.0)));
+    light += fine * through * film_light(look, behind, pixels, far, 0.5, core, kept);
+    through *= 1.0 - fine * kept;
+    return light;
+}
+
+// What water before it leaves of its light.
+vec3 water_before(float depth, vec2 pixel, float length_) {
+    float surface = texelFetch(water_depth, ivec2(pixel), 0).x;
+    float metres = max(depth - surface, 0.0) * length_;
+    vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
+    return surface < depth ? exp(-extinction * metres) : vec3(1.0);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
+        return;
+    }
+    uint first = (uint(pixel.y) * uint(frame.extent.x) + uint(pixel.x)) * (LAYERS + 1u);
+    float most = uintBitsToFloat(layers[first + LAYERS]);
+    vec3 along = vec3(ray_slope(vec2(pixel) + 0.5, frame.slope), -1.0);
+    float length_ = length(along);
+    WorldRay world = world_ray(along.xy);
+    vec3 color = vec3(0.0);
+    vec3 left = vec3(1.0);
+    vec3 body = vec3(0.0);
+    vec3 water = vec3(1.0);
+    vec3 sun = vec3(1.0);
+    uint i = 0u;
+    bool more = layers[first] != NO_LAYER;
+    while (more) {
+        uint layer = layers[first + i];
+        Look look;
+        look.blob = blobs[layer >> 8];
+        look.seen = world.direction;
+        vec2 span;
+        in_blob(look.blob, world, span);
+        look.ray = blob_ray(look.blob, world, span);
+        vec4 ball = BY_ID == 1u ? bubble_of(look.blob.template_, min(layer & 0xffu, BUBBLES - 1u)) : vec4(0.0, 0.0, 0.0, 1.0);
+        vec2 way;
+        ball_hits(look.ray.origin, look.ray.direction, ball, way);
+        float depth = max(way.x, look.ray.span.x) * look.ray.scale;
+        look.pixels = look.blob.ball.w / (depth * frame.texel.x);
+        if (i == 0u) {
+            sun = sunlight(along * depth, vec2(pixel) + 0.5);
+        }
+        look.sun = sun;
+        water = water_before(depth, vec2(pixel), length_);
+        vec3 through;
+        vec3 own;
+        vec3 light = blob_light(look, layer & 0xffu, through, own);
+        body = i == 0u ? own : mix(body, own, 0.5);
+        color += left * water * light;
+        left *= mix(vec3(1.0), through, water);
+        ++i;
+        more = i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
+    }
+    float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
+    // Holes between the layers are as opaque as anything there is (Sec. 5).
+    float plug = bubbly.mirror.w > 0.5 ? max(most * dot(water, vec3(1.0 / 3.0)) - covered, 0.0) : 0.0;
+    color += plug * water * body;
+    imageStore(bubbles_image, pixel, vec4(min(color, 65000.0), min(covered + plug, 1.0)));
+}

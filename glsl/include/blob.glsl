@@ -1,0 +1,162 @@
+// A blob of bubbles on a ray (Huszar, Szecsi, Sec. 4.2, 4.3), in the blob's space: its bounding ball is the unit ball.
+// Needs cube.glsl. Reads: bubbles, their neighbours, distances, ids.
+
+// 0: by the distance impostor, 1: by bubble ids.
+layout(constant_id = 30) const uint BY_ID = 1;
+// Of the search along a ray.
+layout(constant_id = 31) const uint STEPS = 10;
+// Bubbles of a blob.
+layout(constant_id = 32) const uint BUBBLES = 227;
+
+layout(set = 0, binding = 8, std430) readonly buffer Bubbles { vec4 bubbles[]; };
+layout(set = 0, binding = 9) uniform sampler2DArray blob_distances;
+layout(set = 0, binding = 10) uniform usampler2DArray blob_ids;
+// Of each bubble sixteen that it intersects, a byte each; itself where there are fewer.
+layout(set = 0, binding = 13, std430) readonly buffer Neighbours { uvec4 neighbours[]; };
+
+const uint NO_BUBBLE = 0xffffffffu;
+
+// Where a ray of unit direction meets a ball: along it; false where it does not.
+bool ball_hits(vec3 origin, vec3 direction, vec4 ball, out vec2 hits) {
+    vec3 to = ball.xyz - origin;
+    float along = dot(to, direction);
+    vec3 off = to - along * direction;
+    float left = ball.w * ball.w - dot(off, off);
+    float reach = sqrt(max(left, 0.0));
+    hits = vec2(along - reach, along + reach);
+    return left >= 0.0;
+}
+
+uint bubble_at(uint template_, vec3 direction) {
+    ivec3 texel = cube_texel(direction, textureSize(blob_ids, 0).x);
+    return texelFetch(blob_ids, ivec3(texel.xy, texel.z + 6 * int(template_)), 0).x;
+}
+
+vec4 bubble_of(uint template_, uint id) {
+    return bubbles[template_ * BUBBLES + id];
+}
+
+// Distance of the surface from the middle, between texels; across an edge that of the edge.
+float distance_at(uint template_, vec3 direction) {
+    int size = textureSize(blob_distances, 0).x;
+    vec3 a = abs(direction);
+    ivec3 texel = cube_texel(direction, size);
+    // The same place, and what of a texel it is off its middle.
+    float major = max(a.x, max(a.y, a.z));
+    vec3 p = direction / major;
+    vec2 uv = texel.z < 2 ? vec2(texel.z == 0 ? -p.z : p.z, -p.y)
+            : texel.z < 4 ? vec2(p.x, texel.z == 2 ? p.z : -p.z)
+                          : vec2(texel.z == 4 ? p.x : -p.x, -p.y);
+    vec2 at = clamp((0.5 * uv + 0.5) * float(size) - 0.5, 0.0, float(size) - 1.0);
+    ivec2 base = ivec2(min(at, float(size) - 2.0));
+    vec2 f = at - vec2(base);
+    int layer = texel.z + 6 * int(template_);
+    vec4 d;
+    for (int i = 0; i < 4; ++i) {
+        d[i] = texelFetch(blob_distances, ivec3(base + ivec2(i & 1, i >> 1), layer), 0).x;
+    }
+    vec2 rows = mix(d.xz, d.yw, f.x);
+    return mix(rows.x, rows.y, f.y);
+}
+
+// What a ray meets first of a blob.
+struct BlobHit {
+    float t;    // less than 0: nothing
+    float past; // where it leaves that bubble again
+    uint id;    // of the bubble; NO_BUBBLE where it is not known
+};
+
+// By bubble ids: the bubbles that show in the directions of points along the ray. Any that holds the first one will do,
+// and so any nearer that a later point finds before it is reached.
+BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
+    BlobHit hit = BlobHit(-1.0, -1.0, NO_BUBBLE);
+    float step = (span.y - span.x) / float(STEPS);
+    uint last = NO_BUBBLE;
+    uint i = 0u;
+    do {
+        float t = span.x + (float(i) + 0.5) * step;
+        uint id = bubble_at(template_, origin + t * direction);
+        vec2 hits;
+        bool met = id != last && id != NO_BUBBLE && ball_hits(origin, direction, bubble_of(template_, min(id, BUBBLES - 1u)), hits);
+        if (met && hits.y > 0.0 && (hit.t < 0.0 || hits.x < hit.t)) {
+            hit = BlobHit(max(hits.x, 0.0), hits.y, id);
+        }
+        last = id;
+        ++i;
+    } while (i < STEPS && (hit.t < 0.0 || span.x + float(i) * step < hit.t));
+    return hit;
+}
+
+uint neighbour_of(uint template_, uint id, uint i) {
+    return neighbours[template_ * BUBBLES + id][i >> 2] >> (8u * (i & 3u)) & 0xffu;
+}
+
+// The same among those beside what was found: the maps know no more of an edge than where its texel lies.
+BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hit, float from) {
+    BlobHit best = hit;
+    uint i = 0u;
+    do {
+        uint id = neighbour_of(template_, hit.id, i);
+        vec2 hits;
+        bool met = ball_hits(origin, direction, bubble_of(template_, id), hits) && hits.y > from;
+        float t = max(hits.x, from);
+        best = met && t < best.t ? BlobHit(t, hits.y, id) : best;
+        ++i;
+    } while (i < 16u);
+    return best;
+}
+
+// By distances: where the ray first comes inside the surface. Looked for in even steps to where it is nearest to the
+// middle, then between two of them by the place where the difference would be 0 (regula falsi, Illinois form). The
+// source turns the ray round so that its search (Szirmay-Kalos et al. 2005) ends on the near side; this one begins there.
+BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span) {
+    const uint COARSE = 8u;
+    float middle = clamp(-dot(origin, direction), span.x, span.y);
+    float from = span.x;
+    vec3 p = origin + from * direction;
+    float outside = length(p) - distance_at(template_, p);
+    float inside = outside;
+    float to = from;
+    uint i = 0u;
+    do {
+        ++i;
+        // A little past the middle: rays that only graze it.
+        to = mix(span.x, 0.5 * (middle + span.y) , float(i) / float(COARSE));
+        p = origin + to * direction;
+        inside = length(p) - distance_at(template_, p);
+        from = inside > 0.0 ? to : from;
+        outside = inside > 0.0 ? inside : outside;
+    } while (i < COARSE && inside > 0.0);
+    BlobHit hit = BlobHit(-1.0, -1.0, NO_BUBBLE);
+    if (inside > 0.0) {
+        return hit;
+    }
+    if (outside > 0.0) {
+        bool was = false;
+        bool again = false;
+        do {
+            float at = mix(from, to, clamp(outside / (outside - inside), 0.02, 0.98));
+            p = origin + at * direction;
+            float here = length(p) - distance_at(template_, p);
+            bool still = here > 0.0;
+            again = i > COARSE && still == was;
+            was = still;
+            from = still ? at : from;
+            to = still ? to : at;
+            // An end that stays twice counts half.
+            outside = still ? here : (again ? 0.5 * outside : outside);
+            inside = still ? (again ? 0.5 * inside : inside) : here;
+            ++i;
+        } while (i < max(STEPS, COARSE + 1u));
+    }
+    hit.t = max(0.5 * (from + to), 0.0);
+    // The mean chord of a bubble of the mean size: which one it is is not known.
+    float radius = 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
+    hit.past = hit.t + 4.0 / 3.0 * radius;
+    return hit;
+}
+
+BlobHit blob_hit(uint template_, vec3 origin, vec3 direction, vec2 span) {
+    return BY_ID == 1u ? blob_by_ids(template_, origin, direction, span)
+                       : blob_by_distance(template_, origin, direction, span);
+}

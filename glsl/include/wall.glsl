@@ -1,0 +1,66 @@
+// The film between two bubbles that meet: part of a sphere through their common circle, whose tangent there halves the
+// angle between the two (Huszar, Szecsi, Sec. 3.2, whose print has lost its roots and squares). Where films meet at 120
+// degrees it is Laplace's: 1/r = 1/r_B - 1/r_A. Needs nothing.
+//
+// As a curvature and an apex, not a centre: of equal bubbles it is a plane, and nearly equal ones would have a sphere
+// larger than the digits are good for.
+
+struct Wall {
+    vec3 apex;
+    vec3 axis;       // unit, from the larger bubble to the smaller
+    float curvature; // 0 of a plane; the middle lies ahead on the axis
+};
+
+// Bubbles as centre and radius. They intersect: neither holds the other.
+Wall wall_between(vec4 a, vec4 b) {
+    if (a.w < b.w) {
+        vec4 other = a;
+        a = b;
+        b = other;
+    }
+    vec3 apart = b.xyz - a.xyz;
+    float square = dot(apart, apart);
+    // Of half the angle between the radii to their circle.
+    float sine = sqrt(max(0.5 - (a.w * a.w + b.w * b.w - square) / (4.0 * a.w * b.w), 1.0e-12));
+    Wall wall;
+    wall.axis = apart * inversesqrt(square);
+    wall.curvature = (a.w - b.w) / (2.0 * a.w * b.w * sine);
+    float k = wall.curvature;
+    float way = (k * a.w * a.w + 2.0 * a.w * sine) / (1.0 + sqrt(1.0 + k * k * a.w * a.w + 2.0 * k * a.w * sine));
+    wall.apex = a.xyz + way * wall.axis;
+    return wall;
+}
+
+bool wall_inside(vec3 point, vec4 ball) {
+    vec3 q = point - ball.xyz;
+    return dot(q, q) <= ball.w * ball.w;
+}
+
+// How far along a ray of unit direction its cap inside both bubbles lies, less than 0: nowhere ahead of `from`.
+float wall_hit(Wall wall, vec4 a, vec4 b, vec3 origin, vec3 direction, float from) {
+    vec3 q = origin - wall.apex;
+    float k = wall.curvature;
+    // k t^2 + 2 h t + c = 0, by roots that lose no digits where k is 0.
+    float h = k * dot(q, direction) - dot(direction, wall.axis);
+    float c = k * dot(q, q) - 2.0 * dot(q, wall.axis);
+    float under = h * h - k * c;
+    if (under < 0.0) {
+        return -1.0;
+    }
+    float sum = -(h + (h < 0.0 ? -1.0 : 1.0) * sqrt(under));
+    float near = sum != 0.0 ? c / sum : -1.0;
+    float far = k != 0.0 ? sum / k : -1.0;
+    vec2 hits = vec2(min(near, far), max(near, far));
+    for (int i = 0; i < 2; ++i) {
+        vec3 point = origin + hits[i] * direction;
+        if (hits[i] > from && wall_inside(point, a) && wall_inside(point, b)) {
+            return hits[i];
+        }
+    }
+    return -1.0;
+}
+
+// Unit normal of the wall at one of its points, ahead on the axis.
+vec3 wall_normal(Wall wall, vec3 point) {
+    return normalize(wall.axis - wall.curvature * (point - wall.apex));
+}

@@ -1,0 +1,195 @@
+//! A blob of foam: soap bubbles on a shell round a core (Huszár, Szécsi, Sec. 4.1), made of a seed.
+//!
+//! Neighbours are to stand where their films and the wall between them meet at 120°, `|AB|² = r_A² + r_B² − r_A r_B`,
+//! as nearly as a shell can be packed: each bubble is given as much of it as a hexagon of that spacing covers, and
+//! those too near push each other away along it.
+//!
+//! Nothing here is a transcendental function: a seed gives the same blob on every machine.
+
+use glam::DVec3;
+
+/// Fewest and most bubbles of a blob: the impostor's maps have eight bits for one.
+pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
+
+/// Candidates for a bubble's first place, of which the one farthest from all others is taken.
+const CANDIDATES: u32 = 8;
+/// Rounds in which the bubbles push each other away.
+const ROUNDS: u32 = 40;
+/// How far radii differ from their mean, and how far a centre lies off the shell, in radii.
+const SPREAD: f64 = 0.3;
+const OFF_SHELL: f64 = 0.15;
+
+/// Those that a bubble is told to have beside it, at most (glsl/include/blob.glsl).
+pub(super) const NEIGHBOURS: usize = 16;
+
+/// Bubbles of one blob in its own space, whose bounding ball is the unit ball about 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blob {
+    /// Centre and radius of each.
+    pub bubbles: Vec<[f32; 4]>,
+}
+
+/// Uniform numbers in [0, 1) (PCG, O'Neill 2014, as a hash of a counter).
+struct Random {
+    seed: u32,
+    counter: u32,
+}
+
+/// The hash of `glsl/include/random.glsl`.
+pub(super) fn pcg(value: u32) -> u32 {
+    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
+}
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.counter += 1;
+        f64::from(pcg(self.seed.wrapping_add(pcg(self.counter))) >> 8) / f64::from(1 << 24)
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        loop {
+            let v = DVec3::from([self.next(), self.next(), self.next()].map(|x| 2.0 * x - 1.0));
+            let square = v.length_squared();
+            if (0.01..1.0).contains(&square) {
+                return v / square.sqrt();
+            }
+        }
+    }
+}
+
+/// How far apart two bubbles are whose films meet at 120°.
+fn apart(a: f64, b: f64) -> f64 {
+    (a * a + b * b - a * b).sqrt()
+}
+
+impl Blob {
+    /// So many bubbles, within [`BUBBLES`].
+    pub fn new(seed: u32, count: u32) -> Self {
+        let count = count.clamp(*BUBBLES.start(), *BUBBLES.end());
+        let mut random = Random { seed: pcg(seed), counter: 0 };
+        // Two draws: more of middling size than of the largest and smallest.
+        let radii: Vec<f64> =
+            (0..count).map(|_| 1.0 + SPREAD * (random.next() + random.next() - 1.0)).collect();
+        // A hexagon of spacing s covers sqrt(3)/2 s^2, and s is r where all are alike.
+        let area: f64 = radii.iter().map(|r| 0.75_f64.sqrt() * r * r).sum();
+        let shell = (area / (4.0 * std::f64::consts::PI)).sqrt();
+        let mut places: Vec<DVec3> = Vec::with_capacity(radii.len());
+        for _ in 0..count {
+            let nearest = |to: &DVec3| {
+                places.iter().map(|p| p.distance_squared(*to)).fold(f64::INFINITY, f64::min)
+            };
+            let far = (0..CANDIDATES).map(|_| random.direction());
+            let best = far.max_by(|a, b| nearest(a).total_cmp(&nearest(b)));
+            places.extend(best);
+        }
+        for _ in 0..ROUNDS {
+            let moved = |i: usize| {
+                let at = places[i];
+                let push = |(j, other): (usize, &DVec3)| {
+                    let away = at - *other;
+                    let (length, wanted) = (shell * away.length(), apart(radii[i], radii[j]));
+                    if i == j || length >= wanted || length == 0.0 {
+                        return DVec3::ZERO;
+                    }
+                    away * (shell / length) * 0.5 * (wanted - length) / shell
+                };
+                let pushed: DVec3 = places.iter().enumerate().map(push).sum();
+                (at + 0.5 * pushed).normalize()
+            };
+            places = (0..places.len()).map(moved).collect();
+        }
+        let spheres: Vec<(DVec3, f64)> = places
+            .iter()
+            .zip(&radii)
+            .map(|(at, &r)| (*at * (shell + OFF_SHELL * r * (2.0 * random.next() - 1.0)), r))
+            .collect();
+        let most = spheres.iter().map(|(c, r)| c.length() + r).fold(0.0, f64::max);
+        let bubbles =
+            spheres.iter().map(|(c, r)| (c / most).extend(r / most).as_vec4().to_array()).collect();
+        Self { bubbles }
+    }
+
+    /// Of each bubble those that it intersects, the nearest of them by how deep, a byte each; itself where there are
+    /// fewer.
+    pub(super) fn neighbours(&self) -> Vec<[u8; NEIGHBOURS]> {
+        let depth = |a: &[f32; 4], b: &[f32; 4]| {
+            let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt();
+            a[3] + b[3] - apart
+        };
+        let own = |(i, bubble): (usize, &[f32; 4])| {
+            let others = self.bubbles.iter().enumerate().filter(|(j, _)| i != *j);
+            let mut deep: Vec<(f32, u8)> = others
+                .map(|(j, other)| (depth(bubble, other), j as u8))
+                .filter(|(deep, _)| *deep > 0.0)
+                .collect();
+            deep.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            let mut nearest = [i as u8; NEIGHBOURS];
+            for (to, (_, from)) in nearest.iter_mut().zip(deep) {
+                *to = from;
+            }
+            nearest
+        };
+        self.bubbles.iter().enumerate().map(own).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pairs whose middle between them no third one is nearer to: what stands side by side.
+    fn neighbours(blob: &Blob) -> Vec<(usize, usize)> {
+        let at = |i: usize| DVec3::from([0, 1, 2].map(|k| f64::from(blob.bubbles[i][k])));
+        let n = blob.bubbles.len();
+        let mut found = Vec::new();
+        for i in 0..n {
+            for j in i + 1..n {
+                let (middle, half) = ((at(i) + at(j)) / 2.0, at(i).distance(at(j)) / 2.0);
+                if (0..n).all(|k| k == i || k == j || at(k).distance(middle) > half) {
+                    found.push((i, j));
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn a_seed_gives_one_blob_and_another_another() {
+        assert_eq!(Blob::new(7, 227), Blob::new(7, 227));
+        assert_ne!(Blob::new(7, 227), Blob::new(8, 227));
+        // To the last digit on every machine.
+        let first = Blob::new(1, 64).bubbles[0].map(f32::to_bits);
+        assert_eq!(first, FIRST);
+    }
+
+    const FIRST: [u32; 4] = [0, 0, 0, 0];
+
+    #[test]
+    fn films_meet_near_120_degrees() {
+        for (seed, count) in [(1, 64), (2, 128), (3, 227), (4, 256)] {
+            let blob = Blob::new(seed, count);
+            assert_eq!(blob.bubbles.len(), count as usize);
+            let most = blob.bubbles.iter().map(|[x, y, z, r]| (x * x + y * y + z * z).sqrt() + r);
+            let most = most.fold(0.0, f32::max);
+            assert!((most - 1.0).abs() < 1.0e-5, "bounding ball of {most}");
+            let pairs = neighbours(&blob);
+            let angle = |&(i, j): &(usize, usize)| {
+                let (a, b) = (blob.bubbles[i].map(f64::from), blob.bubbles[j].map(f64::from));
+                let square: f64 = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum();
+                let cosine = (a[3] * a[3] + b[3] * b[3] - square) / (2.0 * a[3] * b[3]);
+                cosine.clamp(-1.0, 1.0).acos().to_degrees()
+            };
+            // Between the radii: 60 where the films meet at 120.
+            let angles: Vec<f64> = pairs.iter().map(angle).collect();
+            let mean = angles.iter().sum::<f64>() / angles.len() as f64;
+            let spread = (angles.iter().map(|a| (a - mean).powi(2)).sum::<f64>()
+                / angles.len() as f64)
+                .sqrt();
+            println!("{count}: {} pairs, {mean:.1} degrees, spread {spread:.1}", angles.len());
+            assert!((mean - 60.0).abs() < 8.0, "{count} bubbles: {mean} degrees in the mean");
+            assert!(spread < 20.0, "{count} bubbles: {spread} degrees of spread");
+        }
+    }
+}

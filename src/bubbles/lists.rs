@@ -1,0 +1,253 @@
+//! Pass `blobs`: the blobs on the screen, and for each tile which they are, front to back.
+//!
+//! Where the source draws a billboard for each, and all of them once a layer, a pixel here goes through the list of its
+//! tile. Lists are places in one buffer, by prefix sums: of slice after slice of depth, so that where there is no
+//! room the farthest are lost.
+//! Reads: the host's streams. Writes: blobs, range, cells, list.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::settings::{BubbleConfig, BubbleSort};
+use crate::contract::{Blobs, Config, Count, Stream};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, FRAGMENT_READ, VERTEX_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::scan::Scan;
+use crate::gpu::shader;
+use crate::water::{Recording, Window, capacity, each_once};
+
+/// Edge of a tile in pixels (glsl/include/bubbles.glsl).
+pub const TILE: u32 = 16;
+/// Slices of depth.
+pub const SLICES: u32 = 32;
+/// Places of a tile in the list, in the mean: more blobs than lie one behind the other.
+const PLACES: u32 = 128;
+/// Bytes of a blob, and of what is known of all.
+const BLOB: u64 = 48;
+const RANGE: u64 = 20;
+/// Word of the range that has the number of places taken.
+const TAKEN: u32 = 4;
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    ball_word: u32,
+    ball_stride: u32,
+    turn_word: u32,
+    turn_stride: u32,
+    id_word: u32,
+    id_stride: u32,
+    most: u32,
+    from_gpu: u32,
+}
+shader::assert_layout!(
+    shader::BUBBLES_BLOBS_COMP,
+    "Push",
+    Push { ball_word, ball_stride, turn_word, turn_stride, id_word, id_stride, most, from_gpu }
+);
+
+/// Tiles of an extent.
+pub fn tiles(extent: vk::Extent2D) -> [u32; 2] {
+    [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)]
+}
+
+/// Places of the list of an extent.
+pub fn room(extent: vk::Extent2D, config: &BubbleConfig) -> u32 {
+    let [x, y] = tiles(extent);
+    PLACES * x * y + 4 * config.max_blobs
+}
+
+/// The streams that there are, with the bytes of a value.
+fn streams(blobs: &Blobs) -> impl Iterator<Item = (&Stream, u64)> {
+    let all = [(Some(&blobs.balls), 16), (blobs.turns.as_ref(), 16), (blobs.ids.as_ref(), 4)];
+    all.into_iter().filter_map(|(stream, bytes)| Some((stream?, bytes)))
+}
+
+/// The host's buffers, each once.
+pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
+    each_once(streams(blobs), blobs.count, None)
+}
+
+/// What depends on the frame's size.
+struct Cells {
+    cells: Buffer,
+    list: Buffer,
+    scan: Scan,
+}
+
+impl Cells {
+    fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
+        let cells = cells_of(config.extent);
+        let own = |name, words: u32| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            Buffer::new(gpu, name, 4 * u64::from(words), usage, MemoryLocation::GpuOnly)
+        };
+        Ok(Self {
+            cells: own("bubbles/cells", cells)?,
+            list: own("bubbles/list", room(config.extent, bubbles))?,
+            scan: Scan::new(gpu, "bubbles/scan", cells)?,
+        })
+    }
+}
+
+/// The pass.
+pub struct Lists {
+    begin: Pipeline,
+    /// To the eye, numbers, lists.
+    goes: [Pipeline; 3],
+    config: BubbleConfig,
+    blobs: Buffer,
+    range: Buffer,
+    cells: Cells,
+}
+
+impl Lists {
+    pub fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
+        let own = |name, bytes| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC;
+            Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
+        };
+        let go = |which| Pipeline::compute(gpu, shader::BUBBLES_BLOBS_COMP, &[(0, which)]);
+        Ok(Self {
+            begin: Pipeline::compute(gpu, shader::BUBBLES_BEGIN_COMP, &[])?,
+            goes: [go(0)?, go(1)?, go(2)?],
+            config: *bubbles,
+            blobs: own("bubbles/blobs", BLOB * u64::from(bubbles.max_blobs))?,
+            range: own("bubbles/range", RANGE)?,
+            cells: Cells::new(gpu, config, bubbles)?,
+        })
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let new = Cells::new(gpu, config, &self.config)?;
+        retired.replace(&mut self.cells.cells, new.cells);
+        retired.replace(&mut self.cells.list, new.list);
+        retired.replace(&mut self.cells.scan, new.scan);
+        Ok(())
+    }
+
+    /// Blobs, what is known of them all, ends of the cells, list.
+    pub fn buffers(&self) -> [&Buffer; 4] {
+        [&self.blobs, &self.range, &self.cells.cells, &self.cells.list]
+    }
+
+    /// How the blobs are read after the pass.
+    fn read(&self) -> Access {
+        match self.config.sort {
+            BubbleSort::Tiles => COMPUTE_READ,
+            BubbleSort::Peel => COMPUTE_READ.and(VERTEX_READ).and(FRAGMENT_READ),
+        }
+    }
+
+    /// As many are drawn where they are drawn.
+    pub fn count(&self, gpu: &Gpu, blobs: Option<&Blobs>) -> u32 {
+        blobs.and_then(|blobs| self.bound(gpu, blobs)).map_or(0, |(_, push)| push.most)
+    }
+
+    pub fn record(
+        &self,
+        r: &Recording<'_>,
+        uniforms: Resource,
+        blobs: Option<&Blobs>,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let [own, range, cells, list] = self.buffers();
+        let all = [own, range, cells, list].map(|b| buffer(b.handle, self.read(), COMPUTE_WRITE));
+        let host = blobs.into_iter().flat_map(|blobs| {
+            let to = |handle| buffer(handle, blobs.before, COMPUTE_READ);
+            buffers_of(blobs).into_iter().map(to)
+        });
+        gpu.barriers(cmd, &[], &all.into_iter().chain(host).collect::<Vec<_>>());
+        let resources = [
+            (0, r.uniforms),
+            (1, uniforms),
+            (6, Resource::buffer(own)),
+            (7, Resource::buffer(range)),
+            (8, Resource::buffer(cells)),
+            (9, Resource::buffer(list)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
+        let count = cells_of(r.extent);
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, count.div_ceil(256), 1, 1) };
+        let both = COMPUTE_READ_WRITE;
+        let hand = |from, to| [own, range, cells, list].map(|b| buffer(b.handle, from, to));
+        gpu.barriers(cmd, &[], &hand(COMPUTE_WRITE, both));
+        let bound = blobs.and_then(|blobs| Some((blobs, self.bound(gpu, blobs)?)));
+        if let Some((blobs, (streams, push))) = bound {
+            let count = match blobs.count {
+                Count::Gpu { buffer, offset } => Resource::Buffer(buffer, offset, 4),
+                Count::Cpu(_) => Resource::buffer(range),
+            };
+            let resources = [&resources[..], &streams, &[(5, count)]].concat();
+            for (i, go) in self.goes.iter().enumerate() {
+                match i {
+                    0 => {}
+                    2 => {
+                        let on = (gpu, cmd, r.descriptors);
+                        let values = (cells, cells_of(r.extent));
+                        self.cells.scan.record(on, range, values, None, TAKEN)?;
+                        gpu.barriers(cmd, &[], &hand(both, both));
+                    }
+                    _ => gpu.barriers(cmd, &[], &hand(both, both)),
+                }
+                r.descriptors.bind(gpu, cmd, go, &resources)?;
+                go.push(gpu, cmd, &push);
+                // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+                unsafe { gpu.device.cmd_dispatch(cmd, push.most.div_ceil(64).max(1), 1, 1) };
+            }
+        }
+        gpu.barriers(cmd, &[], &hand(both, self.read()));
+        Ok(())
+    }
+
+    /// The host's streams, and what is pushed; none where one ends before the first blob.
+    fn bound(&self, gpu: &Gpu, blobs: &Blobs) -> Option<([(u32, Resource); 3], Push)> {
+        let balls = Window::new(gpu, &blobs.balls, 0)?;
+        let other = |stream: &Option<Stream>| match stream {
+            Some(stream) => Window::new(gpu, stream, 0),
+            None => Some(Window { stride: 0, ..balls }),
+        };
+        let (turns, ids) = (other(&blobs.turns)?, other(&blobs.ids)?);
+        let room = streams(blobs).map(capacity).fold(self.config.max_blobs, u32::min);
+        let (most, from_gpu) = match blobs.count {
+            Count::Cpu(count) => (count.min(room), 0),
+            Count::Gpu { .. } => (room, 1),
+        };
+        let push = Push {
+            ball_word: balls.word,
+            ball_stride: balls.stride,
+            turn_word: turns.word,
+            turn_stride: turns.stride,
+            id_word: ids.word,
+            id_stride: ids.stride,
+            most,
+            from_gpu,
+        };
+        Some(([(2, balls.resource), (3, turns.resource), (4, ids.resource)], push))
+    }
+
+    pub fn memory(&self) -> u64 {
+        let own = self.buffers().map(|buffer| buffer.size).iter().sum::<u64>();
+        own + self.cells.scan.memory()
+    }
+}
+
+/// Tiles of all slices.
+fn cells_of(extent: vk::Extent2D) -> u32 {
+    let [x, y] = tiles(extent);
+    SLICES * x * y
+}

@@ -1,0 +1,171 @@
+//! Bubble foam: blobs of soap bubbles by the thousand (Huszár, Szécsi, GPU-supported bubble and foam rendering). A pass
+//! a file.
+
+mod billboards;
+mod blob;
+mod lists;
+mod peel;
+pub mod settings;
+mod soap;
+mod templates;
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+
+use crate::contract::{Blobs, Config, Frame, Layer};
+use crate::environment::Environment;
+use crate::error::Error;
+use crate::frame::sun_on;
+use crate::gpu::Gpu;
+use crate::gpu::access::{Access, COMPUTE_READ};
+use crate::gpu::image::Image;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::water::{Recording, WaterLayers};
+pub use blob::Blob;
+pub(crate) use lists::buffers_of;
+use settings::MOST_FILM;
+pub use settings::{BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, Impostor, Spectrum};
+
+/// How the host's streams are read.
+pub(crate) const READING: Access = COMPUTE_READ;
+
+/// The block `BubbleFrame` of `glsl/include/bubbles.glsl`; its comments say what each member holds.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct BubbleUniforms {
+    film: [f32; 4],
+    core: [f32; 4],
+    albedo: [f32; 4],
+    mirror: [f32; 4],
+    sun: [f32; 4],
+    sun_mirror: [f32; 4],
+    tiles: [u32; 4],
+    blobs: [u32; 4],
+}
+shader::assert_layout!(
+    shader::BUBBLES_SOAP_COMP,
+    "BubbleFrame",
+    BubbleUniforms { film, core, albedo, mirror, sun, sun_mirror, tiles, blobs }
+);
+
+impl BubbleUniforms {
+    pub fn new(frame: &Frame<'_>, config: &Config, bubbles: &BubbleConfig) -> Self {
+        let look = &frame.settings.bubbles;
+        let light = &frame.settings.light;
+        let flag = |on: bool| f32::from(u8::from(on));
+        let [r, g, b] = look.albedo.map(|part| 2.0 * part);
+        let [x, y] = lists::tiles(frame.output.rect.extent);
+        let [sun_r, sun_g, sun_b] = light.color;
+        Self {
+            film: [look.film, look.variation, look.drainage, MOST_FILM],
+            core: [look.core[0], look.core[1], look.distortion, look.roundness],
+            albedo: [r, g, b, look.pattern],
+            mirror: [look.reflection, look.shininess, flag(look.walls), flag(look.plug)],
+            sun: sun_on(light),
+            sun_mirror: [sun_r, sun_g, sun_b, 0.0],
+            tiles: [x, y, lists::SLICES, lists::room(config.extent, bubbles)],
+            blobs: [bubbles.max_blobs, bubbles.templates, 0, 0],
+        }
+    }
+}
+
+/// The technique: its passes in the order of the frame.
+pub(crate) struct Bubbles {
+    templates: templates::Templates,
+    lists: lists::Lists,
+    peel: peel::Peel,
+    soap: soap::Soap,
+}
+
+impl Bubbles {
+    pub fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
+        Ok(Self {
+            templates: templates::Templates::new(gpu, bubbles)?,
+            lists: lists::Lists::new(gpu, config, bubbles)?,
+            peel: peel::Peel::new(gpu, config, bubbles)?,
+            soap: soap::Soap::new(gpu, config, bubbles)?,
+        })
+    }
+
+    /// Replaces what depends on the extent.
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        self.lists.resize(gpu, config, retired)?;
+        self.peel.resize(gpu, config, retired)?;
+        self.soap.resize(gpu, config, retired)
+    }
+
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
+        self.templates.record_setup(gpu, cmd)
+    }
+
+    /// Where blobs are: before the tiles that are drawn are known.
+    pub fn record_peel(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
+        let scope = r.begin(c"blobs");
+        self.lists.record(r, r.bubbles, blobs)?;
+        r.end(scope);
+        let scope = r.begin(c"peel");
+        self.peel.record(r, r.bubbles, (&self.lists, blobs), &self.templates)?;
+        r.end(scope);
+        Ok(())
+    }
+
+    /// What they look like.
+    pub fn record_soap(
+        &self,
+        r: &mut Recording<'_>,
+        environment: &Environment,
+        water: &WaterLayers<'_>,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"soap");
+        let made = (&self.lists, &self.peel, &self.templates);
+        self.soap.record(r, r.bubbles, made, environment, water.depth)?;
+        r.end(scope);
+        Ok(())
+    }
+
+    /// Depth of the frontmost, EMPTY where there is none.
+    pub fn depth(&self) -> &Image {
+        self.peel.depth()
+    }
+
+    /// Colour, premultiplied, and how much it covers.
+    pub fn image(&self) -> &Image {
+        self.soap.image()
+    }
+
+    /// Of each pixel its layers and the most opacity, and how many words these are.
+    pub fn layers(&self) -> (vk::Buffer, u32) {
+        (self.peel.layers().handle, self.peel.words())
+    }
+
+    /// The layers of a frame of a size for the host.
+    pub fn kept(&self, extent: vk::Extent2D) -> Vec<Layer> {
+        let film = &self.templates.table;
+        let layer = |name, image: &Image, extent| Layer {
+            name,
+            image: image.handle,
+            view: image.view,
+            format: image.format,
+            extent,
+            access: peel::AFTER,
+        };
+        vec![
+            layer("bubbles", self.peel.depth(), extent),
+            layer("bubbles.color", self.soap.image(), extent),
+            layer("bubbles.film", film, film.extent),
+        ]
+    }
+
+    /// Bytes of images and of buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        let (maps, bubbles) = self.templates.memory();
+        let (depth, layers) = self.peel.memory();
+        (maps + depth + self.soap.image().size, bubbles + layers + self.lists.memory())
+    }
+}

@@ -1,0 +1,115 @@
+//! Pass `soap`: films, walls and cores of what `peel` has found, and the light on them (Huszár, Szécsi, Sec. 3.1, 4.4, 5).
+//!
+//! Reads: blobs, layers, templates, environment, irradiance, water depth, sunlight. Writes: bubbles, premultiplied.
+
+use ash::vk;
+
+use super::lists::Lists;
+use super::peel::{AFTER, Peel};
+use super::settings::BubbleConfig;
+use super::templates::Templates;
+use crate::contract::Config;
+use crate::environment::Environment;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::water::Recording;
+
+/// The pass.
+pub struct Soap {
+    pipeline: Pipeline,
+    image: Image,
+}
+
+impl Soap {
+    pub fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
+        let own = [(0, bubbles.layers)];
+        let constants =
+            [&own[..], &Templates::constants(bubbles), &crate::light::constants(config)].concat();
+        Ok(Self {
+            pipeline: Pipeline::compute(gpu, shader::BUBBLES_SOAP_COMP, &constants)?,
+            image: Self::image_of(gpu, config)?,
+        })
+    }
+
+    fn image_of(gpu: &Gpu, config: &Config) -> Result<Image, Error> {
+        let usage = vk::ImageUsageFlags::STORAGE
+            | vk::ImageUsageFlags::SAMPLED
+            | vk::ImageUsageFlags::TRANSFER_SRC;
+        let format = vk::Format::R16G16B16A16_SFLOAT;
+        Image::new(gpu, &ImageDesc::new("bubbles/soap", config.extent, format, usage))
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let image = Self::image_of(gpu, config)?;
+        retired.replace(&mut self.image, image);
+        Ok(())
+    }
+
+    /// Colour, premultiplied, and how much it covers.
+    pub fn image(&self) -> &Image {
+        &self.image
+    }
+
+    /// `water`: its depth, which comes and goes as sampled by fragments.
+    pub fn record(
+        &self,
+        r: &Recording<'_>,
+        uniforms: Resource,
+        (lists, peel, templates): (&Lists, &Peel, &Templates),
+        environment: &Environment,
+        water: &Image,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let before = AFTER.and(COPY_READ).discarded();
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.image, before, COMPUTE_WRITE),
+                access::image(water, FRAGMENT_SAMPLED, COMPUTE_SAMPLED),
+            ],
+            &[],
+        );
+        let linear = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
+        let [shadow, thickness, basis, span, cast] = r.sunlight.resources();
+        let own = [
+            (0, r.uniforms),
+            (1, uniforms),
+            (2, Resource::Sampled(water.view, gpu.samplers.nearest)),
+            (3, Resource::buffer(lists.buffers()[0])),
+            (4, Resource::buffer(peel.layers())),
+            (5, linear(&templates.table)),
+            (6, linear(&templates.picture)),
+            (7, linear(&environment.cube)),
+            (11, linear(&environment.irradiance)),
+            (12, Resource::storage(&self.image)),
+            shadow,
+            thickness,
+            basis,
+            span,
+            cast,
+        ];
+        let resources = [&own[..], &templates.resources(gpu)].concat();
+        r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
+        r.dispatch_over(r.extent, self.pipeline.local_size);
+        gpu.barriers(
+            cmd,
+            &[
+                access::image(&self.image, COMPUTE_WRITE, AFTER),
+                access::image(water, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
+            ],
+            &[],
+        );
+        Ok(())
+    }
+}

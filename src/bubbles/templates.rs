@@ -1,0 +1,183 @@
+//! Passes `film`, `impostor` and `core`: what no frame changes, made once per renderer (Huszár, Szécsi, Sec. 3.1, 4.2 to
+//! 4.4).
+//!
+//! Reads: bubbles of the blobs. Writes: the film's table, the impostors' maps, the core's picture.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::blob::{Blob, pcg};
+use super::settings::{BubbleConfig, FilmFresnel, Impostor, MOST_FILM, Spectrum};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, Access, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+
+/// Cosines and thicknesses of the film's table.
+const FILM: vk::Extent2D = vk::Extent2D { width: 64, height: 256 };
+/// Edge of the core's picture without its border.
+const CORE: u32 = 256;
+/// Edge of the impostor's map that is not asked for.
+const UNUSED: u32 = 8;
+/// How all of it is read.
+const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct FilmPush {
+    index: f32,
+    most: f32,
+}
+shader::assert_layout!(shader::BUBBLES_FILM_COMP, "Push", FilmPush { index, most });
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct ImpostorPush {
+    count: u32,
+    size: u32,
+}
+shader::assert_layout!(shader::BUBBLES_IMPOSTOR_COMP, "Push", ImpostorPush { count, size });
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct CorePush {
+    size: u32,
+    seed: u32,
+}
+shader::assert_layout!(shader::BUBBLES_CORE_COMP, "Push", CorePush { size, seed });
+
+/// What the blobs are made of.
+pub struct Templates {
+    film: Pipeline,
+    impostors: [Pipeline; 2],
+    core: Pipeline,
+    config: BubbleConfig,
+    descriptors: Descriptors,
+    /// Reflectance by cosine and thickness.
+    pub table: Image,
+    /// Centre and radius of each bubble of each blob.
+    pub bubbles: Buffer,
+    /// Which others each of them intersects.
+    pub neighbours: Buffer,
+    /// How far their surfaces are from their middles, and whose they are; one of them is asked for.
+    pub maps: [Image; 2],
+    /// Small bubbles inside.
+    pub picture: Image,
+}
+
+impl Templates {
+    pub fn new(gpu: &Gpu, config: &BubbleConfig) -> Result<Self, Error> {
+        let blobs = (0..config.templates).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles));
+        let blobs: Vec<Blob> = blobs.collect();
+        let neighbours: Vec<_> = blobs.iter().flat_map(Blob::neighbours).collect();
+        let bubbles: Vec<[f32; 4]> = blobs.into_iter().flat_map(|blob| blob.bubbles).collect();
+        let filled = |name, bytes: &[u8]| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            let location = MemoryLocation::CpuToGpu;
+            let mut buffer = Buffer::new(gpu, name, bytes.len() as u64, usage, location)?;
+            buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+            Ok::<_, Error>(buffer)
+        };
+        let usage = vk::ImageUsageFlags::STORAGE
+            | vk::ImageUsageFlags::SAMPLED
+            | vk::ImageUsageFlags::TRANSFER_SRC;
+        let half = vk::Format::R16G16B16A16_SFLOAT;
+        let map = |name, format, which: Impostor| {
+            let edge = if which == config.impostor { config.map } else { UNUSED };
+            let extent = vk::Extent2D { width: edge, height: edge };
+            // Six layers alone would be a cube.
+            let layers = 6 * config.templates.max(2);
+            Image::new(gpu, &ImageDesc { layers, ..ImageDesc::new(name, extent, format, usage) })
+        };
+        let kind = match config.film.fresnel {
+            FilmFresnel::Exact => 0,
+            FilmFresnel::Schlick => 1,
+            FilmFresnel::Source => 2,
+        };
+        let spectral = u32::from(config.film.spectrum == Spectrum::Whole);
+        let film = [(0, spectral), (1, kind)];
+        let impostor =
+            |ids| Pipeline::compute(gpu, shader::BUBBLES_IMPOSTOR_COMP, &[(0, u32::from(ids))]);
+        let edge = vk::Extent2D { width: CORE + 2, height: CORE + 2 };
+        Ok(Self {
+            film: Pipeline::compute(gpu, shader::BUBBLES_FILM_COMP, &film)?,
+            impostors: [impostor(false)?, impostor(true)?],
+            core: Pipeline::compute(gpu, shader::BUBBLES_CORE_COMP, &[])?,
+            config: *config,
+            descriptors: Descriptors::new(gpu, 4)?,
+            table: Image::new(gpu, &ImageDesc::new("bubbles/film", FILM, half, usage))?,
+            bubbles: filled("bubbles/bubbles", bytemuck::cast_slice(&bubbles))?,
+            neighbours: filled("bubbles/neighbours", bytemuck::cast_slice(&neighbours))?,
+            maps: [
+                map("bubbles/distances", vk::Format::R32_SFLOAT, Impostor::Distance)?,
+                map("bubbles/ids", vk::Format::R32_UINT, Impostor::Ids)?,
+            ],
+            picture: Image::new(gpu, &ImageDesc::new("bubbles/core", edge, half, usage))?,
+        })
+    }
+
+    /// Makes all of it, for good.
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
+        gpu.begin_label(cmd, c"bubbles");
+        self.descriptors.reset(gpu)?;
+        let [distances, ids] = &self.maps;
+        let images = [&self.table, distances, ids, &self.picture];
+        // Whatever read them in a frame before this, where they are made again.
+        let first = images.map(|image| access::image(image, AFTER.discarded(), COMPUTE_WRITE));
+        gpu.barriers(cmd, &first, &[]);
+        let dispatch = |pipeline: &Pipeline, [width, height, layers]: [u32; 3]| {
+            let [x, y, _] = pipeline.local_size;
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+            unsafe {
+                gpu.device.cmd_dispatch(cmd, width.div_ceil(x), height.div_ceil(y), layers);
+            }
+        };
+        let table = [(0, Resource::storage(&self.table))];
+        self.descriptors.bind(gpu, cmd, &self.film, &table)?;
+        self.film.push(gpu, cmd, &FilmPush { index: self.config.film.index, most: MOST_FILM });
+        dispatch(&self.film, [FILM.width, FILM.height, 1]);
+        let maps = [
+            (0, Resource::storage(distances)),
+            (1, Resource::storage(ids)),
+            (2, Resource::buffer(&self.bubbles)),
+        ];
+        for (pipeline, map) in self.impostors.iter().zip(&self.maps) {
+            self.descriptors.bind(gpu, cmd, pipeline, &maps)?;
+            let size = map.extent.width;
+            pipeline.push(gpu, cmd, &ImpostorPush { count: self.config.bubbles, size });
+            dispatch(pipeline, [size, size, 6 * self.config.templates]);
+        }
+        let picture = [(0, Resource::storage(&self.picture))];
+        self.descriptors.bind(gpu, cmd, &self.core, &picture)?;
+        self.core.push(gpu, cmd, &CorePush { size: CORE, seed: self.config.seed });
+        dispatch(&self.core, [CORE + 2, CORE + 2, 1]);
+        gpu.barriers(cmd, &images.map(|image| access::image(image, COMPUTE_WRITE, AFTER)), &[]);
+        gpu.end_label(cmd);
+        Ok(())
+    }
+
+    /// What glsl/include/blob.glsl reads, and its constants.
+    pub fn resources(&self, gpu: &Gpu) -> [(u32, Resource); 4] {
+        let [distances, ids] =
+            self.maps.each_ref().map(|map| Resource::Sampled(map.view, gpu.samplers.nearest));
+        let [bubbles, neighbours] = [&self.bubbles, &self.neighbours].map(Resource::buffer);
+        [(8, bubbles), (9, distances), (10, ids), (13, neighbours)]
+    }
+
+    pub fn constants(config: &BubbleConfig) -> [(u32, u32); 3] {
+        let by_id = u32::from(config.impostor == Impostor::Ids);
+        [(30, by_id), (31, config.steps), (32, config.bubbles)]
+    }
+
+    /// Bytes of images and of buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        let [distances, ids] = &self.maps;
+        let images = self.table.size + distances.size + ids.size + self.picture.size;
+        (images, self.bubbles.size + self.neighbours.size)
+    }
+}

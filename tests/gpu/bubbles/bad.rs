@@ -1,0 +1,117 @@
+//! Bad blobs, looks and configurations: errors that name the field.
+
+use ash::vk;
+use whitewater::bubbles::{BubbleConfig, BubbleLook, Film};
+use whitewater::{Blobs, Config, Count, Error, Frame};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent, stream};
+use crate::support::scenes::Lens;
+use crate::support::spy;
+
+type Spoil = (&'static str, fn(&mut Blobs));
+type Look = (&'static str, fn(&mut BubbleLook));
+
+#[test]
+fn bad_blobs_are_errors_before_any_command() {
+    let mut gpu = Gpu::spied();
+    spy::install(&mut gpu);
+    let gpu = gpu;
+    let size = extent(32, 16);
+    let bubbles = BubbleConfig { templates: 1, bubbles: 8, ..BubbleConfig::new(16) };
+    let with = Config { bubbles: Some(bubbles), ..config(size) };
+    let mut rig = Rig::with_slots(&gpu, &with, 1);
+    let shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let (color, depth) = rig.scene(&shot);
+    let cloud = rig.particles(&shot);
+    let data = rig.stub.data(&[0; 36 * 16], vk::BufferUsageFlags::STORAGE_BUFFER);
+    let all = stream(&data, 0, 36);
+    let good = Blobs { turns: Some(all), ids: Some(all), ..Blobs::new(all, Count::Cpu(16)) };
+    let spoils: [Spoil; 7] = [
+        ("Frame.bubbles.count", |b| b.count = Count::Cpu(17)),
+        ("Frame.bubbles.balls", |b| b.balls.stride = 12),
+        ("Frame.bubbles.balls", |b| b.balls.stride = 18),
+        ("Frame.bubbles.balls", |b| b.balls.size = 100),
+        ("Frame.bubbles.turns", |b| b.turns.as_mut().expect("turns").offset = 2),
+        ("Frame.bubbles.ids", |b| b.ids.as_mut().expect("ids").stride = 400),
+        ("Frame.bubbles.count.offset", |b| {
+            b.count = Count::Gpu { buffer: b.balls.buffer, offset: 2 };
+        }),
+    ];
+    let looks: [Look; 9] = [
+        ("Settings.bubbles.film", |l| l.film = 0.0),
+        ("Settings.bubbles.film", |l| l.film = f32::NAN),
+        ("Settings.bubbles.variation", |l| l.variation = 1.5),
+        ("Settings.bubbles.drainage", |l| l.drainage = -0.1),
+        ("Settings.bubbles.core", |l| l.core = [0.9, 0.9]),
+        ("Settings.bubbles.albedo", |l| l.albedo[1] = 2.0),
+        ("Settings.bubbles.pattern", |l| l.pattern = -1.0),
+        ("Settings.bubbles.reflection", |l| l.reflection = f32::INFINITY),
+        ("Settings.bubbles.shininess", |l| l.shininess = 0.0),
+    ];
+    let cmd = rig.stub.begin(0);
+    let frame = shot.frame(color.host_image(), depth.host_image(), cloud.particles());
+    let mut refused = |field: &str, frame: &Frame<'_>| {
+        spy::reset();
+        // SAFETY: nothing of a bad frame may be used.
+        let result = unsafe { rig.renderer().record(cmd, frame) };
+        let commands: u32 = spy::COMMANDS.iter().map(|f| f.calls()).sum();
+        match result {
+            Err(Error::BadInput { field: found, why }) => {
+                assert!(
+                    found == field && !why.is_empty() && commands == 0,
+                    "{field}: {found}, {why}"
+                );
+            }
+            other => panic!("{field}: {:?}", other.map(|_| "no error")),
+        }
+    };
+    for (field, spoil) in spoils {
+        let mut bad = good;
+        spoil(&mut bad);
+        refused(field, &Frame { bubbles: Some(bad), ..frame });
+    }
+    for (field, spoil) in looks {
+        let mut settings = shot.settings.clone();
+        spoil(&mut settings.bubbles);
+        refused(field, &Frame { bubbles: Some(good), settings: &settings, ..frame });
+    }
+    // SAFETY: a good frame, though all of its blobs are none.
+    unsafe { rig.renderer().record(cmd, &Frame { bubbles: Some(good), ..frame }) }.expect("record");
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    // A renderer that knows of none.
+    let mut plain = Rig::with_slots(&gpu, &config(size), 1);
+    let cmd = plain.stub.begin(0);
+    // SAFETY: nothing of a bad frame may be used.
+    let result = unsafe { plain.renderer().record(cmd, &Frame { bubbles: Some(good), ..frame }) };
+    plain.stub.end(0);
+    plain.stub.wait(0);
+    assert!(matches!(result, Err(Error::BadInput { field: "Frame.bubbles", .. })));
+}
+
+#[test]
+fn bad_configurations_are_errors() {
+    let gpu = Gpu::shared();
+    let good = BubbleConfig::new(16);
+    let film = |index| Film { index, ..Film::default() };
+    for (field, bad) in [
+        ("Config.bubbles.max_blobs", BubbleConfig { max_blobs: 0, ..good }),
+        ("Config.bubbles.max_blobs", BubbleConfig { max_blobs: (1 << 20) + 1, ..good }),
+        ("Config.bubbles.templates", BubbleConfig { templates: 0, ..good }),
+        ("Config.bubbles.templates", BubbleConfig { templates: 33, ..good }),
+        ("Config.bubbles.bubbles", BubbleConfig { bubbles: 7, ..good }),
+        ("Config.bubbles.bubbles", BubbleConfig { bubbles: 257, ..good }),
+        ("Config.bubbles.map", BubbleConfig { map: 4, ..good }),
+        ("Config.bubbles.steps", BubbleConfig { steps: 0, ..good }),
+        ("Config.bubbles.layers", BubbleConfig { layers: 9, ..good }),
+        ("Config.bubbles.film.index", BubbleConfig { film: film(0.5), ..good }),
+    ] {
+        let config = Config { bubbles: Some(bad), ..config(extent(32, 16)) };
+        match Rig::try_new(&gpu, &config, 1) {
+            Err(Error::BadInput { field: found, .. }) => assert_eq!(found, field),
+            Err(other) => panic!("{field}: {other}"),
+            Ok(_) => panic!("{field}: no error for {bad:?}"),
+        }
+    }
+}

@@ -1,0 +1,271 @@
+//! What a ray meets of a blob by its impostors, against all of its bubbles.
+
+use glam::{DVec3, Quat, Vec3};
+use whitewater::Config;
+use whitewater::bubbles::{Blob, BubbleConfig, BubbleSort, Impostor};
+use whitewater::headless::Bubble;
+
+use crate::reference::bubbles::impostor::{first, into_blob};
+use crate::reference::{Image, is_surface};
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, Soaped, config, extent};
+use crate::support::scenes::{Lens, Random};
+
+const NONE: u32 = 0xffff_ffff;
+
+/// The hash by which a blob's template is chosen, and its seed (glsl/include/random.glsl).
+fn pcg(value: u32) -> u32 {
+    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
+}
+
+/// The templates of a configuration.
+fn templates(config: &BubbleConfig) -> Vec<Vec<[f32; 4]>> {
+    (0..config.templates).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles).bubbles).collect()
+}
+
+/// A turned blob at a place before the camera of tests.
+fn blob(shot: &Shot, at: [f32; 3], radius: f32, id: u32, random: &mut Random) -> Bubble {
+    let [x, y, z] = crate::support::scenes::world(&shot.camera, &[at])[0];
+    let axis = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 1.0).normalize();
+    let turn = Quat::from_axis_angle(axis, random.between(0.0, 6.0));
+    Bubble { ball: [x, y, z, radius], turn: turn.to_array(), id }
+}
+
+/// Each pixel's ray: where the eye is, and along what, an eye depth long.
+fn rays(shot: &Shot) -> (DVec3, Image<DVec3>) {
+    let view = shot.view(shot.size);
+    let back = view.view.inverse();
+    let (width, height) = (shot.size.width as usize, shot.size.height as usize);
+    let eye = back.transform_point3(DVec3::ZERO);
+    let along = Image::from_fn(width, height, |x, y| {
+        let slope = view.ray(x, y);
+        back.transform_vector3(slope)
+    });
+    (eye, along)
+}
+
+/// What a pixel sees of each blob by brute force: depth, blob, bubble; the nearest first.
+fn seen(shot: &Shot, bubbles: &BubbleConfig) -> Image<Vec<(f64, usize, usize)>> {
+    let templates = templates(bubbles);
+    let (eye, rays) = rays(shot);
+    rays.map(|along| {
+        let near = f64::from(crate::support::scenes::NEAR);
+        let mut hits: Vec<_> = shot
+            .blobs
+            .iter()
+            .enumerate()
+            .filter_map(|(i, blob)| {
+                let own = &templates[(pcg(blob.id) % bubbles.templates) as usize];
+                let (origin, direction) = into_blob(blob.ball, blob.turn, eye, *along);
+                let scale = f64::from(blob.ball[3]) / along.length();
+                let (t, bubble) = first(own, origin, direction, near / scale)?;
+                Some((t * scale, i, bubble))
+            })
+            .collect();
+        hits.sort_by(|a, b| a.0.total_cmp(&b.0));
+        hits
+    })
+}
+
+fn draw(gpu: &Gpu, shot: &Shot, bubbles: BubbleConfig) -> Soaped {
+    let config = Config { bubbles: Some(bubbles), ..config(shot.size) };
+    Rig::lit(gpu, &config, 1).draw(shot).soap.expect("bubble foam")
+}
+
+/// How often the first bubble is the right one, how often there is one where there is none or the other way round,
+/// of the pixels in which there is one; and the error of the depth where there is, in radii of the blob: mean, worst.
+fn errors(found: &Soaped, expected: &Image<Vec<(f64, usize, usize)>>, radius: f64) -> [f64; 4] {
+    let (mut right, mut missed, mut all) = (0, 0, 0);
+    let (mut sum, mut worst, mut met) = (0.0, 0.0_f64, 0);
+    for (i, hits) in expected.data.iter().enumerate() {
+        let depth = f64::from(found.depth.data[i]);
+        match hits.first() {
+            None => missed += usize::from(is_surface(depth)),
+            Some(&(there, _, bubble)) => {
+                all += 1;
+                if !is_surface(depth) {
+                    missed += 1;
+                    continue;
+                }
+                right += usize::from(found.layers[i][0] & 0xff == bubble as u32);
+                let off = (depth - there).abs() / radius;
+                (sum, worst, met) = (sum + off, worst.max(off), met + 1);
+            }
+        }
+    }
+    let part = |n: usize| n as f64 / f64::from(all);
+    [part(right), part(missed), sum / f64::from(met), worst]
+}
+
+/// With the source's sizes and steps, and how it goes with them (in docs/bubble-foam.md as a plot).
+#[test]
+fn impostors_find_the_first_bubble() {
+    let gpu = Gpu::shared();
+    let size = extent(160, 160);
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let mut random = Random(9);
+    let standard = BubbleConfig { templates: 4, ..BubbleConfig::new(1) };
+    let distance = BubbleConfig {
+        impostor: Impostor::Distance,
+        map: Impostor::Distance.map(),
+        steps: Impostor::Distance.steps(),
+        ..standard
+    };
+    let few = BubbleConfig { bubbles: 64, ..distance };
+    for (name, bubbles, bounds) in [
+        ("ids", standard, [0.9999, 0.0001, 1.0e-5]),
+        ("distance", distance, [0.0, 0.006, 0.002]),
+        ("distance, 64 bubbles", few, [0.0, 0.006, 0.002]),
+    ] {
+        for id in [0, 3, 8] {
+            shot.blobs = vec![blob(&shot, [0.0, 0.0, 3.0], 1.4, id, &mut random)];
+            let expected = seen(&shot, &bubbles);
+            let found = draw(&gpu, &shot, bubbles);
+            let [right, missed, mean, worst] = errors(&found, &expected, 1.4);
+            println!(
+                "{name}, {id}: right {right:.4}, missed {missed:.4}, depth {mean:.5} worst {worst:.3}"
+            );
+            assert!(
+                right >= bounds[0] || bounds[0] == 0.0,
+                "{name}: {right} of first bubbles are right"
+            );
+            assert!(missed <= bounds[1], "{name}: {missed} of the pixels are missed or too many");
+            assert!(mean <= bounds[2], "{name}: depth is off by {mean} radii in the mean");
+        }
+    }
+}
+
+/// A heap of blobs that lie over and in each other.
+fn heap(shot: &Shot, count: u32) -> Vec<Bubble> {
+    let mut random = Random(5);
+    (0..count)
+        .map(|id| {
+            let at =
+                [random.between(-1.5, 1.5), random.between(-1.0, 1.0), random.between(3.0, 7.0)];
+            let radius = random.between(0.2, 0.9);
+            blob(shot, at, radius, 7 * id + 1, &mut random)
+        })
+        .collect()
+}
+
+#[test]
+fn layers_are_the_nearest_blobs_in_order() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 80);
+    for lens in [Lens::Standard, Lens::ReversedInfinite, Lens::OffAxis, Lens::LeftHanded] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        shot.blobs = heap(&shot, 60);
+        let bubbles =
+            BubbleConfig { templates: 3, bubbles: 64, layers: 4, ..BubbleConfig::new(64) };
+        let expected = seen(&shot, &bubbles);
+        let found = draw(&gpu, &shot, bubbles);
+        let (mut same, mut all) = (0, 0);
+        for (layers, hits) in found.layers.iter().zip(&expected.data) {
+            for (k, hit) in hits.iter().take(4).enumerate() {
+                // Behind what is opaque none is asked for.
+                all += usize::from(layers[k] != NONE);
+                same += usize::from(layers[k] != NONE && (layers[k] >> 8) as usize == hit.1);
+            }
+        }
+        let part = same as f64 / f64::from(all as u32);
+        println!("{lens:?}: {part:.4} of {all} layers are the right blob");
+        assert!(all > 5000, "{all} layers");
+        assert!(part > 0.99, "{lens:?}: {part} of the layers are the right blob");
+    }
+}
+
+#[test]
+fn the_order_of_blobs_is_no_matter() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 80);
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    shot.blobs = heap(&shot, 60);
+    let bubbles = BubbleConfig { templates: 3, bubbles: 64, ..BubbleConfig::new(64) };
+    let one = draw(&gpu, &shot, bubbles);
+    let mut random = Random(3);
+    let order = random.order(shot.blobs.len());
+    shot.blobs = order.iter().map(|i| shot.blobs[*i]).collect();
+    let other = draw(&gpu, &shot, bubbles);
+    assert!(one.depth.data.iter().any(|z| is_surface((*z).into())));
+    assert_eq!(one.depth.data, other.depth.data);
+    assert_eq!(one.color.data, other.color.data);
+}
+
+#[test]
+fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let bubbles = BubbleConfig { templates: 2, bubbles: 64, ..BubbleConfig::new(16) };
+    let config = Config { bubbles: Some(bubbles), ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let none = rig.draw(&shot);
+    assert_eq!(none.output.data, shot.color);
+    let mut random = Random(2);
+    let good = blob(&shot, [0.0, 0.0, 4.0], 0.5, 1, &mut random);
+    let [x, y, z, r] = good.ball;
+    let bad = [
+        [f32::NAN, y, z, r],
+        [x, f32::INFINITY, z, r],
+        [x, y, z, 0.0],
+        [x, y, z, -1.0],
+        [x, y, z, f32::NAN],
+    ];
+    shot.blobs = bad.map(|ball| Bubble { ball, ..good }).to_vec();
+    // Behind the eye, and beside the view.
+    shot.blobs.push(blob(&shot, [0.0, 0.0, -4.0], 0.5, 1, &mut random));
+    shot.blobs.push(blob(&shot, [30.0, 0.0, 4.0], 0.5, 1, &mut random));
+    assert_eq!(rig.draw(&shot).output.data, shot.color);
+    // A turn that is none is none.
+    shot.blobs = vec![Bubble { turn: [0.0; 4], ..good }];
+    let still = rig.draw(&shot);
+    shot.blobs = vec![Bubble { turn: [0.0, 0.0, 0.0, 2.0], ..good }];
+    assert_eq!(rig.draw(&shot).output.data, still.output.data);
+    assert_ne!(still.output.data, shot.color);
+    // The scene before it hides it.
+    shot.scene_depth(|x, _| (x < 32).then_some(2.0));
+    let half = rig.draw(&shot).soap.expect("bubble foam");
+    for (i, z) in half.depth.data.iter().enumerate() {
+        assert!(i % 64 >= 32 || !is_surface((*z).into()), "a blob before the scene at {i}");
+    }
+    assert!(half.depth.data.iter().any(|z| is_surface((*z).into())));
+}
+
+/// Opacities of draws are of half precision.
+#[test]
+fn billboards_find_what_the_tiles_do() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 80);
+    for (lens, layers) in [(Lens::Standard, 1), (Lens::ReversedInfinite, 3), (Lens::LeftHanded, 4)]
+    {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        shot.blobs = heap(&shot, 60);
+        let tiles = BubbleConfig { templates: 3, bubbles: 64, layers, ..BubbleConfig::new(64) };
+        let one = draw(&gpu, &shot, tiles);
+        let other = draw(&gpu, &shot, BubbleConfig { sort: BubbleSort::Peel, ..tiles });
+        let (mut differ, mut all, mut off) = (0, 0, 0);
+        for (a, b) in one.layers.iter().zip(&other.layers) {
+            let last = layers as usize;
+            for k in 0..last {
+                // Tiles end where nothing can be seen any more.
+                all += usize::from(a[k] != NONE);
+                differ += usize::from(a[k] != NONE && a[k] != b[k]);
+            }
+            // They look no farther either where all layers are there and leave nothing of what is behind.
+            let [x, y] = [a, b].map(|words| f32::from_bits(words[last]));
+            let ended = a[last - 1] != NONE && y > x;
+            assert!((x - y).abs() < 1.0 / 1024.0 || ended, "opacity {x} and {y}");
+        }
+        for (a, b) in one.color.data.iter().zip(&other.color.data) {
+            // What is behind may still shine through by a 256th; colours are of half precision.
+            off += usize::from((0..4).any(|c| (a[c] - b[c]).abs() > (1.0 + a[c]) / 200.0));
+        }
+        assert!(off <= 2 * differ, "{off} pixels differ, {differ} layers");
+        // Equal depths, and what two compilations of one shader round differently at an edge.
+        let part = differ as f64 / f64::from(all as u32);
+        println!("{lens:?}: {differ} of {all} layers differ");
+        assert!(all > 1000 && part < 0.002, "{lens:?}: {differ} of {all} layers differ");
+    }
+}

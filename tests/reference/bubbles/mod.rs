@@ -1,0 +1,5 @@
+//! Bubble foam (Huszár, Szécsi): the film, walls and blobs by their equations and by brute force.
+
+pub mod film;
+pub mod impostor;
+pub mod wall;

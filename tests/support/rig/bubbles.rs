@@ -1,0 +1,62 @@
+//! Bubble foam as the host has it, and what a frame gave of it.
+
+use ash::vk;
+use whitewater::headless::Bubble;
+use whitewater::{Blobs, Count, Stream};
+
+use super::{Rig, Shot, stream};
+use crate::reference::Image;
+use crate::support::host::{Data, HOST_WRITE};
+
+/// What a frame with bubble foam gave besides.
+#[derive(Clone)]
+pub struct Soaped {
+    /// Of the frontmost.
+    pub depth: Image<f32>,
+    /// Premultiplied, and how much it covers.
+    pub color: Image<[f32; 4]>,
+    /// Reflectance of films: cosines across, thicknesses down.
+    pub film: Image<[f32; 4]>,
+    /// Of each pixel its layers, and the most opacity.
+    pub layers: Vec<Vec<u32>>,
+}
+
+/// What was uploaded, and how many.
+pub struct Foamed(Data, u32);
+
+impl Rig<'_> {
+    /// A buffer of a shot's blobs.
+    pub fn blobs(&self, shot: &Shot) -> Foamed {
+        let mut bytes = bytemuck::cast_slice(&shot.blobs).to_vec();
+        bytes.resize(bytes.len().max(size_of::<Bubble>()), 0);
+        let data = self.stub.data(&bytes, vk::BufferUsageFlags::STORAGE_BUFFER);
+        Foamed(data, shot.blobs.len() as u32)
+    }
+
+    /// A frame's layers of blobs.
+    pub fn soap_layers(
+        &self,
+        (buffer, words): (vk::Buffer, u32),
+        frame: vk::Extent2D,
+    ) -> Vec<Vec<u32>> {
+        let size = 4 * u64::from(words * frame.width * frame.height);
+        let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, buffer, &back));
+        let all: &[u32] = bytemuck::cast_slice(&back.bytes()[..size as usize]);
+        all.chunks_exact(words as usize).map(<[u32]>::to_vec).collect()
+    }
+}
+
+impl Foamed {
+    pub fn streams(&self) -> Blobs {
+        let stride = size_of::<Bubble>() as u32;
+        let at = |offset| -> Stream { stream(&self.0, offset, stride) };
+        Blobs {
+            turns: Some(at(16)),
+            ids: Some(at(32)),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..Blobs::new(at(0), Count::Cpu(self.1))
+        }
+    }
+}
