@@ -34,6 +34,42 @@ pub const BUBBLES_FILM_COMP: Shader = Shader {
     bindings: &[(0, vk::DescriptorType::STORAGE_IMAGE), ],
     members: &[("Push", "index", 0), ("Push", "most", 4), ],
 };
+/// `bubbles/heap_move.comp`
+pub const BUBBLES_HEAP_MOVE_COMP: Shader = Shader {
+    name: "bubbles/heap_move.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/bubbles.heap_move.comp.spv"))); &CODE.0 },
+    push_size: 120,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::STORAGE_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), (9, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "gravity", 0), ("Push", "pair", 16), ("Push", "damping", 32), ("Push", "solid", 48), ("Push", "water", 64), ("Push", "field", 80), ("Push", "field_size", 96), ("Push", "blobs", 112), ("Push", "buckets", 116), ("Field", "field", 0), ("Heaped", "ball", 0), ("Heaped", "drift", 16), ("Heaped", "spin", 32), ("Heap", "heaped", 0), ("Buckets", "buckets", 0), ("Solid", "place", 0), ("Solid", "size", 16), ("Solid", "turn", 32), ("Solids", "solids", 0), ("Turns", "turns", 0), ("Balls", "balls", 0), ("Drifts", "drifts", 0), ("Spins", "spins", 0), ],
+};
+/// `bubbles/heap_order.comp`
+pub const BUBBLES_HEAP_ORDER_COMP: Shader = Shader {
+    name: "bubbles/heap_order.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/bubbles.heap_order.comp.spv"))); &CODE.0 },
+    push_size: 120,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "gravity", 0), ("Push", "pair", 16), ("Push", "damping", 32), ("Push", "solid", 48), ("Push", "water", 64), ("Push", "field", 80), ("Push", "field_size", 96), ("Push", "blobs", 112), ("Push", "buckets", 116), ("Buckets", "buckets", 0), ("Order", "order", 0), ("Ids", "ids", 0), ("Heaped", "ball", 0), ("Heaped", "drift", 16), ("Heaped", "spin", 32), ("Heap", "heaped", 0), ("Balls", "balls", 0), ("Drifts", "drifts", 0), ("Spins", "spins", 0), ],
+};
+/// `bubbles/heap_place.comp`
+pub const BUBBLES_HEAP_PLACE_COMP: Shader = Shader {
+    name: "bubbles/heap_place.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/bubbles.heap_place.comp.spv"))); &CODE.0 },
+    push_size: 120,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "gravity", 0), ("Push", "pair", 16), ("Push", "damping", 32), ("Push", "solid", 48), ("Push", "water", 64), ("Push", "field", 80), ("Push", "field_size", 96), ("Push", "blobs", 112), ("Push", "buckets", 116), ("Buckets", "buckets", 0), ("Balls", "balls", 0), ("Order", "order", 0), ],
+};
+/// `bubbles/heap_set.comp`
+pub const BUBBLES_HEAP_SET_COMP: Shader = Shader {
+    name: "bubbles/heap_set.comp",
+    code: { const CODE: &Aligned<[u8]> = &Aligned(*include_bytes!(concat!(env!("OUT_DIR"), "/bubbles.heap_set.comp.spv"))); &CODE.0 },
+    push_size: 36,
+    local_size: [64, 1, 1],
+    bindings: &[(0, vk::DescriptorType::STORAGE_BUFFER), (1, vk::DescriptorType::STORAGE_BUFFER), (2, vk::DescriptorType::STORAGE_BUFFER), (3, vk::DescriptorType::STORAGE_BUFFER), (4, vk::DescriptorType::STORAGE_BUFFER), (5, vk::DescriptorType::STORAGE_BUFFER), (6, vk::DescriptorType::STORAGE_BUFFER), (7, vk::DescriptorType::STORAGE_BUFFER), (8, vk::DescriptorType::STORAGE_BUFFER), ],
+    members: &[("Push", "ball_word", 0), ("Push", "ball_stride", 4), ("Push", "turn_word", 8), ("Push", "turn_stride", 12), ("Push", "id_word", 16), ("Push", "id_stride", 20), ("Push", "drift_word", 24), ("Push", "drift_stride", 28), ("Push", "blobs", 32), ("HostBalls", "host_balls", 0), ("HostTurns", "host_turns", 0), ("HostDrifts", "host_drifts", 0), ("Balls", "balls", 0), ("Turns", "turns", 0), ("Ids", "ids", 0), ("HostIds", "host_ids", 0), ("Drifts", "drifts", 0), ("Spins", "spins", 0), ],
+};
 /// `bubbles/impostor.comp`
 pub const BUBBLES_IMPOSTOR_COMP: Shader = Shader {
     name: "bubbles/impostor.comp",

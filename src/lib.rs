@@ -21,7 +21,8 @@
 //!
 //! What a body of water remembers, its foam, is a [`State`] of its own, which views share:
 //! [`State::record_step`] once per step of the simulation. Spray, foam and bubbles that are particles of their own can
-//! be made of the water's by a [`foam::Generator`], likewise once per step.
+//! be made of the water's by a [`foam::Generator`], and blobs of bubble foam moved by a [`bubbles::Heap`], likewise once
+//! per step.
 //!
 //! # What `record` takes
 //!

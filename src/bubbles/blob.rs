@@ -164,7 +164,7 @@ mod tests {
         assert_eq!(first, FIRST);
     }
 
-    const FIRST: [u32; 4] = [0, 0, 0, 0];
+    const FIRST: [u32; 4] = [3_186_815_588, 1_053_716_087, 1_054_842_924, 1_051_978_301];
 
     #[test]
     fn films_meet_near_120_degrees() {

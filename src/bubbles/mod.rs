@@ -3,6 +3,7 @@
 
 mod billboards;
 mod blob;
+mod heap;
 mod lists;
 mod peel;
 pub mod settings;
@@ -23,6 +24,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::{Recording, WaterLayers};
 pub use blob::Blob;
+pub use heap::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
 pub(crate) use lists::buffers_of;
 use settings::MOST_FILM;
 pub use settings::{BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, Impostor, Spectrum};

@@ -2,5 +2,6 @@
 
 mod bad;
 mod film;
+mod heap;
 mod impostor;
 mod wall;

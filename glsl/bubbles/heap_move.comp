@@ -1,0 +1,182 @@
+#version 460
+// Pass `heap`, move: what acts on a blob, and where it goes (Huszar, Szecsi, Sec. 6: neighbours pull each other when
+// near and push when nearer, gravity, solids; on the CPU there). Forces come from a potential, so that a heap left to
+// itself has less energy from step to step; they grow and end without a jump.
+// Reads: heaped, buckets, solids, field. Writes: balls, turns, drifts, spins.
+
+#include "heap.glsl"
+#include "solid.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, std430) writeonly buffer Balls { vec4 balls[]; };
+layout(set = 0, binding = 1, std430) buffer Turns { vec4 turns[]; };
+layout(set = 0, binding = 3, std430) writeonly buffer Drifts { vec4 drifts[]; };
+layout(set = 0, binding = 4, std430) writeonly buffer Spins { vec4 spins[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Buckets { uint buckets[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Heap { Heaped heaped[]; };
+layout(set = 0, binding = 8, std430) readonly buffer Solids { Solid solids[]; };
+layout(set = 0, binding = 9, std430) readonly buffer Field { float field[]; };
+
+// Of a bucket no more are looked at: blobs heaped on one spot must not hang a device.
+const uint MOST_IN_BUCKET = 128u;
+// Of a ball's moment of inertia: 1 / (2/5).
+const float ROUND = 2.5;
+
+struct Pushed {
+    vec3 speed; // change of velocity a second
+    vec3 spin;
+};
+
+vec3 unturned(vec4 q, vec3 v) {
+    return v + 2.0 * cross(-q.xyz, cross(-q.xyz, v) + q.w * v);
+}
+
+vec3 turned(vec4 q, vec3 v) {
+    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
+}
+
+// What another blob does.
+Pushed pushed_by(Heaped own, Heaped other) {
+    Pushed none = Pushed(vec3(0.0), vec3(0.0));
+    vec3 to = other.ball.xyz - own.ball.xyz;
+    float sum = own.ball.w + other.ball.w;
+    float far = length(to);
+    float rest = push.pair.x * sum;
+    float reach = push.pair.y * sum;
+    if (far >= reach) {
+        return none;
+    }
+    // Of two in one place the one with the lower number goes up.
+    bool lower = floatBitsToUint(own.drift.w) < floatBitsToUint(other.drift.w);
+    vec3 n = far > 1.0e-6 * sum ? to / far : vec3(0.0, lower ? -1.0 : 1.0, 0.0);
+    float part = (reach - far) / (reach - rest);
+    float pull = 4.0 * part * (1.0 - part) * push.pair.w;
+    float along = far < rest ? push.pair.z * (far - rest) : pull;
+    vec3 slip = other.drift.xyz - own.drift.xyz
+        - cross(other.spin.xyz, other.ball.w * n) - cross(own.spin.xyz, own.ball.w * n);
+    float parting = dot(slip, n);
+    float near = min(part, 1.0);
+    vec3 across = push.damping.y * near * (slip - parting * n);
+    // The same force on both: by their masses.
+    float a = own.ball.w * own.ball.w * own.ball.w;
+    float b = other.ball.w * other.ball.w * other.ball.w;
+    float share = 2.0 * b / (a + b);
+    return Pushed(share * ((along + push.damping.x * near * parting) * n + across),
+                  share * ROUND / own.ball.w * cross(n, across));
+}
+
+// Distance from a solid, and the way out of it.
+vec4 solid_at(Solid solid, vec3 place) {
+    if (solid.place.w < 0.5) {
+        return vec4(solid.place.xyz, dot(solid.place.xyz, place) - solid.size.w);
+    }
+    vec3 q = unturned(solid.turn, place - solid.place.xyz);
+    vec3 d = abs(q) - solid.size.xyz;
+    vec3 out_ = max(d, 0.0);
+    float beside = length(out_);
+    float most = max(d.x, max(d.y, d.z));
+    vec3 face = vec3(d.x >= most, d.x < most && d.y >= most, d.x < most && d.y < most);
+    vec3 n = sign(q) * (beside > 0.0 ? out_ / beside : face);
+    return vec4(turned(solid.turn, n), beside > 0.0 ? beside : most);
+}
+
+// The same of the field: between its points, and how it grows; beyond its box nothing is there.
+vec4 field_at(vec3 place) {
+    vec3 at = (place - push.field.xyz) / push.field.w;
+    vec3 last = vec3(push.field_size.xyz) - 1.0;
+    if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, last))) {
+        return vec4(0.0, 1.0, 0.0, 1.0e10);
+    }
+    uvec3 base = uvec3(min(at, last - 1.0));
+    vec3 f = at - vec3(base);
+    vec4 sum = vec4(0.0);
+    for (uint i = 0u; i < 8u; ++i) {
+        uvec3 side = uvec3(i & 1u, i >> 1 & 1u, i >> 2);
+        uvec3 point = base + side;
+        float d = field[(point.z * push.field_size.y + point.y) * push.field_size.x + point.x];
+        vec3 part = mix(1.0 - f, f, vec3(side));
+        vec3 grows = 2.0 * vec3(side) - 1.0;
+        sum.w += d * part.x * part.y * part.z;
+        sum.xyz += d * grows * vec3(part.y * part.z, part.x * part.z, part.x * part.y);
+    }
+    float steep = length(sum.xyz);
+    return vec4(steep > 0.0 ? sum.xyz / steep : vec3(0.0, 1.0, 0.0), sum.w);
+}
+
+// A solid pushes as it is pressed, and holds what slides by as much.
+void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
+    float deep = push.solid.x * ball.w - solid.w;
+    if (deep <= 0.0) {
+        return;
+    }
+    vec3 n = solid.xyz;
+    float dt = push.solid.w;
+    float parting = dot(speed, n);
+    float gained = max(dt * (push.solid.y * deep - push.damping.z * parting), 0.0);
+    speed += gained * n;
+    vec3 slip = speed - dot(speed, n) * n + cross(spin, -ball.w * n);
+    slip -= dot(slip, n) * n;
+    float fast = length(slip);
+    // What stops it where it touches: it rolls then.
+    float held = min(push.damping.w * gained, fast / (1.0 + ROUND));
+    vec3 change = fast > 0.0 ? -held / fast * slip : vec3(0.0);
+    speed += change;
+    spin += ROUND / ball.w * cross(-n, change);
+}
+
+void main() {
+    uint k = gl_GlobalInvocationID.x;
+    if (k >= push.blobs) {
+        return;
+    }
+    Heaped own = heaped[k];
+    // What is no blob stays where it is.
+    if (own.ball.w <= 0.0) {
+        return;
+    }
+    ivec3 cell = heap_cell(own.ball.xyz);
+    Pushed sum = Pushed(vec3(0.0), vec3(0.0));
+    for (int c = 0; c < 27; ++c) {
+        ivec3 beside = cell + ivec3(c % 3, c / 3 % 3, c / 9) - 1;
+        uint bucket = heap_bucket(beside);
+        uint j = bucket > 0u ? buckets[bucket - 1u] : 0u;
+        uint end = min(buckets[bucket], j + MOST_IN_BUCKET);
+        while (j < end) {
+            Heaped other = heaped[j];
+            // Cells share buckets.
+            bool there = j != k && other.ball.w > 0.0 && all(equal(heap_cell(other.ball.xyz), beside));
+            while (there) {
+                Pushed by = pushed_by(own, other);
+                sum.speed += by.speed;
+                sum.spin += by.spin;
+                there = false;
+            }
+            ++j;
+        }
+    }
+    float dt = push.solid.w;
+    float wet = clamp((push.water.x - own.ball.y + own.ball.w) / (2.0 * own.ball.w), 0.0, 1.0);
+    vec3 pull = push.gravity.xyz * (1.0 - wet / push.water.y);
+    vec3 speed = own.drift.xyz + dt * (sum.speed + pull);
+    // Water holds it more than air does.
+    speed /= 1.0 + dt * mix(push.gravity.w, 8.0, wet);
+    vec3 spin = (own.spin.xyz + dt * sum.spin) / (1.0 + dt * push.gravity.w);
+    for (uint i = 0u; i < push.field_size.w; ++i) {
+        touch(solid_at(solids[i], own.ball.xyz), own.ball, speed, spin);
+    }
+    if (push.field_size.x > 1u) {
+        touch(field_at(own.ball.xyz), own.ball, speed, spin);
+    }
+    // No farther in a step than would miss what it passes.
+    float most = own.ball.w / dt;
+    speed *= min(most / max(length(speed), 1.0e-20), 1.0);
+    uint index = floatBitsToUint(own.spin.w);
+    vec4 turn = turns[index];
+    vec3 half_ = 0.5 * dt * spin;
+    turn += vec4(turn.w * half_ + cross(half_, turn.xyz), -dot(half_, turn.xyz));
+    balls[index] = vec4(own.ball.xyz + dt * speed, own.ball.w);
+    turns[index] = normalize(turn);
+    drifts[index] = vec4(speed, 0.0);
+    spins[index] = vec4(spin, 0.0);
+}

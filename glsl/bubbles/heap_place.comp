@@ -1,0 +1,25 @@
+#version 460
+// Pass `heap`, grid: how many blobs a bucket of cells has, and which. Between the two goes the numbers become sums of
+// all before each, after them those up to each.
+// Reads: balls. Writes: buckets, order.
+
+#include "heap.glsl"
+
+layout(local_size_x = 64) in;
+// 0: numbers, 1: which.
+layout(constant_id = 0) const uint GO = 0;
+
+layout(set = 0, binding = 0, std430) readonly buffer Balls { vec4 balls[]; };
+layout(set = 0, binding = 5, std430) buffer Buckets { uint buckets[]; };
+layout(set = 0, binding = 6, std430) writeonly buffer Order { uint order[]; };
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.blobs) {
+        return;
+    }
+    uint at = atomicAdd(buckets[heap_bucket(heap_cell(balls[i].xyz))], 1u);
+    if (GO == 1u) {
+        order[at] = i;
+    }
+}

@@ -1,0 +1,335 @@
+//! Blobs that move, against the twin, and what has to hold of a heap whatever happens.
+
+use ash::vk;
+use glam::{DVec3, Vec3};
+use whitewater::bubbles::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
+use whitewater::headless::Bubble;
+use whitewater::{Blobs, Count, Error, Slot};
+
+use crate::reference::bubbles::heap::{self as twin, Blob, Plane};
+use crate::support::device::Gpu;
+use crate::support::host::{HOST_WRITE, Stub};
+use crate::support::rig::stream;
+use crate::support::scenes::Random;
+
+/// A heap in a host.
+struct Running {
+    stub: Stub,
+    heap: Option<Heap>,
+    count: usize,
+}
+
+impl Running {
+    fn new(
+        gpu: &Gpu,
+        blobs: &[Bubble],
+        velocities: &[[f32; 3]],
+        field: Option<&DistanceField>,
+    ) -> Self {
+        let config = HeapConfig::new(blobs.len().max(1) as u32);
+        let stub = Stub::new(gpu, 1);
+        // SAFETY: the device outlives this.
+        let mut heap = unsafe { Heap::new(&gpu.host(1), &config, field) }.expect("a heap");
+        let mut bytes = bytemuck::cast_slice(blobs).to_vec();
+        bytes.resize(bytes.len().max(64), 0);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let data = stub.data(&bytes, usage);
+        let mut speeds: Vec<[f32; 3]> = velocities.to_vec();
+        speeds.resize(blobs.len().max(4), [0.0; 3]);
+        let speeds = stub.data(bytemuck::cast_slice(&speeds), usage);
+        let all = |offset| stream(&data, offset, size_of::<Bubble>() as u32);
+        let set = Blobs {
+            turns: Some(all(16)),
+            ids: Some(all(32)),
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..Blobs::new(all(0), Count::Cpu(blobs.len() as u32))
+        };
+        let largest = blobs.iter().map(|b| b.ball[3]).fold(0.01, f32::max);
+        let drifts = stream(&speeds, 0, 12);
+        // SAFETY: submitted at once, the buffers live to its end.
+        stub.run(|cmd| unsafe { heap.record_set(cmd, Slot(0), &set, Some(&drifts), largest) })
+            .expect("set");
+        Self { stub, heap: Some(heap), count: blobs.len() }
+    }
+
+    fn step(&mut self, dt: f32, settings: &HeapSettings, solids: &[Solid]) -> Result<(), Error> {
+        let heap = self.heap.as_mut().expect("only drop takes it");
+        let step = HeapStep { slot: Slot(0), dt, settings, solids };
+        // SAFETY: submitted at once.
+        self.stub.run(|cmd| unsafe { heap.record_step(cmd, &step) })
+    }
+
+    fn read(&self, from: vk::Buffer) -> Vec<[f32; 4]> {
+        let bytes = 16 * self.count.max(1);
+        let back = self.stub.sized(bytes as u64, vk::BufferUsageFlags::TRANSFER_DST);
+        self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, from, &back));
+        bytemuck::cast_slice(&back.bytes()[..16 * self.count]).to_vec()
+    }
+
+    fn blobs(&self) -> Vec<Blob> {
+        let heap = self.heap.as_ref().expect("only drop takes it");
+        let balls = self.read(heap.blobs().balls.buffer);
+        let (speeds, spins) = (self.read(heap.velocities().buffer), self.read(heap.spins().buffer));
+        let vector = |v: &[f32; 4]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
+        let one = |i: usize| Blob {
+            place: vector(&balls[i]),
+            radius: balls[i][3].into(),
+            speed: vector(&speeds[i]),
+            spin: vector(&spins[i]),
+        };
+        (0..self.count).map(one).collect()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if let Some(heap) = self.heap.take() {
+            // SAFETY: all work was waited for.
+            unsafe { heap.destroy() };
+        }
+    }
+}
+
+/// Blobs in a box, some in each other.
+fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bubble> {
+    let mut random = Random(seed);
+    (0..count)
+        .map(|id| {
+            let [x, y, z] = size.map(|edge| random.between(0.0, edge));
+            let r = random.between(radius[0], radius[1]);
+            Bubble {
+                ball: [x - 0.5 * size[0], y + r, z - 0.5 * size[2], r],
+                turn: [0.0, 0.0, 0.0, 1.0],
+                id: 3 * id,
+            }
+        })
+        .collect()
+}
+
+const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
+
+/// Against all pairs: every step from where the GPU was, so that errors don't grow. A velocity is a sum of some twenty
+/// forces, each of some fifty roundings of its largest term, of which damping's and the push's may be as large as the
+/// stiffness times a radius: 64 u of that, times dt. Places: dt of that, and a rounding of their own.
+#[test]
+fn a_step_is_the_twins() {
+    let gpu = Gpu::shared();
+    let settings = HeapSettings { substeps: 1, ..HeapSettings::default() };
+    let mut random = Random(4);
+    let blobs = cloud(120, [1.0, 1.2, 1.0], [0.05, 0.2], 8);
+    let speeds: Vec<[f32; 3]> =
+        blobs.iter().map(|_| [0, 1, 2].map(|_| random.between(-1.0, 1.0))).collect();
+    let mut running = Running::new(&gpu, &blobs, &speeds, None);
+    let slanted = Vec3::new(-0.6, 0.8, 0.0);
+    let solids = [FLOOR, Solid::Plane { normal: slanted.to_array(), distance: -0.3 }];
+    let planes: [Plane; 2] = [(DVec3::Y, 0.0), (slanted.as_dvec3(), f64::from(-0.3_f32))];
+    let dt = 1.0 / 240.0_f32;
+    let u = crate::support::tolerance::U;
+    let (mut worst, mut touched) = (0.0_f64, 0);
+    for _ in 0..12 {
+        let before = running.blobs();
+        running.step(dt, &settings, &solids).expect("a step");
+        let expected = twin::part(&before, &planes, &settings, dt.into());
+        for ((found, expected), old) in running.blobs().iter().zip(&expected).zip(&before) {
+            let push = f64::from(settings.solidity) * old.radius;
+            let bound = 64.0 * u * (push * f64::from(dt) + 20.0);
+            let off = found.speed.distance(expected.speed);
+            worst = worst.max(off / bound);
+            assert!(off < bound, "{found:?}, {expected:?}");
+            assert!(
+                found.spin.distance(expected.spin) < 8.0 * bound / old.radius,
+                "{found:?}, {expected:?}"
+            );
+            let bound = bound * f64::from(dt) + 4.0 * u * expected.place.length();
+            assert!(found.place.distance(expected.place) < bound, "{found:?}, {expected:?}");
+            touched += usize::from(expected.speed.distance(old.speed) > 0.1);
+        }
+    }
+    println!("speeds: worst {worst:.3} of the bound, {touched} pushed");
+    assert!(touched > 200, "only {touched} were pushed");
+}
+
+#[test]
+fn a_heap_comes_to_rest_and_loses_energy() {
+    let gpu = Gpu::shared();
+    let settings = HeapSettings::default();
+    let blobs = cloud(400, [1.2, 2.0, 1.2], [0.06, 0.12], 5);
+    let mut running = Running::new(&gpu, &blobs, &[], None);
+    let wall = |normal: [f32; 3]| Solid::Plane { normal, distance: -0.7 };
+    let solids = [
+        FLOOR,
+        wall([1.0, 0.0, 0.0]),
+        wall([-1.0, 0.0, 0.0]),
+        wall([0.0, 0.0, 1.0]),
+        wall([0.0, 0.0, -1.0]),
+    ];
+    let planes: Vec<Plane> = [DVec3::Y, DVec3::X, -DVec3::X, DVec3::Z, -DVec3::Z]
+        .iter()
+        .enumerate()
+        .map(|(i, n)| (*n, if i == 0 { 0.0 } else { f64::from(-0.7_f32) }))
+        .collect();
+    let mut last = twin::energy(&running.blobs(), &planes, &settings);
+    let (first, mut rises) = (last, 0.0_f64);
+    for _ in 0..360 {
+        running.step(1.0 / 60.0, &settings, &solids).expect("a step");
+        let blobs = running.blobs();
+        assert!(
+            blobs.iter().all(|b| b.place.is_finite() && b.speed.length() < 30.0),
+            "it explodes"
+        );
+        let energy = twin::energy(&blobs, &planes, &settings);
+        rises = rises.max(energy - last);
+        last = energy;
+    }
+    let blobs = running.blobs();
+    let fastest = blobs.iter().map(|b| b.speed.length()).fold(0.0, f64::max);
+    let deepest =
+        blobs.iter().map(|b| (0.85 * b.radius - b.place.y) / b.radius).fold(0.0, f64::max);
+    println!(
+        "energy {first:.4} to {last:.4}, largest rise {rises:.2e}; fastest {fastest:.3} m/s, deepest {deepest:.3}"
+    );
+    assert!(rises <= 1.0e-4 * first.abs(), "energy rises by {rises} of {first}");
+    assert!(fastest < 0.1, "{fastest} m/s after six seconds");
+    assert!(deepest < 0.2, "one has sunk by {deepest} radii into the floor");
+}
+
+#[test]
+fn the_order_of_blobs_is_no_matter_to_a_heap() {
+    let gpu = Gpu::shared();
+    let settings = HeapSettings::default();
+    let blobs = cloud(300, [0.8, 1.0, 0.8], [0.05, 0.1], 6);
+    let mut random = Random(2);
+    let order = random.order(blobs.len());
+    let turned: Vec<Bubble> = order.iter().map(|i| blobs[*i]).collect();
+    let mut both = [&blobs, &turned].map(|b| Running::new(&gpu, b, &[], None));
+    for _ in 0..20 {
+        for running in &mut both {
+            running.step(1.0 / 60.0, &settings, &[FLOOR]).expect("a step");
+        }
+    }
+    let [one, other] = both.each_ref().map(Running::blobs);
+    for (i, from) in order.iter().enumerate() {
+        assert_eq!(one[*from], other[i], "blob {from}");
+    }
+}
+
+/// A block slides down a slope that is steeper than the friction holds and lies on one that is not.
+#[test]
+fn blobs_slide_down_a_slope_that_is_steep() {
+    let gpu = Gpu::shared();
+    let settings = HeapSettings { cohesion: 0.0, drag: 0.0, ..HeapSettings::default() };
+    let run = |steep: f32, friction: f32| {
+        let (sine, cosine) = steep.to_radians().sin_cos();
+        let slope = Solid::Plane { normal: [sine, cosine, 0.0], distance: 0.0 };
+        let r = 0.1;
+        let ball = [sine * 0.085, cosine * 0.085, 0.0, r];
+        let blob = Bubble { ball, turn: [0.0, 0.0, 0.0, 1.0], id: 0 };
+        let mut running = Running::new(&gpu, &[blob], &[], None);
+        let settings = HeapSettings { friction, ..settings };
+        for _ in 0..60 {
+            running.step(1.0 / 60.0, &settings, &[slope]).expect("a step");
+        }
+        let b = running.blobs()[0];
+        (b.speed.dot(DVec3::new(cosine.into(), f64::from(-sine), 0.0)), b.spin.z)
+    };
+    let g = 9.81;
+    // Without friction it slides: g sin; with much it rolls: 5/7 of that, at v = w r.
+    let (free, spin) = run(30.0, 0.0);
+    assert!((free - 0.5 * g).abs() < 0.02 * g && spin.abs() < 1e-6, "{free} m/s, {spin}");
+    let (rolling, spin) = run(30.0, 5.0);
+    assert!((rolling - 0.5 * g * 5.0 / 7.0).abs() < 0.02 * g, "{rolling} m/s");
+    assert!((rolling + 0.1 * spin).abs() < 0.02 * rolling, "{rolling} m/s, {spin} 1/s");
+}
+
+/// A ball of triangles as a field: its distances, and blobs that run against it.
+#[test]
+fn a_mesh_is_solid_by_its_field() {
+    let gpu = Gpu::shared();
+    let (n, radius) = (24, 0.5_f32);
+    let at = |i: i32, j: i32| {
+        let (a, b) = (
+            std::f32::consts::PI * i as f32 / n as f32,
+            std::f32::consts::TAU * j as f32 / n as f32,
+        );
+        [radius * a.sin() * b.cos(), radius * a.cos(), -radius * a.sin() * b.sin()]
+    };
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+    }
+    let field = DistanceField::of_mesh(&triangles, 0.08, 0.4).expect("a field");
+    let [nx, ny, _] = field.points.map(|n| n as usize);
+    // The triangles lie inside the ball by as much as their edges' arcs.
+    let inside = radius * (1.0 - (std::f32::consts::PI / n as f32).cos().powi(2));
+    for (i, d) in field.distances.iter().enumerate() {
+        let at = [i % nx, i / nx % ny, i / nx / ny];
+        let p = Vec3::from([0, 1, 2].map(|k| field.corner[k] + field.edge * at[k] as f32));
+        let exact = p.length() - radius;
+        assert!(
+            *d >= exact - 1e-4 && *d <= exact + inside + 1e-4,
+            "{d} at {p}, {exact} of the ball"
+        );
+    }
+    let blob = Bubble { ball: [0.05, 1.0, 0.0, 0.1], turn: [0.0, 0.0, 0.0, 1.0], id: 0 };
+    let mut running = Running::new(&gpu, &[blob], &[], Some(&field));
+    let mut nearest = f64::INFINITY;
+    for _ in 0..90 {
+        running.step(1.0 / 60.0, &HeapSettings::default(), &[]).expect("a step");
+        nearest = nearest.min(running.blobs()[0].place.length());
+    }
+    let end = running.blobs()[0];
+    assert!(nearest > 0.5 + 0.06 - 0.02 && nearest < 0.62, "{nearest} m from the middle");
+    assert!(end.place.y < 0.0 && end.place.x > 0.3, "it has not rolled off: {end:?}");
+}
+
+#[test]
+fn what_is_no_blob_and_none_do_nothing() {
+    let gpu = Gpu::shared();
+    let good = Bubble { ball: [0.0, 1.0, 0.0, 0.1], turn: [0.0; 4], id: 1 };
+    let bad = [[f32::NAN, 0.0, 0.0, 0.1], [0.0, f32::INFINITY, 0.0, 0.1], [0.0, 0.0, 0.0, -1.0]];
+    let mut blobs = vec![good];
+    blobs.extend(bad.map(|ball| Bubble { ball, ..good }));
+    let mut all = Running::new(&gpu, &blobs, &[[f32::NAN; 3]], None);
+    let mut alone = Running::new(&gpu, &[good], &[], None);
+    let mut none = Running::new(&gpu, &[], &[], None);
+    for running in [&mut all, &mut alone, &mut none] {
+        for _ in 0..10 {
+            running.step(1.0 / 60.0, &HeapSettings::default(), &[FLOOR]).expect("a step");
+        }
+    }
+    assert_eq!(all.blobs()[0], alone.blobs()[0]);
+    assert!(all.blobs()[1..].iter().all(|b| b.radius == 0.0 && b.place == DVec3::ZERO));
+    assert!(alone.blobs()[0].place.y < 1.0);
+    type Spoil = fn(&mut HeapSettings);
+    let spoils: [(&str, Spoil); 4] = [
+        ("HeapSettings.reach", |s| s.reach = 0.5),
+        ("HeapSettings.stiffness", |s| s.stiffness = f32::NAN),
+        ("HeapSettings.substeps", |s| s.substeps = 0),
+        ("HeapSettings.density", |s| s.density = 0.0),
+    ];
+    for (field, spoil) in spoils {
+        let mut settings = HeapSettings::default();
+        spoil(&mut settings);
+        let result = alone.step(1.0 / 60.0, &settings, &[]);
+        assert!(
+            matches!(result, Err(Error::BadInput { field: found, .. }) if found == field),
+            "{field}"
+        );
+    }
+    let flat = Solid::Plane { normal: [0.0; 3], distance: 0.0 };
+    for (field, dt, solids) in [
+        ("HeapStep.solids", 0.01, vec![flat]),
+        ("HeapStep.solids", 0.01, vec![FLOOR; 65]),
+        ("HeapStep.dt", f32::NAN, vec![]),
+    ] {
+        let result = alone.step(dt, &HeapSettings::default(), &solids);
+        assert!(
+            matches!(result, Err(Error::BadInput { field: found, .. }) if found == field),
+            "{field}"
+        );
+    }
+}

@@ -1,0 +1,122 @@
+//! Blobs that move: forces of pairs and of planes, one part of a step after the other, and the energy that there is.
+
+use glam::DVec3;
+use whitewater::bubbles::HeapSettings;
+
+/// A blob.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blob {
+    pub place: DVec3,
+    pub radius: f64,
+    pub speed: DVec3,
+    pub spin: DVec3,
+}
+
+impl Blob {
+    fn mass(&self) -> f64 {
+        self.radius.powi(3)
+    }
+}
+
+/// A plane: its normal and how far from 0 it lies.
+pub type Plane = (DVec3, f64);
+
+/// Of the inverse moment of inertia of a ball.
+const ROUND: f64 = 2.5;
+
+/// What `other` does to `own`: changes of velocity and spin a second.
+fn pair(own: &Blob, other: &Blob, s: &HeapSettings) -> Option<(DVec3, DVec3)> {
+    let [rest, reach] = [s.rest, s.reach].map(|v| f64::from(v) * (own.radius + other.radius));
+    let to = other.place - own.place;
+    let far = to.length();
+    if far >= reach {
+        return None;
+    }
+    let n = to / far;
+    let part = (reach - far) / (reach - rest);
+    let along = if far < rest {
+        f64::from(s.stiffness) * (far - rest)
+    } else {
+        4.0 * part * (1.0 - part) * f64::from(s.cohesion)
+    };
+    let at = |blob: &Blob, n: DVec3| blob.speed + blob.spin.cross(blob.radius * n);
+    let slip = at(other, -n) - at(own, n);
+    let parting = slip.dot(n);
+    let near = part.min(1.0);
+    let [d_along, d_across] = s.damping.map(f64::from);
+    let across = d_across * near * (slip - parting * n);
+    let share = 2.0 * other.mass() / (own.mass() + other.mass());
+    let speed = share * ((along + d_along * near * parting) * n + across);
+    Some((speed, share * ROUND / own.radius * n.cross(across)))
+}
+
+/// One part of a step.
+pub fn part(blobs: &[Blob], planes: &[Plane], s: &HeapSettings, dt: f64) -> Vec<Blob> {
+    let gravity = glam::Vec3::from(s.gravity).as_dvec3();
+    let one = |(i, own): (usize, &Blob)| {
+        let (mut speed, mut spin) = (DVec3::ZERO, DVec3::ZERO);
+        for (j, other) in blobs.iter().enumerate() {
+            if let Some((a, b)) = (i != j).then(|| pair(own, other, s)).flatten() {
+                speed += a;
+                spin += b;
+            }
+        }
+        let drag = 1.0 + dt * f64::from(s.drag);
+        let mut new = *own;
+        new.speed = (own.speed + dt * (speed + gravity)) / drag;
+        new.spin = (own.spin + dt * spin) / drag;
+        for (n, distance) in planes {
+            let deep = f64::from(s.contact) * own.radius - (n.dot(own.place) - distance);
+            if deep <= 0.0 {
+                continue;
+            }
+            let parting = new.speed.dot(*n);
+            let press = f64::from(s.solidity) * deep - f64::from(s.solid_damping) * parting;
+            let gained = (dt * press).max(0.0);
+            new.speed += gained * *n;
+            let mut slip = new.speed + new.spin.cross(-own.radius * *n);
+            slip -= slip.dot(*n) * *n;
+            let fast = slip.length();
+            let held = (f64::from(s.friction) * gained).min(fast / (1.0 + ROUND));
+            let change = if fast > 0.0 { -held / fast * slip } else { DVec3::ZERO };
+            new.speed += change;
+            new.spin += ROUND / own.radius * (-*n).cross(change);
+        }
+        let most = own.radius / dt;
+        new.speed *= (most / new.speed.length().max(1e-20)).min(1.0);
+        new.place += dt * new.speed;
+        new
+    };
+    blobs.iter().enumerate().map(one).collect()
+}
+
+/// Of motion, height and what is pressed or held together. Pulls have the potential of their force from where they
+/// begin; of masses one is a radius cubed.
+pub fn energy(blobs: &[Blob], planes: &[Plane], s: &HeapSettings) -> f64 {
+    let gravity = glam::Vec3::from(s.gravity).as_dvec3();
+    let mut sum = 0.0;
+    for (i, a) in blobs.iter().enumerate() {
+        let turning = 0.4 * a.radius * a.radius * a.spin.length_squared();
+        sum += a.mass() * (0.5 * (a.speed.length_squared() + turning) - gravity.dot(a.place));
+        for (n, distance) in planes {
+            let deep = f64::from(s.contact) * a.radius - (n.dot(a.place) - distance);
+            sum += 0.5 * a.mass() * f64::from(s.solidity) * deep.max(0.0).powi(2);
+        }
+        for b in &blobs[i + 1..] {
+            let [rest, reach] = [s.rest, s.reach].map(|v| f64::from(v) * (a.radius + b.radius));
+            let far = a.place.distance(b.place);
+            if far >= reach {
+                continue;
+            }
+            // The force times the masses' harmonic mean.
+            let mass = 2.0 * a.mass() * b.mass() / (a.mass() + b.mass());
+            let width = reach - rest;
+            let part = ((reach - far) / width).min(1.0);
+            let pull =
+                -4.0 * f64::from(s.cohesion) * width * (part.powi(2) / 2.0 - part.powi(3) / 3.0);
+            let push = 0.5 * f64::from(s.stiffness) * (rest - far).max(0.0).powi(2);
+            sum += mass * (pull + push);
+        }
+    }
+    sum
+}
