@@ -1,6 +1,6 @@
 #version 460
 // Pass `blobs`, first part: nothing in any cell.
-// Reads: nothing. Writes: range, cells.
+// Reads: nothing. Writes: range, cells, spans.
 
 #include "frame.glsl"
 #include "bubbles.glsl"
@@ -9,6 +9,7 @@ layout(local_size_x = 256) in;
 
 layout(set = 0, binding = 7, std430) writeonly buffer Range { BlobRange range; };
 layout(set = 0, binding = 8, std430) writeonly buffer Cells { uint cells[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer Spans { uvec2 spans[]; };
 
 void main() {
     uint at = gl_GlobalInvocationID.x;
@@ -17,5 +18,8 @@ void main() {
     }
     if (at < bubbly.tiles.x * bubbly.tiles.y * bubbly.tiles.z) {
         cells[at] = 0u;
+    }
+    if (at < bubbly.tiles.x * bubbly.tiles.y) {
+        spans[at] = uvec2(0xffffffffu, 0u);
     }
 }

@@ -2,7 +2,7 @@
 // Pass `blobs`: the border, and lists of blobs for every tile and slice of depth, front to back (the source draws a
 // billboard each). Three goes: to eye space, and how far they lie; how many there are in a cell; which. Between the last
 // two the numbers become sums of all before each, after them those up to each.
-// Reads: the host's streams, count. Writes: blobs, range, cells, list.
+// Reads: the host's streams, count. Writes: blobs, range, cells, spans, list.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -21,6 +21,8 @@ layout(set = 0, binding = 6, std430) buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 7, std430) buffer Range { BlobRange range; };
 layout(set = 0, binding = 8, std430) buffer Cells { uint cells[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
+// Of a tile the first slice with a blob, and after the last.
+layout(set = 0, binding = 10, std430) buffer Spans { uint spans[]; };
 
 layout(push_constant, std430) uniform Push {
     uint ball_word; // of the first blob
@@ -108,6 +110,11 @@ void main() {
     for (int y = span.y; y <= span.w; ++y) {
         for (int x = span.x; x <= span.z; ++x) {
             uint at = atomicAdd(cells[cell_of(slice, uvec2(x, y))], 1u);
+            if (GO == 1u) {
+                uint tile = uint(y) * bubbly.tiles.x + uint(x);
+                atomicMin(spans[2u * tile], slice);
+                atomicMax(spans[2u * tile + 1u], slice + 1u);
+            }
             if (GO == 2u && at < bubbly.tiles.w) {
                 list[at] = index;
             }

@@ -2,7 +2,7 @@
 // Pass `impostor`: blobs as cube maps of their outermost surface, once per renderer (Huszar, Szecsi, Sec. 4.2, 4.3):
 // all six faces of all blobs in one dispatch, where the source has a geometry shader. Two maps: how far from the middle
 // it lies, and which bubble's it is.
-// Reads: bubbles. Writes: distances (R32F), ids (R32UI).
+// Reads: bubbles. Writes: distances (R32F), ids (bytes).
 
 #include "cube.glsl"
 
@@ -11,24 +11,19 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint IDS = 0;
 
 layout(set = 0, binding = 0, r32f) uniform writeonly image2DArray distances;
-layout(set = 0, binding = 1, r32ui) uniform writeonly uimage2DArray ids;
+// Four texels a word.
+layout(set = 0, binding = 1, std430) writeonly buffer Ids { uint ids[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Bubbles { vec4 bubbles[]; };
 layout(push_constant, std430) uniform Push {
     uint count; // of a blob
     uint size;  // of a face
 } push;
 
-const uint NO_BUBBLE = 0xffffffffu;
-
-void main() {
-    ivec3 at = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(at.xy, ivec2(push.size)))) {
-        return;
-    }
-    vec3 direction = cube_direction(ivec3(at.xy, at.z % 6), int(push.size));
-    uint first = uint(at.z / 6) * push.count;
+// How far the surface is along a direction, and whose it is; where there is none the bubble that is nearest to it.
+float outermost(vec3 direction, uint first, out uint id) {
     float best = 0.0;
-    uint id = NO_BUBBLE;
+    float nearest = -2.0;
+    id = 0u;
     for (uint i = 0u; i < push.count; ++i) {
         vec4 bubble = bubbles[first + i];
         float along = dot(direction, bubble.xyz);
@@ -37,11 +32,27 @@ void main() {
         float far = along + sqrt(max(left, 0.0));
         bool farther = left >= 0.0 && far > best;
         best = farther ? far : best;
-        id = farther ? i : id;
+        bool beside = best == 0.0 && along > nearest;
+        nearest = beside ? along : nearest;
+        id = farther || beside ? i : id;
     }
-    if (IDS == 1u) {
-        imageStore(ids, at, uvec4(id));
-    } else {
-        imageStore(distances, at, vec4(best));
+    return best;
+}
+
+void main() {
+    ivec3 at = ivec3(gl_GlobalInvocationID);
+    int size = int(push.size);
+    uint first = uint(at.z / 6) * push.count;
+    uint id;
+    if (IDS == 0u && all(lessThan(at.xy, ivec2(size)))) {
+        imageStore(distances, at, vec4(outermost(cube_direction(ivec3(at.xy, at.z % 6), size), first, id)));
+    }
+    if (IDS == 1u && at.x < size / 4 && at.y < size) {
+        uint word = 0u;
+        for (int i = 0; i < 4; ++i) {
+            outermost(cube_direction(ivec3(4 * at.x + i, at.y, at.z % 6), size), first, id);
+            word |= id << (8 * i);
+        }
+        ids[(at.z * size + at.y) * (size / 4) + at.x] = word;
     }
 }

@@ -2,7 +2,7 @@
 // Pass `peel` by tiles: the nearest blobs of each pixel, and how opaque all are together (Huszar, Szecsi, Sec. 5, which draws all
 // once a layer and once more). Here once: a pixel goes through its tile's blobs, slice by slice from the front, keeps
 // the nearest, and ends where nothing behind can change it.
-// Reads: blobs, range, cells, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
+// Reads: blobs, range, cells, spans, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"
 #include "bubbles.glsl"
@@ -21,6 +21,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Range { BlobRange range; };
 layout(set = 0, binding = 5, std430) readonly buffer Cells { uint cells[]; };
 layout(set = 0, binding = 6, std430) readonly buffer List { uint list[]; };
+layout(set = 0, binding = 12, std430) readonly buffer Spans { uvec2 spans[]; };
 // Of a pixel its layers, front to back, then the most opacity.
 layout(set = 0, binding = 7, std430) writeonly buffer Layers { uint layers[]; };
 layout(set = 0, binding = 11, r32f) uniform writeonly image2D bubble_depth;
@@ -43,9 +44,10 @@ void main() {
         opacities[i] = 0.0;
     }
     float most = 0.0;
-    uvec2 tile = uvec2(pixel) / uint(TILE);
-    uint slice = 0u;
-    bool done = range.seen == 0u;
+    uvec2 tile = gl_WorkGroupID.xy * gl_WorkGroupSize.xy / uint(TILE);
+    uvec2 span = spans[tile.y * bubbly.tiles.x + tile.x];
+    uint slice = span.x;
+    bool done = span.x >= span.y;
     // Loops ask at their end: lavapipe runs what follows a break once more.
     while (!done) {
         uint cell = cell_of(slice, tile);
@@ -86,7 +88,7 @@ void main() {
         // Whatever is still to come could not plug a hole that can be seen.
         bool hidden = min(through, behind) < HIDDEN || bubbly.mirror.w < 0.5;
         bool full = depths[LAYERS - 1u] <= begin && hidden;
-        done = slice >= bubbly.tiles.z || full || begin >= scene;
+        done = slice >= span.y || full || begin >= scene;
     }
     // Which bubble it is to the last pixel, of those that are kept.
     uint at = BY_ID == 1u ? 0u : LAYERS;

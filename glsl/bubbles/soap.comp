@@ -103,9 +103,10 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way) {
     uint other = NO_BUBBLE;
     float nearest = way.y;
     float at_origin = dot(a.xyz, a.xyz) - a.w * a.w;
+    uvec4 words = neighbours_of(look.blob.template_, id);
     uint i = 0u;
     do {
-        uint at = neighbour_of(look.blob.template_, id, i);
+        uint at = words.x & 0xffu;
         vec4 b = bubble_of(look.blob.template_, at);
         vec3 apart = b.xyz - a.xyz;
         float plane = 0.5 * (dot(b.xyz, b.xyz) - b.w * b.w - at_origin) - dot(apart, look.ray.origin);
@@ -115,6 +116,7 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way) {
         nearest = nearer ? t : nearest;
         other = nearer ? at : other;
         ++i;
+        words = (i & 3u) == 0u ? words.yzwx : uvec4(words.x >> 8, words.yzw);
     } while (i < 16u);
     return other;
 }
@@ -259,7 +261,9 @@ void main() {
         color += left * water * light;
         left *= mix(vec3(1.0), through, water);
         ++i;
-        more = i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
+        // Behind what is opaque nothing is seen.
+        bool open = max(left.r, max(left.g, left.b)) > 1.0 / 256.0;
+        more = open && i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
     // Holes between the layers are as opaque as anything there is (Sec. 5).

@@ -7,10 +7,13 @@ layout(constant_id = 30) const uint BY_ID = 1;
 layout(constant_id = 31) const uint STEPS = 10;
 // Bubbles of a blob.
 layout(constant_id = 32) const uint BUBBLES = 227;
+// Edge of a face of the ids.
+layout(constant_id = 33) const uint ID_EDGE = 128;
 
 layout(set = 0, binding = 8, std430) readonly buffer Bubbles { vec4 bubbles[]; };
 layout(set = 0, binding = 9) uniform sampler2DArray blob_distances;
-layout(set = 0, binding = 10) uniform usampler2DArray blob_ids;
+// Four texels a word.
+layout(set = 0, binding = 10, std430) readonly buffer BlobIds { uint blob_ids[]; };
 // Of each bubble sixteen that it intersects, a byte each; itself where there are fewer.
 layout(set = 0, binding = 13, std430) readonly buffer Neighbours { uvec4 neighbours[]; };
 
@@ -28,8 +31,9 @@ bool ball_hits(vec3 origin, vec3 direction, vec4 ball, out vec2 hits) {
 }
 
 uint bubble_at(uint template_, vec3 direction) {
-    ivec3 texel = cube_texel(direction, textureSize(blob_ids, 0).x);
-    return texelFetch(blob_ids, ivec3(texel.xy, texel.z + 6 * int(template_)), 0).x;
+    uvec3 texel = uvec3(cube_texel(direction, int(ID_EDGE)));
+    uint at = ((texel.z + 6u * template_) * ID_EDGE + texel.y) * ID_EDGE + texel.x;
+    return blob_ids[at >> 2] >> (8u * (at & 3u)) & 0xffu;
 }
 
 vec4 bubble_of(uint template_, uint id) {
@@ -77,7 +81,7 @@ BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
         float t = span.x + (float(i) + 0.5) * step;
         uint id = bubble_at(template_, origin + t * direction);
         vec2 hits;
-        bool met = id != last && id != NO_BUBBLE && ball_hits(origin, direction, bubble_of(template_, min(id, BUBBLES - 1u)), hits);
+        bool met = id != last && ball_hits(origin, direction, bubble_of(template_, id), hits);
         if (met && hits.y > 0.0 && (hit.t < 0.0 || hits.x < hit.t)) {
             hit = BlobHit(max(hits.x, 0.0), hits.y, id);
         }
@@ -87,21 +91,23 @@ BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
     return hit;
 }
 
-uint neighbour_of(uint template_, uint id, uint i) {
-    return neighbours[template_ * BUBBLES + id][i >> 2] >> (8u * (i & 3u)) & 0xffu;
+uvec4 neighbours_of(uint template_, uint id) {
+    return neighbours[template_ * BUBBLES + id];
 }
 
 // The same among those beside what was found: the maps know no more of an edge than where its texel lies.
 BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hit, float from) {
     BlobHit best = hit;
+    uvec4 words = neighbours_of(template_, hit.id);
     uint i = 0u;
     do {
-        uint id = neighbour_of(template_, hit.id, i);
+        uint id = words.x & 0xffu;
         vec2 hits;
         bool met = ball_hits(origin, direction, bubble_of(template_, id), hits) && hits.y > from;
         float t = max(hits.x, from);
         best = met && t < best.t ? BlobHit(t, hits.y, id) : best;
         ++i;
+        words = (i & 3u) == 0u ? words.yzwx : uvec4(words.x >> 8, words.yzw);
     } while (i < 16u);
     return best;
 }

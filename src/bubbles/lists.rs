@@ -3,7 +3,7 @@
 //! Where the source draws a billboard for each, and all of them once a layer, a pixel here goes through the list of its
 //! tile. Lists are places in one buffer, by prefix sums: of slice after slice of depth, so that where there is no
 //! room the farthest are lost.
-//! Reads: the host's streams. Writes: blobs, range, cells, list.
+//! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -79,6 +79,7 @@ pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
 /// What depends on the frame's size.
 struct Cells {
     cells: Buffer,
+    spans: Buffer,
     list: Buffer,
     scan: Scan,
 }
@@ -86,12 +87,14 @@ struct Cells {
 impl Cells {
     fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
         let cells = cells_of(config.extent);
+        let [x, y] = tiles(config.extent);
         let own = |name, words: u32| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
             Buffer::new(gpu, name, 4 * u64::from(words), usage, MemoryLocation::GpuOnly)
         };
         Ok(Self {
             cells: own("bubbles/cells", cells)?,
+            spans: own("bubbles/spans", 2 * x * y)?,
             list: own("bubbles/list", room(config.extent, bubbles))?,
             scan: Scan::new(gpu, "bubbles/scan", cells)?,
         })
@@ -134,14 +137,16 @@ impl Lists {
     ) -> Result<(), Error> {
         let new = Cells::new(gpu, config, &self.config)?;
         retired.replace(&mut self.cells.cells, new.cells);
+        retired.replace(&mut self.cells.spans, new.spans);
         retired.replace(&mut self.cells.list, new.list);
         retired.replace(&mut self.cells.scan, new.scan);
         Ok(())
     }
 
-    /// Blobs, what is known of them all, ends of the cells, list.
-    pub fn buffers(&self) -> [&Buffer; 4] {
-        [&self.blobs, &self.range, &self.cells.cells, &self.cells.list]
+    /// Blobs, what is known of them all, ends of the cells, list, each tile's slices.
+    pub fn buffers(&self) -> [&Buffer; 5] {
+        let Cells { cells, spans, list, .. } = &self.cells;
+        [&self.blobs, &self.range, cells, list, spans]
     }
 
     /// How the blobs are read after the pass.
@@ -164,8 +169,9 @@ impl Lists {
         blobs: Option<&Blobs>,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let [own, range, cells, list] = self.buffers();
-        let all = [own, range, cells, list].map(|b| buffer(b.handle, self.read(), COMPUTE_WRITE));
+        let [own, range, cells, list, spans] = self.buffers();
+        let whole = [own, range, cells, list, spans];
+        let all = whole.map(|b| buffer(b.handle, self.read(), COMPUTE_WRITE));
         let host = blobs.into_iter().flat_map(|blobs| {
             let to = |handle| buffer(handle, blobs.before, COMPUTE_READ);
             buffers_of(blobs).into_iter().map(to)
@@ -178,13 +184,14 @@ impl Lists {
             (7, Resource::buffer(range)),
             (8, Resource::buffer(cells)),
             (9, Resource::buffer(list)),
+            (10, Resource::buffer(spans)),
         ];
         r.descriptors.bind(gpu, cmd, &self.begin, &resources)?;
         let count = cells_of(r.extent);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, count.div_ceil(256), 1, 1) };
         let both = COMPUTE_READ_WRITE;
-        let hand = |from, to| [own, range, cells, list].map(|b| buffer(b.handle, from, to));
+        let hand = |from, to| whole.map(|b| buffer(b.handle, from, to));
         gpu.barriers(cmd, &[], &hand(COMPUTE_WRITE, both));
         let bound = blobs.and_then(|blobs| Some((blobs, self.bound(gpu, blobs)?)));
         if let Some((blobs, (streams, push))) = bound {

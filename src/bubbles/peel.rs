@@ -123,7 +123,7 @@ impl Peel {
             &[access::image(depth, before, COMPUTE_WRITE)],
             &[buffer(layers.handle, COMPUTE_READ, COMPUTE_WRITE)],
         );
-        let [own, range, cells, list] = lists.buffers().map(Resource::buffer);
+        let [own, range, cells, list, spans] = lists.buffers().map(Resource::buffer);
         let bound = [
             (0, r.uniforms),
             (1, uniforms),
@@ -135,7 +135,7 @@ impl Peel {
         let bound = [&bound[..], &templates.resources(gpu)].concat();
         match &self.way {
             Way::Tiles(pipeline) => {
-                let listed = [(4, range), (5, cells), (6, list)];
+                let listed = [(4, range), (5, cells), (6, list), (12, spans)];
                 r.descriptors.bind(gpu, cmd, pipeline, &[&bound[..], &listed].concat())?;
                 r.dispatch_over(r.extent, pipeline.local_size);
             }

@@ -22,7 +22,7 @@ pub struct BubbleConfig {
     pub seed: u32,
     /// How a ray's first bubble is found.
     pub impostor: Impostor,
-    /// Edge of a face of the impostor's map in texels, 8 to 512; default as the impostor's.
+    /// Edge of a face of the impostor's map in texels, a multiple of 4 from 8 to 512; default as the impostor's.
     pub map: u32,
     /// Steps of the search along a ray, 1 to 64; default as the impostor's.
     pub steps: u32,
@@ -63,6 +63,10 @@ impl BubbleConfig {
         within("Config.bubbles.templates", self.templates, 1, 32)?;
         within("Config.bubbles.bubbles", self.bubbles, *BUBBLES.start(), *BUBBLES.end())?;
         within("Config.bubbles.map", self.map, 8, 512)?;
+        if !self.map.is_multiple_of(4) {
+            let why = format!("{}: a multiple of 4 expected", self.map);
+            return Err(Error::bad("Config.bubbles.map", why));
+        }
         within("Config.bubbles.steps", self.steps, 1, 64)?;
         within("Config.bubbles.layers", self.layers, 1, MOST_LAYERS)?;
         range("Config.bubbles.film.index", self.film.index, 1.0, 3.0)

@@ -11,7 +11,10 @@ use super::blob::{Blob, pcg};
 use super::settings::{BubbleConfig, FilmFresnel, Impostor, MOST_FILM, Spectrum};
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::gpu::access::{self, Access, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED};
+use crate::gpu::access::{
+    self, Access, COMPUTE_READ, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_READ, FRAGMENT_SAMPLED,
+    buffer,
+};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::image::{Image, ImageDesc};
@@ -24,7 +27,9 @@ const FILM: vk::Extent2D = vk::Extent2D { width: 64, height: 256 };
 const CORE: u32 = 256;
 /// Edge of the impostor's map that is not asked for.
 const UNUSED: u32 = 8;
-/// How all of it is read.
+/// How the ids are read.
+const READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
+/// How all the rest is.
 const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -64,8 +69,9 @@ pub struct Templates {
     pub bubbles: Buffer,
     /// Which others each of them intersects.
     pub neighbours: Buffer,
-    /// How far their surfaces are from their middles, and whose they are; one of them is asked for.
-    pub maps: [Image; 2],
+    /// How far their surfaces are from their middles; or whose they are, a byte a texel.
+    distances: Image,
+    ids: Buffer,
     /// Small bubbles inside.
     pub picture: Image,
 }
@@ -87,13 +93,14 @@ impl Templates {
             | vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC;
         let half = vk::Format::R16G16B16A16_SFLOAT;
-        let map = |name, format, which: Impostor| {
-            let edge = if which == config.impostor { config.map } else { UNUSED };
-            let extent = vk::Extent2D { width: edge, height: edge };
-            // Six layers alone would be a cube.
-            let layers = 6 * config.templates.max(2);
-            Image::new(gpu, &ImageDesc { layers, ..ImageDesc::new(name, extent, format, usage) })
-        };
+        let [distances, ids] = Self::edges(config);
+        let bytes = 6 * u64::from(config.templates) * u64::from(ids).pow(2);
+        let extent = vk::Extent2D { width: distances, height: distances };
+        // Six layers alone would be a cube.
+        let layers = 6 * config.templates.max(2);
+        let name = "bubbles/distances";
+        let map = ImageDesc::new(name, extent, vk::Format::R32_SFLOAT, usage);
+        let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let kind = match config.film.fresnel {
             FilmFresnel::Exact => 0,
             FilmFresnel::Schlick => 1,
@@ -113,23 +120,28 @@ impl Templates {
             table: Image::new(gpu, &ImageDesc::new("bubbles/film", FILM, half, usage))?,
             bubbles: filled("bubbles/bubbles", bytemuck::cast_slice(&bubbles))?,
             neighbours: filled("bubbles/neighbours", bytemuck::cast_slice(&neighbours))?,
-            maps: [
-                map("bubbles/distances", vk::Format::R32_SFLOAT, Impostor::Distance)?,
-                map("bubbles/ids", vk::Format::R32_UINT, Impostor::Ids)?,
-            ],
+            distances: Image::new(gpu, &ImageDesc { layers, ..map })?,
+            ids: Buffer::new(gpu, "bubbles/ids", bytes, storage, MemoryLocation::GpuOnly)?,
             picture: Image::new(gpu, &ImageDesc::new("bubbles/core", edge, half, usage))?,
         })
+    }
+
+    /// Edges of the faces of both maps.
+    fn edges(config: &BubbleConfig) -> [u32; 2] {
+        match config.impostor {
+            Impostor::Distance => [config.map, UNUSED],
+            Impostor::Ids => [UNUSED, config.map],
+        }
     }
 
     /// Makes all of it, for good.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
         gpu.begin_label(cmd, c"bubbles");
         self.descriptors.reset(gpu)?;
-        let [distances, ids] = &self.maps;
-        let images = [&self.table, distances, ids, &self.picture];
+        let images = [&self.table, &self.distances, &self.picture];
         // Whatever read them in a frame before this, where they are made again.
         let first = images.map(|image| access::image(image, AFTER.discarded(), COMPUTE_WRITE));
-        gpu.barriers(cmd, &first, &[]);
+        gpu.barriers(cmd, &first, &[buffer(self.ids.handle, READ, COMPUTE_WRITE)]);
         let dispatch = |pipeline: &Pipeline, [width, height, layers]: [u32; 3]| {
             let [x, y, _] = pipeline.local_size;
             // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
@@ -142,13 +154,12 @@ impl Templates {
         self.film.push(gpu, cmd, &FilmPush { index: self.config.film.index, most: MOST_FILM });
         dispatch(&self.film, [FILM.width, FILM.height, 1]);
         let maps = [
-            (0, Resource::storage(distances)),
-            (1, Resource::storage(ids)),
+            (0, Resource::storage(&self.distances)),
+            (1, Resource::buffer(&self.ids)),
             (2, Resource::buffer(&self.bubbles)),
         ];
-        for (pipeline, map) in self.impostors.iter().zip(&self.maps) {
+        for (pipeline, size) in self.impostors.iter().zip(Self::edges(&self.config)) {
             self.descriptors.bind(gpu, cmd, pipeline, &maps)?;
-            let size = map.extent.width;
             pipeline.push(gpu, cmd, &ImpostorPush { count: self.config.bubbles, size });
             dispatch(pipeline, [size, size, 6 * self.config.templates]);
         }
@@ -156,28 +167,28 @@ impl Templates {
         self.descriptors.bind(gpu, cmd, &self.core, &picture)?;
         self.core.push(gpu, cmd, &CorePush { size: CORE, seed: self.config.seed });
         dispatch(&self.core, [CORE + 2, CORE + 2, 1]);
-        gpu.barriers(cmd, &images.map(|image| access::image(image, COMPUTE_WRITE, AFTER)), &[]);
+        let after = images.map(|image| access::image(image, COMPUTE_WRITE, AFTER));
+        gpu.barriers(cmd, &after, &[buffer(self.ids.handle, COMPUTE_WRITE, READ)]);
         gpu.end_label(cmd);
         Ok(())
     }
 
     /// What glsl/include/blob.glsl reads, and its constants.
     pub fn resources(&self, gpu: &Gpu) -> [(u32, Resource); 4] {
-        let [distances, ids] =
-            self.maps.each_ref().map(|map| Resource::Sampled(map.view, gpu.samplers.nearest));
-        let [bubbles, neighbours] = [&self.bubbles, &self.neighbours].map(Resource::buffer);
+        let distances = Resource::Sampled(self.distances.view, gpu.samplers.nearest);
+        let [bubbles, ids, neighbours] =
+            [&self.bubbles, &self.ids, &self.neighbours].map(Resource::buffer);
         [(8, bubbles), (9, distances), (10, ids), (13, neighbours)]
     }
 
-    pub fn constants(config: &BubbleConfig) -> [(u32, u32); 3] {
+    pub fn constants(config: &BubbleConfig) -> [(u32, u32); 4] {
         let by_id = u32::from(config.impostor == Impostor::Ids);
-        [(30, by_id), (31, config.steps), (32, config.bubbles)]
+        [(30, by_id), (31, config.steps), (32, config.bubbles), (33, Self::edges(config)[1])]
     }
 
     /// Bytes of images and of buffers.
     pub fn memory(&self) -> (u64, u64) {
-        let [distances, ids] = &self.maps;
-        let images = self.table.size + distances.size + ids.size + self.picture.size;
-        (images, self.bubbles.size + self.neighbours.size)
+        let images = self.table.size + self.distances.size + self.picture.size;
+        (images, self.bubbles.size + self.neighbours.size + self.ids.size)
     }
 }

@@ -6,6 +6,7 @@ use super::inputs::{Diffusing, Foamed};
 use super::submit::Parts;
 use super::transfer::staging;
 use super::{COLOR_REST, DEPTH_REST, Headless};
+use crate::bubbles::Heap;
 use crate::contract::{
     Access, Camera, Frame, HostImage, Particles, Previous, Region, Settings, Slot, Sun,
 };
@@ -139,6 +140,9 @@ impl Headless {
             .filter(|made| made.shown && self.renderer.config().diffuse.is_some());
         let diffuse = made.map(|made| made.generator.particles());
         let diffuse = diffuse.or_else(|| self.diffuse.as_ref().map(Diffusing::streams));
+        let drawn = self.renderer.config().bubbles.is_some();
+        let heap = self.heap.as_ref().filter(|_| drawn).map(Heap::blobs);
+        let bubbles = heap.or_else(|| self.bubbles.as_ref().map(Foamed::streams));
         let frame = Frame {
             slot: Slot(0),
             output,
@@ -146,7 +150,7 @@ impl Headless {
             scene_depth: host_image(&self.depth, DEPTH_REST),
             particles,
             diffuse,
-            bubbles: self.bubbles.as_ref().map(Foamed::streams),
+            bubbles,
             camera: *camera,
             sun,
             previous: self.previous,
@@ -171,6 +175,7 @@ impl Headless {
         self.counts = recorded.counts;
         self.levels = recorded.levels;
         self.active_samples = recorded.active_samples;
+        self.bubble_words = recorded.bubbles;
         Ok(last)
     }
 

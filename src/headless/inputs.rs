@@ -268,6 +268,13 @@ pub(super) struct Foamed {
 }
 
 impl Foamed {
+    pub fn new(gpu: &Arc<Gpu>, blobs: &[Bubble]) -> Result<Self, Error> {
+        let count =
+            u32::try_from(blobs.len()).map_err(|_| Error::bad("bubbles", "2^32 blobs or more"))?;
+        let blobs = input(gpu, "headless/bubbles", bytemuck::cast_slice(blobs))?;
+        Ok(Self { count, blobs })
+    }
+
     pub fn streams(&self) -> Blobs {
         let all = stream(&self.blobs, size_of::<Bubble>() as u32);
         Blobs {
@@ -359,14 +366,14 @@ impl Headless {
     /// More than [`BubbleConfig::max_blobs`](crate::bubbles::BubbleConfig::max_blobs), no memory; then there are none.
     pub fn bubbles(&mut self, blobs: &[Bubble]) -> Result<(), Error> {
         self.bubbles = None;
+        self.drop_heap();
         self.gpu.bury();
         let most = self.renderer.config().bubbles.map_or(u32::MAX, |config| config.max_blobs);
-        let Some(count) = u32::try_from(blobs.len()).ok().filter(|count| *count <= most) else {
+        if blobs.len() > most as usize {
             let why = format!("{} is more than Config.bubbles.max_blobs, {most}", blobs.len());
             return Err(Error::bad("bubbles", why));
-        };
-        let blobs = input(&self.gpu, "headless/bubbles", bytemuck::cast_slice(blobs))?;
-        self.bubbles = Some(Foamed { count, blobs });
+        }
+        self.bubbles = Some(Foamed::new(&self.gpu, blobs)?);
         Ok(())
     }
 

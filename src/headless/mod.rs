@@ -11,6 +11,7 @@ mod device;
 mod draw;
 mod environment;
 mod generate;
+mod heap;
 mod inputs;
 mod levels;
 mod readback;
@@ -33,6 +34,7 @@ pub use readback::Picture;
 use stage::Stage;
 use submit::{Commands, begin, submit};
 
+use crate::bubbles::Heap;
 use crate::composite::way;
 use crate::contract::{
     Access, Config, Layer, ParticleCounts, Previous, Region, Slot, SmoothingLevels,
@@ -85,6 +87,7 @@ pub struct Headless {
     ids: Option<Buffer>,
     diffuse: Option<Diffusing>,
     bubbles: Option<Foamed>,
+    heap: Option<Heap>,
     generating: Option<Generating>,
     foam: Option<Foaming>,
     region: Option<Region>,
@@ -94,6 +97,7 @@ pub struct Headless {
     counts: Option<ParticleCounts>,
     levels: Option<SmoothingLevels>,
     active_samples: Option<(vk::Buffer, u32)>,
+    bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
     device: Device,
 }
@@ -133,6 +137,7 @@ impl Headless {
             ids: None,
             diffuse: None,
             bubbles: None,
+            heap: None,
             generating: None,
             foam: None,
             region: None,
@@ -142,6 +147,7 @@ impl Headless {
             counts: None,
             levels: None,
             active_samples: None,
+            bubble_words: None,
             scene: None,
             device,
         };
@@ -237,7 +243,11 @@ impl Headless {
     /// Device loss.
     pub fn finish(self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
-        let Self { gpu, renderer, device, foam, generating, .. } = self;
+        let Self { gpu, renderer, device, foam, generating, heap, .. } = self;
+        if let Some(heap) = heap {
+            // SAFETY: the device is idle, or lost.
+            unsafe { heap.destroy() };
+        }
         if let Some(generating) = generating {
             // SAFETY: the device is idle, or lost.
             unsafe { generating.generator.destroy() };

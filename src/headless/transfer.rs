@@ -189,11 +189,15 @@ impl Headless {
     /// `water.foam.front`, what lies right behind the frontmost, of `water.foam.thickness`, and
     /// `motion.X` and `motion.Y` of `motion`; of diffuse particles there are `foam` (depth), `foam.intensity`,
     /// `foam.thickness`, `foam.submerged` (what of the thickness is behind the water's surface), `foam.normal.X`,
-    /// `.Y`, `.Z`, `foam.radius` (of the search), `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`.
+    /// `.Y`, `.Z`, `foam.radius` (of the search), `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`; of bubble foam
+    /// `bubbles` (depth) and `bubbles.layers` (how many blobs are drawn one behind the other).
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
     pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
+        if name == "bubbles.layers" {
+            return self.bubble_layers();
+        }
         let image = match name {
             "water.back" => "water.surface",
             "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
@@ -242,6 +246,21 @@ impl Headless {
             return Ok(Some(half.map(|both| half::f16::from_bits(both[0]).to_f32())));
         }
         self.read(layer.image, layer.format, area, layer.access).map(Some)
+    }
+
+    /// How many blobs a pixel shows.
+    fn bubble_layers(&mut self) -> Result<Option<Picture<f32>>, Error> {
+        let Some((buffer, words)) = self.bubble_words else { return Ok(None) };
+        let vk::Extent2D { width, height } = self.color.extent;
+        let size = 4 * u64::from(width) * u64::from(height) * u64::from(words);
+        let all = self.read_buffer(buffer, size)?;
+        // After the layers the most opacity.
+        let drawn = |pixel: &[u32]| {
+            let layers = &pixel[..pixel.len() - 1];
+            layers.iter().filter(|layer| **layer != u32::MAX).count() as f32
+        };
+        let data = all.chunks_exact(words as usize).map(drawn).collect();
+        Ok(Some(Picture { width: width as usize, height: height as usize, data }))
     }
 
     /// A layer of the smoothing, of all its levels.

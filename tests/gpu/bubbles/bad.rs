@@ -103,6 +103,7 @@ fn bad_configurations_are_errors() {
         ("Config.bubbles.bubbles", BubbleConfig { bubbles: 7, ..good }),
         ("Config.bubbles.bubbles", BubbleConfig { bubbles: 257, ..good }),
         ("Config.bubbles.map", BubbleConfig { map: 4, ..good }),
+        ("Config.bubbles.map", BubbleConfig { map: 30, ..good }),
         ("Config.bubbles.steps", BubbleConfig { steps: 0, ..good }),
         ("Config.bubbles.layers", BubbleConfig { layers: 9, ..good }),
         ("Config.bubbles.film.index", BubbleConfig { film: film(0.5), ..good }),

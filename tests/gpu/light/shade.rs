@@ -51,6 +51,7 @@ pub fn wall(lens: Lens) -> Foamy {
     case.amounts.fill([1.0, 0.0]);
     let settings = &mut case.shot.settings;
     (settings.foam.relief, settings.foam.noise, settings.foam.veil) = (0.0, 0.0, 0.0);
+    settings.foam.pattern = 0.0;
     (settings.foam.extinction, settings.foam.front_extinction) = (1e5, 1e6);
     settings.foam.front_color = [0.9, 0.8, 0.7];
     settings.light.irradiance = [std::f32::consts::PI; 3];

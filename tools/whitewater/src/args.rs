@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use crate::bubbles::Which as Bubbles;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::water::settings::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
@@ -67,8 +68,13 @@ pub enum Command {
 #[derive(Args, Debug)]
 pub struct RenderArgs {
     /// Particle files: names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
-    #[arg(required = true, value_name = "INPUT")]
+    #[arg(required_unless_present = "bubbles", value_name = "INPUT")]
     pub inputs: Vec<String>,
+    /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
+    /// (five thousand), slope:N and box:N of as many, or a .json of blobs, {"blobs":[{"center":[x,y,z],"radius":r,
+    /// "turn":[x,y,z,w],"id":n},...]}, beside particles too. Table [bubbles] of --settings says how it looks
+    #[arg(long, value_name = "one|slope|box|FILE", value_parser = crate::bubbles::named)]
+    pub bubbles: Option<Bubbles>,
     /// Frames of the sequence to draw, as A-B or A. Camera, radius and ground are found from the
     /// whole sequence, so that its parts fit together
     #[arg(long, value_name = "A-B")]

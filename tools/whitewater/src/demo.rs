@@ -74,6 +74,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         diffuse,
         occlusion: file.diffuse.occlusion(),
         splat: file.diffuse.splat(),
+        bubbles: None,
         spray,
         shadows,
         region,

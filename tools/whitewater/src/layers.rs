@@ -10,7 +10,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 24] = [
+const GROUPS: [&str; 26] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -32,6 +32,8 @@ const GROUPS: [&str; 24] = [
     "foam.normal",
     "foam.shadow",
     "foam.irradiance",
+    "bubbles",
+    "bubbles.layers",
     "scene",
     MOTION,
     LADDER,
@@ -137,7 +139,7 @@ pub fn collect(
         push(name, &color.map(|v| v[c]), Merge::Mean)?;
     }
     let depth = |picture: Picture<f32>| picture.map(|z| if *z < EMPTY { *z } else { EMPTY });
-    for name in ["water.depth", "water.back", "water.foam", "foam"] {
+    for name in ["water.depth", "water.back", "water.foam", "foam", "bubbles"] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?
         {
@@ -158,6 +160,7 @@ pub fn collect(
         ("foam.intensity", Merge::Mean),
         ("foam.radius", Merge::Most),
         ("foam.shadow", Merge::Mean),
+        ("bubbles.layers", Merge::Most),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?

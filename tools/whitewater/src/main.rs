@@ -4,6 +4,7 @@
 mod args;
 mod bench;
 mod bounds;
+mod bubbles;
 mod camera;
 mod compare;
 mod demo;

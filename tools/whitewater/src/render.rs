@@ -9,6 +9,7 @@ use whitewater::water::FoamLook;
 
 use crate::args::{Foaming, RenderArgs, SprayArg, Whitewater};
 use crate::bounds::{self, Bounds};
+use crate::bubbles::{self, Blobs};
 use crate::camera::CameraFile;
 use crate::diffuse;
 use crate::environment::Environment;
@@ -23,6 +24,15 @@ use crate::settings::SettingsFile;
 use crate::stage;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
+    let foam = match &args.bubbles {
+        Some(which) if args.inputs.is_empty() => return bubbles::run(args, which),
+        Some(bubbles::Which::File(path)) => Some(bubbles::read(path)?),
+        Some(_) => {
+            let why = "--bubbles: one, slope and box are scenes of their own: a file expected beside particles";
+            return Err(Failure::usage(why));
+        }
+        None => None,
+    };
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
     let all = sequence::expand(&args.inputs, None)?;
     let frames = match range {
@@ -85,6 +95,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         );
     }
     let settings = settings.unwrap_or_default();
+    let settings_of_bubbles = settings.bubbles.config();
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
     let files = diffuse::Files::find(files, args.up_axis, single)?;
@@ -95,7 +106,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, camera, settings, environment, &progress)
     })?;
-    let look = Look { diffuse: files.or(look.diffuse), ..look };
+    let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
+    let look = Look { diffuse: files.or(look.diffuse), bubbles: foam, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
     session.up = args.up_axis;
@@ -433,6 +445,7 @@ fn look(
         diffuse,
         occlusion: file.diffuse.occlusion(),
         splat: file.diffuse.splat(),
+        bubbles: None,
         spray,
         shadows,
         region,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
+use whitewater::bubbles::BubbleConfig;
 use whitewater::foam::{DiffuseConfig, GenerateSettings, Occlusion, Splat};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
@@ -12,6 +13,7 @@ use whitewater::water::{FoamSettings, NoiseLook, Shadows, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
+use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Source};
@@ -36,6 +38,8 @@ pub struct Look {
     pub occlusion: Occlusion,
     /// How they become pixels; `None`: as the library chooses.
     pub splat: Option<Splat>,
+    /// Bubble foam, and how it is drawn.
+    pub bubbles: Option<(Blobs, BubbleConfig)>,
     /// Particles of the water turn to spray.
     pub spray: bool,
     /// How the scene's shadow map is filtered.
@@ -57,6 +61,8 @@ struct Memory {
     stepped: Option<u64>,
     /// By which diffuse particles were made.
     made: Option<u64>,
+    /// To which bubble foam moved.
+    heaped: u64,
 }
 
 /// Draws frames.
@@ -274,6 +280,10 @@ impl<'a> Session<'a> {
             let Look { occlusion, splat, .. } = self.look;
             DiffuseConfig { max_stride, occlusion, splat, ..DiffuseConfig::new(most) }
         });
+        config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
+            let max_blobs = (blobs.blobs.len() as u32).max(1);
+            BubbleConfig { max_blobs, ..*bubbles }
+        });
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
         config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
@@ -298,6 +308,12 @@ impl<'a> Session<'a> {
         times.step("scene", number, || headless.scene(&self.look.scene, args.supersample == 1))?;
         if args.shadows == ShadowArg::All {
             headless.region(self.look.region);
+        }
+        if let Some((blobs, _)) = &self.look.bubbles {
+            times.step("upload", number, || match &blobs.motion {
+                Some(_) => headless.heap(&blobs.blobs, None),
+                None => headless.bubbles(&blobs.blobs),
+            })?;
         }
         self.staged = self.look.scene.frame;
         self.headless = Some(headless);
@@ -440,6 +456,14 @@ impl<'a> Session<'a> {
         } else {
             // Without velocities none are made, and those of the frame before are not this one's.
             headless.hide_generated();
+        }
+        if let Some((Blobs { motion: Some((settings, solids)), .. }, _)) = &self.look.bubbles {
+            let dt = 1.0 / self.look.fps.unwrap_or(bubbles::FPS);
+            times.step("heap", number, || {
+                (self.memory.heaped..number)
+                    .try_for_each(|_| headless.heap_step(dt, settings, solids))
+            })?;
+            self.memory.heaped = self.memory.heaped.max(number);
         }
         self.memory.passed = Some(number);
         if !drawn {

@@ -1,5 +1,6 @@
 //! Settings from TOML: a mirror of `whitewater::Settings` in which every value may be left out.
 
+mod bubbles;
 mod diffuse;
 pub mod generate;
 
@@ -21,6 +22,7 @@ pub struct SettingsFile {
     pub foam: FoamTable,
     pub spray: SprayTable,
     pub diffuse: diffuse::DiffuseTable,
+    pub bubbles: bubbles::BubbleTable,
     pub generate: generate::GenerateTable,
     pub shadow: ShadowTable,
     pub noise: NoiseTable,
@@ -235,6 +237,7 @@ impl SettingsFile {
         spray.color = table.color.unwrap_or(spray.color);
         spray.additive = table.additive.unwrap_or(spray.additive);
         self.diffuse.apply(&mut settings.diffuse);
+        self.bubbles.apply(&mut settings.bubbles);
         let (shadow, table) = (&mut settings.shadow, &self.shadow);
         set(&mut shadow.width, table.width);
         set(&mut shadow.damping, table.damping);

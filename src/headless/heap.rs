@@ -1,0 +1,77 @@
+//! Blobs of bubble foam that move.
+
+use super::Headless;
+use super::inputs::{Bubble, Foamed};
+use crate::bubbles::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
+use crate::contract::Slot;
+use crate::error::Error;
+
+impl Headless {
+    /// Hands blobs to a [`Heap`], at rest; the next frames show them as [`heap_step`](Self::heap_step) moves them, with a
+    /// [`Config::bubbles`](crate::Config::bubbles) of as many.
+    ///
+    /// # Errors
+    /// As [`Heap::new`] and [`Heap::record_set`]; then there is no heap.
+    pub fn heap(&mut self, blobs: &[Bubble], field: Option<&DistanceField>) -> Result<(), Error> {
+        self.drop_heap();
+        let count = u32::try_from(blobs.len()).unwrap_or(u32::MAX).max(1);
+        let host = self.device.host(1);
+        // SAFETY: the device is ours and outlives the heap.
+        let mut heap = unsafe { Heap::new(&host, &HeapConfig::new(count), field) }?;
+        let staged = match Foamed::new(&self.gpu, blobs) {
+            Ok(staged) => staged,
+            Err(error) => {
+                // SAFETY: nothing was recorded.
+                unsafe { heap.destroy() };
+                return Err(error);
+            }
+        };
+        let largest = blobs.iter().map(|b| b.ball[3]).filter(|r| r.is_finite());
+        let largest = largest.fold(f32::MIN_POSITIVE, f32::max);
+        let streams = staged.streams();
+        let set = self.run(|_, cmd| {
+            // SAFETY: submitted at once, and waited for.
+            unsafe { heap.record_set(cmd, Slot(0), &streams, None, largest) }
+        });
+        if set.is_err() {
+            // SAFETY: every run waits for its end.
+            unsafe { heap.destroy() };
+            return set;
+        }
+        self.heap = Some(heap);
+        Ok(())
+    }
+
+    /// Moves them on, and waits for it.
+    ///
+    /// # Errors
+    /// No heap, and as [`Heap::record_step`].
+    pub fn heap_step(
+        &mut self,
+        dt: f32,
+        settings: &HeapSettings,
+        solids: &[Solid],
+    ) -> Result<(), Error> {
+        let Some(mut heap) = self.heap.take() else {
+            return Err(Error::bad("heap", "none: call heap first"));
+        };
+        let step = HeapStep { slot: Slot(0), dt, settings, solids };
+        // SAFETY: submitted at once, and waited for.
+        let result = self.run(|_, cmd| unsafe { heap.record_step(cmd, &step) });
+        self.heap = Some(heap);
+        result
+    }
+
+    /// Nanoseconds of the last step; `None` before there is one.
+    pub fn heap_time(&mut self) -> Option<f64> {
+        let heap = self.heap.as_mut()?;
+        heap.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
+    }
+
+    pub(super) fn drop_heap(&mut self) {
+        if let Some(heap) = self.heap.take() {
+            // SAFETY: every run waits for its end.
+            unsafe { heap.destroy() };
+        }
+    }
+}
