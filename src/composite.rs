@@ -168,7 +168,8 @@ impl Composite {
             diffuse.map(|image| Resource::Sampled(image.view, nearest));
         let soap = bubbles.map_or([layers.thickness; 2], |own| [own.depth(), own.image()]);
         let soap = soap.map(|image| Resource::Sampled(image.view, nearest));
-        let [shadow, light_thickness, basis, span, light_diffuse] = r.sunlight.resources();
+        let [shadow, light_thickness, basis, span, light_diffuse, light_soap] =
+            r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, Resource::Sampled(layers.smoothed.view, nearest)),
@@ -195,6 +196,7 @@ impl Composite {
             (22, diffuse_thickness),
             (23, diffuse_light),
             light_diffuse,
+            light_soap,
             (25, soap[0]),
             (26, soap[1]),
         ];

@@ -2,6 +2,7 @@
 
 use ash::vk;
 
+use crate::bubbles::Bubbles;
 use crate::contract::{Frame, HostImage, Shadow};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, Access, COPY_READ, FRAGMENT_SAMPLED};
@@ -80,7 +81,7 @@ pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
 /// is not read.
 pub fn sunlight(
     frame: &Frame<'_>,
-    (light, convolving): (Option<&Light>, Option<&Convolving>),
+    (light, convolving, bubbles): (Option<&Light>, Option<&Convolving>, Option<&Bubbles>),
     gpu: &Gpu,
     (depth, uniforms): (Resource, Resource),
 ) -> Sunlight {
@@ -89,6 +90,7 @@ pub fn sunlight(
         shadow: map.map_or(depth, |shadow| shadow_map(shadow, gpu)),
         thickness: light.map_or(depth, |light| light.thickness(gpu)),
         diffuse: light.and_then(|light| light.diffuse(gpu)).unwrap_or(depth),
+        bubbles: bubbles.and_then(|bubbles| bubbles.cast(gpu)).unwrap_or(depth),
         convolved: convolving.map_or([depth, uniforms], |convolving| convolving.resources(gpu)),
     }
 }

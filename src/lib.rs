@@ -120,6 +120,7 @@
 //! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 88 w h | 77.3 MiB | 174.0 MiB |
 //! | bubble foam: depth, colour, three layers and lists (`bubbles`) | 30½ w h | 26.8 MiB | 60.3 MiB |
 //! | the same, blobs (`bubbles`) | 64 a blob | 0.3 MiB for 5000 | |
+//! | the same as the sun sees them (`cast` = N with `bubbles`) | N² | 1 MiB for 1024 | |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | the same of diffuse particles (`cast` with `diffuse`) | 24 N² | 24 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |

@@ -235,7 +235,12 @@ impl Renderer {
                 size_of::<BubbleUniforms>() as u64,
             ),
             scene_depth,
-            sunlight: sunlight(frame, from, gpu, (scene_depth, uniforms)),
+            sunlight: sunlight(
+                frame,
+                (from.0, from.1, self.bubbles.as_ref()),
+                gpu,
+                (scene_depth, uniforms),
+            ),
             read_back,
         };
         if let (Some(convolving), Some(shadow), Some(convolution)) =
@@ -560,7 +565,7 @@ impl SlotState {
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
-        136 + 27 * water + 4 * diffuse + diffuse_sets(&gpu.limits, config)
+        137 + 27 * water + 4 * diffuse + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

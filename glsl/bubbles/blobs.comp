@@ -48,19 +48,19 @@ vec4 turn_of(uint index) {
     return turned_back(q);
 }
 
-// To the eye; of what cannot be seen there is no ball.
+// To the eye, and which of them is drawn.
 void place(uint index) {
     uint at = push.ball_word + index * push.ball_stride;
     vec4 ball = vec4(balls[at], balls[at + 1u], balls[at + 2u], balls[at + 3u]);
-    Blob blob = Blob(vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.0, 1.0), 0u, 0u, 0.0, 0u);
+    Blob blob = Blob(vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.0, 1.0), 0u, 0u, -1.0, 0u);
     bool good = all(lessThan(abs(ball), vec4(1.0e18))) && ball.w > 0.0;
     if (!good) {
         atomicAdd(range.dropped, 1u);
     }
     vec3 centre = (frame.view * vec4(good ? ball.xyz : vec3(0.0), 1.0)).xyz;
     // One that the eye is in has no bounds on the screen; the near plane cuts it away.
+    blob.ball = good ? vec4(mat3(frame.world) * centre, ball.w) : blob.ball;
     if (good && in_frustum(centre, ball.w)) {
-        blob.ball = vec4(mat3(frame.world) * centre, ball.w);
         blob.nearest = max(-centre.z - ball.w, 0.0);
         blob.turn = turn_of(index);
         blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
@@ -94,6 +94,7 @@ void main() {
         // All that there may be are drawn, where they are drawn.
         if (GO == 0u && index < push.most) {
             blobs[index].ball = vec4(0.0, 0.0, 0.0, -1.0);
+            blobs[index].nearest = -1.0;
         }
         return;
     }
@@ -103,7 +104,7 @@ void main() {
     }
     Blob blob = blobs[index];
     ivec4 span;
-    if (blob.ball.w <= 0.0 || !tiles_of(blob, span)) {
+    if (blob.nearest < 0.0 || !tiles_of(blob, span)) {
         return;
     }
     uint slice = slice_of(range, blob.nearest);

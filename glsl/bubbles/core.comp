@@ -43,7 +43,7 @@ void main() {
     vec3 direction = octahedral_direction((vec2(texel) - 0.5) / float(push.size) * 2.0 - 1.0);
     vec3 lean = vec3(0.0);
     float brightness = 1.0;
-    float cells = 7.0;
+    float cells = 6.0;
     float part = 1.0;
     for (uint octave = 0u; octave < 3u; ++octave) {
         vec4 near = nearest_point(direction * cells, pcg(push.seed + octave));

@@ -18,7 +18,7 @@ void main() {
     if (sphere_bounds(mat3(frame.view) * blob.ball.xyz, max(blob.ball.w, 0.0), slopes)) {
         span = pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
     }
-    bool drawn = blob.ball.w > 0.0 && all(lessThanEqual(span.xy, span.zw));
+    bool drawn = blob.nearest >= 0.0 && all(lessThanEqual(span.xy, span.zw));
     vec4 edges = vec4(span.xy, span.zw + 1);
     vec2 corner = vec2((gl_VertexIndex & 1) == 0 ? edges.x : edges.z, (gl_VertexIndex & 2) == 0 ? edges.y : edges.w);
     vec2 place = corner / frame.extent.xy * 2.0 - 1.0;

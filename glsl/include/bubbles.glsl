@@ -13,11 +13,11 @@ layout(set = 0, binding = 1, std140) uniform BubbleFrame {
 
 // A blob on the screen.
 struct Blob {
-    vec4 ball;      // from the eye along the world's axes, radius; of none -1
+    vec4 ball;      // from the eye along the world's axes, radius; of what is no ball -1
     vec4 turn;      // quaternion, world to the blob's space
     uint template_;
     uint id;
-    float nearest;  // eye depth of its nearest point, at least 0
+    float nearest;  // eye depth of its nearest point, at least 0; beside the view -1
     uint unused;
 };
 

@@ -1,7 +1,7 @@
 // How much of the sun's light reaches a point: past the host's scene, by its shadow map or its mask
 // (thesis Sec. 4.9.4, which has convolution shadow maps), and through water and foam (ours).
 // Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: shadow map or mask, its basis and span, light's
-// thickness, diffuse particles as the sun sees them.
+// thickness, diffuse particles and bubble foam as the sun sees them.
 
 // 0: the host says nothing, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.
 layout(constant_id = 11) const uint SHADOW = 0;
@@ -16,7 +16,11 @@ layout(set = 0, binding = 16) uniform sampler2D shadow_map;
 layout(set = 0, binding = 17) uniform sampler2D light_thickness;
 layout(set = 0, binding = 18) uniform sampler2D shadow_basis;
 layout(set = 0, binding = 19, std140) uniform Span { uvec4 span; };
+// 1: so does bubble foam.
+layout(constant_id = 23) const uint SOAPED = 0;
+
 layout(set = 0, binding = 24) uniform sampler2D light_diffuse;
+layout(set = 0, binding = 27) uniform sampler2D light_soap;
 
 // Place in the shadow map, 0 to 1, and depth there. Outside the map all is lit.
 vec3 shadow_place(vec3 eye, out bool inside) {
@@ -135,6 +139,26 @@ float past_diffuse(LightTexels t) {
     return t.inside ? 1.0 - lost : 1.0;
 }
 
+// Of the sun's light what blobs of bubble foam before a point leave. It goes some way into them, and through them a
+// little.
+float past_soap(LightTexels t) {
+    float edge = float(textureSize(light_soap, 0).x);
+    float wide = frame.light_map.y * frame.light_map.x / edge; // of a texel, metres
+    vec2 at = (vec2(t.base) + t.f + 0.5) / frame.light_map.x * edge - 0.5;
+    ivec2 base = ivec2(floor(at));
+    vec2 f = at - vec2(base);
+    float depth = t.depth + frame.light_map.x * frame.light_map.y;
+    float lost = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        ivec2 side = ivec2(i & 3, i >> 2) - 1;
+        ivec2 texel = clamp(base + side, ivec2(0), ivec2(edge) - 1);
+        vec2 part = vec2(side.x == -1 ? 1.0 - f.x : side.x == 2 ? f.x : 1.0, side.y == -1 ? 1.0 - f.y : side.y == 2 ? f.y : 1.0);
+        float behind = depth - texelFetch(light_soap, texel, 0).x;
+        lost += part.x * part.y * smoothstep(1.5 * wide, 9.0 * wide, behind);
+    }
+    return t.inside ? 1.0 - 0.85 / 9.0 * lost : 1.0;
+}
+
 // Of the sun's light what water and foam before a point leave.
 vec3 through_fluid(vec3 eye) {
     LightTexels t = light_texels(eye);
@@ -148,7 +172,8 @@ vec3 through_fluid(vec3 eye) {
         lost += weight * (1.0 - exp(-extinction * thick.x - frame.shade.w * thick.y));
     }
     vec3 left = t.inside ? 1.0 - lost : vec3(1.0);
-    return DIFFUSED == 1u ? left * past_diffuse(t) : left;
+    left = DIFFUSED == 1u ? left * past_diffuse(t) : left;
+    return SOAPED == 1u ? left * past_soap(t) : left;
 }
 
 // Share of the sun's light at a point of foam, of all colours together: what it is in is foam more than

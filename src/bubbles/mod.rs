@@ -3,6 +3,7 @@
 
 mod billboards;
 mod blob;
+mod cast;
 mod heap;
 mod lists;
 mod peel;
@@ -19,6 +20,7 @@ use crate::error::Error;
 use crate::frame::sun_on;
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, COMPUTE_READ};
+use crate::gpu::descriptors::Resource;
 use crate::gpu::image::Image;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
@@ -76,6 +78,7 @@ impl BubbleUniforms {
 pub(crate) struct Bubbles {
     templates: templates::Templates,
     lists: lists::Lists,
+    cast: Option<cast::Cast>,
     peel: peel::Peel,
     soap: soap::Soap,
 }
@@ -85,6 +88,7 @@ impl Bubbles {
         Ok(Self {
             templates: templates::Templates::new(gpu, bubbles)?,
             lists: lists::Lists::new(gpu, config, bubbles)?,
+            cast: cast::Cast::new(gpu, config)?,
             peel: peel::Peel::new(gpu, config, bubbles)?,
             soap: soap::Soap::new(gpu, config, bubbles)?,
         })
@@ -106,11 +110,26 @@ impl Bubbles {
         self.templates.record_setup(gpu, cmd)
     }
 
-    /// Where blobs are: before the tiles that are drawn are known.
-    pub fn record_peel(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
+    /// Which there are, and their shadows: before anything asks for the sun's light.
+    pub fn record_lists(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"blobs");
         self.lists.record(r, r.bubbles, blobs)?;
         r.end(scope);
+        if let Some(cast) = &self.cast {
+            let scope = r.begin(c"cast");
+            cast.record(r, r.bubbles, (&self.lists, blobs))?;
+            r.end(scope);
+        }
+        Ok(())
+    }
+
+    /// Blobs as the sun sees them, where they cast shadows.
+    pub fn cast(&self, gpu: &Gpu) -> Option<Resource> {
+        self.cast.as_ref().map(|cast| cast.resource(gpu))
+    }
+
+    /// Where blobs are: before the tiles that are drawn are known.
+    pub fn record_peel(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"peel");
         self.peel.record(r, r.bubbles, (&self.lists, blobs), &self.templates)?;
         r.end(scope);
@@ -168,6 +187,7 @@ impl Bubbles {
     pub fn memory(&self) -> (u64, u64) {
         let (maps, bubbles) = self.templates.memory();
         let (depth, layers) = self.peel.memory();
-        (maps + depth + self.soap.image().size, bubbles + layers + self.lists.memory())
+        let cast = self.cast.as_ref().map_or(0, cast::Cast::memory);
+        (maps + depth + cast + self.soap.image().size, bubbles + layers + self.lists.memory())
     }
 }

@@ -166,7 +166,7 @@ pub struct BubbleLook {
     /// How much the pattern of small bubbles inside shows, 0 to 1, default 0.7.
     pub pattern: f32,
     /// Weight of the inverse normal in the look-up of the pattern, beside the place behind the bubble, 0 to 1, default
-    /// 0.35 (v₂ and v₁ of Sec. 4.4).
+    /// 0.1 (v₂ and v₁ of Sec. 4.4): with more of it the cells become rings round each bubble's middle.
     pub distortion: f32,
     /// Weight of the blob's own normal beside the bubble's where the core is lit, 0 to 1, default 0.5 (Sec. 4.4).
     pub roundness: f32,
@@ -189,7 +189,7 @@ impl Default for BubbleLook {
             core: [0.65, 0.98],
             albedo: [0.92; 3],
             pattern: 0.7,
-            distortion: 0.35,
+            distortion: 0.1,
             roundness: 0.5,
             reflection: 1.0,
             shininess: 800.0,

@@ -81,7 +81,7 @@ impl Soap {
             &[],
         );
         let linear = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
-        let [shadow, thickness, basis, span, cast] = r.sunlight.resources();
+        let [shadow, thickness, basis, span, cast, soap] = r.sunlight.resources();
         let own = [
             (0, r.uniforms),
             (1, uniforms),
@@ -98,6 +98,7 @@ impl Soap {
             basis,
             span,
             cast,
+            soap,
         ];
         let resources = [&own[..], &templates.resources(gpu)].concat();
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;

@@ -159,7 +159,7 @@ impl Radiance {
         r.dispatch_over(r.extent, self.surface.local_size);
         let [depth, smoothed] = hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED);
         gpu.barriers(cmd, &[depth, smoothed, access::image(sprites.occluders(), both, AFTER)], &[]);
-        let [shadow, thickness, basis, span, cast] = r.sunlight.resources();
+        let [shadow, thickness, basis, span, cast, soap] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
             (1, occluders),
@@ -173,6 +173,7 @@ impl Radiance {
             basis,
             span,
             cast,
+            soap,
         ];
         r.descriptors.bind(gpu, cmd, &self.gather, &resources)?;
         r.dispatch_over(r.extent, self.gather.local_size);

@@ -28,7 +28,7 @@ use lit::Lit;
 use maps::Maps;
 
 /// Specialisation constants of glsl/include/sunlight.glsl.
-pub fn constants(config: &Config) -> [(u32, u32); 4] {
+pub fn constants(config: &Config) -> [(u32, u32); 5] {
     let (shadow, terms) = match config.shadow {
         None => (0, 2),
         Some(Shadows::Mask) => (1, 2),
@@ -37,7 +37,14 @@ pub fn constants(config: &Config) -> [(u32, u32); 4] {
     };
     let cast = config.cast.is_some();
     let diffused = cast && config.diffuse.is_some();
-    [(11, shadow), (12, u32::from(cast)), (13, terms), (21, u32::from(diffused))]
+    let soaped = cast && config.bubbles.is_some();
+    [
+        (11, shadow),
+        (12, u32::from(cast)),
+        (13, terms),
+        (21, u32::from(diffused)),
+        (23, u32::from(soaped)),
+    ]
 }
 
 /// What of the sun's light reaches a point, for every shader that asks.
@@ -51,13 +58,22 @@ pub struct Sunlight {
     pub convolved: [Resource; 2],
     /// Diffuse particles as the sun sees them; anything where they cast nothing.
     pub diffuse: Resource,
+    /// The same of bubble foam.
+    pub bubbles: Resource,
 }
 
 impl Sunlight {
     /// As glsl/include/sunlight.glsl binds it.
-    pub fn resources(&self) -> [(u32, Resource); 5] {
+    pub fn resources(&self) -> [(u32, Resource); 6] {
         let [basis, span] = self.convolved;
-        [(16, self.shadow), (17, self.thickness), (18, basis), (19, span), (24, self.diffuse)]
+        [
+            (16, self.shadow),
+            (17, self.thickness),
+            (18, basis),
+            (19, span),
+            (24, self.diffuse),
+            (27, self.bubbles),
+        ]
     }
 }
 

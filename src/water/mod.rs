@@ -219,6 +219,9 @@ impl Water {
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
         let Beside { light, diffuse, bubbles } = *beside;
+        if let Some((bubbles, blobs)) = bubbles {
+            bubbles.record_lists(r, blobs)?;
+        }
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
             let diffuse = diffuse.and_then(|(_, particles)| particles);

@@ -153,9 +153,10 @@ impl Spray {
         let area = r.extent.into();
         self.target.begin(gpu, cmd, area, [0.0; 4]);
         if any {
-            let [shadow, thickness, basis, span, diffuse] = r.sunlight.resources();
+            let [shadow, thickness, basis, span, diffuse, soap] = r.sunlight.resources();
             let water = Resource::Sampled(depth.view, gpu.samplers.nearest);
-            let more = [(2, r.scene_depth), (3, water), shadow, thickness, basis, span, diffuse];
+            let sunlight = [shadow, thickness, basis, span, diffuse, soap];
+            let more = [&[(2, r.scene_depth), (3, water)][..], &sunlight].concat();
             self.sprites.draw(r, list, &self.draw, cull::SPRAY, &more)?;
         }
         gpu.end_pass(cmd);

@@ -13,6 +13,7 @@ use crate::support::device::Gpu;
 use crate::support::host;
 use crate::support::rig::{Drawn, OUTPUT, Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
+use crate::support::slow;
 
 fn water(size: vk::Extent2D, lens: Lens) -> Shot {
     let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
@@ -66,7 +67,7 @@ fn both_ways_give_the_same_picture() {
     ];
     for (width, height) in [(97, 61), (1, 1), (1, 7), (3, 5), (17, 33), (130, 9)] {
         let size = extent(width, height);
-        let few = if width == 97 { &kinds[..] } else { &kinds[..2] };
+        let few = if width == 97 { &kinds[..] } else { &kinds[..if slow() { 2 } else { 1 }] };
         for &(smoothing_level, thickness_level, in_place, output_format) in few {
             let levels = Config { smoothing_level, thickness_level, ..config(size) };
             let config = Config { in_place, output_format, ..levels };
@@ -90,9 +91,14 @@ fn both_ways_give_the_same_picture() {
 #[test]
 fn tiles_of_every_level_are_shaded_whole() {
     let gpu = Gpu::shared();
-    for (width, height) in [(97, 61), (530, 33), (19, 300), (1, 1)] {
+    let sizes = [(97, 61), (530, 33), (19, 300), (1, 1)];
+    for (turn, (width, height)) in (0..).zip(sizes) {
         let size = extent(width, height);
-        for (smoothing_level, coarsening) in [(0, 0), (0, 3), (1, 2), (2, 1), (2, 2), (2, 3)] {
+        let levels = [(0, 0), (0, 3), (1, 2), (2, 1), (2, 2), (2, 3)];
+        for (number, (smoothing_level, coarsening)) in (0..).zip(levels) {
+            if !slow() && (turn + number) % 2 == 1 {
+                continue;
+            }
             let config = Config { smoothing_level, coarsening, max_iterations: 3, ..config(size) };
             let row: Vec<_> = (-30_i8..=30).map(|x| [f32::from(x), 0.0, 2.0]).collect();
             let mut shot = Shot::new(size, Lens::Reversed, 1.0, &row);

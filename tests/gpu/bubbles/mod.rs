@@ -1,6 +1,7 @@
 //! Bubble foam, against brute force and closed forms.
 
 mod bad;
+mod cast;
 mod film;
 mod heap;
 mod impostor;

@@ -18,6 +18,7 @@ use crate::support::host::HOST_WRITE;
 use crate::support::limits::{Claims, claim};
 use crate::support::rig::{Drawn, Rig, Shot, attenuation, config, stream, twins};
 use crate::support::scenes::{self, Lens, Random};
+use crate::support::slow;
 use crate::support::spy;
 
 use super::lit::{check_lit, grounded, seen};
@@ -324,6 +325,9 @@ fn a_sheet_hardly_shades_itself() {
     let gpu = Gpu::shared();
     for texels in [64, 256] {
         for height in [1.0_f32, 0.5, 0.2] {
+            if !slow() && (texels == 64) != (height == 0.5) {
+                continue;
+            }
             let mut shot = Shot::new(SIZE, Lens::Standard, 0.06, &[]);
             let mut random = Random(4);
             let positions = (0..3000)

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::Outcome;
+use crate::bubbles;
 use crate::curves::{self, Curve};
 use crate::diffuse;
 use crate::panels::{self, amount, depth, grid, iterations, normals};
@@ -13,7 +14,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 17] = [
+pub const ALL: [(&str, Figure); 23] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -31,6 +32,12 @@ pub const ALL: [(&str, Figure); 17] = [
     ("diffuse-layers", diffuse::layers),
     ("diffuse-shapes", diffuse::shapes),
     ("diffuse-look", diffuse::looks),
+    ("bubble-one", bubbles::one),
+    ("bubble-films", bubbles::films),
+    ("bubble-impostors", bubbles::impostors),
+    ("bubble-foam", bubbles::dense),
+    ("bubble-slope", bubbles::slope),
+    ("bubble-box", bubbles::boxes),
 ];
 
 pub fn pictures(docs: &Path, name: &str) -> PathBuf {

@@ -1,5 +1,5 @@
-//! The figures of `docs/layered-water.md` and `docs/screen-space-foam.md`: the sources' own (F. Bagar, 2010; Akinci et
-//! al., 2013), drawn anew by `whitewater`.
+//! The figures of `docs/layered-water.md`, `docs/screen-space-foam.md` and `docs/bubble-foam.md`: the sources' own
+//! (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi), drawn anew by `whitewater`.
 //!
 //! ```sh
 //! cargo build --release -p whitewater-cli -p whitewater-figures
@@ -10,6 +10,7 @@
 //! Scenes that are not yet in DIR are simulated first, some minutes each. Figures are drawn by the command
 //! line as anyone would; here is only what puts them side by side.
 
+mod bubbles;
 mod curves;
 mod diffuse;
 mod figures;

@@ -105,6 +105,25 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
+    /// A frame of bubble foam. `more` are further arguments.
+    pub fn bubbles(&self, which: &str, frame: u32, more: &str) -> Outcome<Frame> {
+        let [exr, png] = ["bubbles.exr", "bubbles.png"].map(|name| self.temporary(name));
+        let mut arguments = vec![
+            "render".to_owned(),
+            format!("--bubbles={which}"),
+            format!("--frames={frame}"),
+            format!("--size={}x{}", SIZE.0, SIZE.1),
+            format!("--output={}", exr.display()),
+            format!("--output={}", png.display()),
+            "--overwrite".to_owned(),
+        ];
+        arguments.extend(more.split_whitespace().map(str::to_owned));
+        self.run(&arguments)?;
+        let layers = picture::read(&exr).map_err(|error| error.to_string())?;
+        let picture = image::open(&png).map_err(|error| error.to_string())?.into_rgb8();
+        Ok(Frame { layers, picture })
+    }
+
     /// The argument that draws by such settings, TOML.
     pub fn settings(&self, text: &str) -> Outcome<String> {
         let path = self.temporary("settings.toml");

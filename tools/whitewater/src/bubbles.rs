@@ -135,6 +135,8 @@ impl Random {
 struct Set {
     blobs: Blobs,
     scene: Scene,
+    /// Where shadows fall.
+    lit: Bounds,
     eye: [f32; 3],
     target: [f32; 3],
 }
@@ -156,7 +158,13 @@ fn set(which: &Which) -> Outcome<Set> {
         Which::One => {
             let blobs = still(vec![blob(Vec3::new(0.0, 0.97, 0.0), 1.0, 0)]);
             let scene = on_ground(&blobs.blobs);
-            Set { blobs, scene, eye: [1.1, 1.75, 2.9], target: [0.0, 0.93, 0.0] }
+            Set {
+                lit: bounds_of(&blobs.blobs),
+                blobs,
+                scene,
+                eye: [1.1, 1.75, 2.9],
+                target: [0.0, 0.93, 0.0],
+            }
         }
         Which::Box(count) => {
             let row = f64::from(*count).cbrt().ceil() as u32;
@@ -177,7 +185,13 @@ fn set(which: &Which) -> Outcome<Set> {
                 .collect();
             let blobs = still(blobs);
             let scene = on_ground(&blobs.blobs);
-            Set { blobs, scene, eye: [2.9, 2.9, 3.6], target: [0.0, 0.95, 0.0] }
+            Set {
+                lit: bounds_of(&blobs.blobs),
+                blobs,
+                scene,
+                eye: [2.9, 2.9, 3.6],
+                target: [0.0, 0.95, 0.0],
+            }
         }
         Which::Slope(count) => slope(*count, &mut blob),
         Which::File(path) => {
@@ -187,7 +201,7 @@ fn set(which: &Which) -> Outcome<Set> {
             let away = 1.6 * bounds.size().max_element().max(1.0e-3);
             let target = bounds.center();
             let eye = target + away * Vec3::new(0.5, 0.45, 0.85);
-            Set { blobs, scene, eye: eye.to_array(), target: target.to_array() }
+            Set { blobs, scene, lit: bounds, eye: eye.to_array(), target: target.to_array() }
         }
     })
 }
@@ -242,6 +256,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     Set {
         blobs: Blobs { blobs, motion: Some((settings, solids)) },
         scene,
+        lit: low,
         eye: [2.7, 1.7, 2.9],
         target: [0.35, 0.35, 0.0],
     }
@@ -269,7 +284,7 @@ fn on_ground(blobs: &[Bubble]) -> Scene {
 /// `render --bubbles` without particles.
 pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let Set { blobs, mut scene, eye, target } = set(which)?;
+    let Set { blobs, mut scene, lit, eye, target } = set(which)?;
     let (first, last) = match (range, &blobs.motion) {
         (Some(range), _) => (*range.start(), *range.end()),
         // Under way.
@@ -300,8 +315,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     scene.sun = environment.sun_light();
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
     file.apply(&mut settings).map_err(Failure::input)?;
-    let bounds = bounds_of(&blobs.blobs);
-    let Region { center, radius } = bounds.region();
+    let Region { center, radius } = lit.region();
     let count = blobs.blobs.len();
     let look = Look {
         camera,

@@ -1,0 +1,80 @@
+//! Pass `cast`: blobs as the sun sees them, so that they shade each other, the scene and the water (not in the source).
+//!
+//! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region on.
+
+use ash::vk;
+
+use super::lists::Lists;
+use crate::contract::{Blobs, Config};
+use crate::error::Error;
+use crate::frame::EMPTY;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, Access, CLEAR, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, FRAGMENT_SAMPLED, VERTEX_SAMPLED,
+};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+use crate::water::Recording;
+
+/// How it is read: by all that asks for the sun's light.
+const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED).and(VERTEX_SAMPLED);
+
+/// The pass.
+pub struct Cast {
+    pipeline: Pipeline,
+    front: Image,
+}
+
+impl Cast {
+    /// None where nothing casts shadows.
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Option<Self>, Error> {
+        let Some(edge) = config.cast else { return Ok(None) };
+        let usage = vk::ImageUsageFlags::STORAGE
+            | vk::ImageUsageFlags::SAMPLED
+            | vk::ImageUsageFlags::TRANSFER_DST;
+        // Half the light's other maps: shadows of blobs are soft.
+        let extent = vk::Extent2D { width: edge / 2, height: edge / 2 };
+        let desc = ImageDesc::new("bubbles/cast", extent, vk::Format::R32_SFLOAT, usage);
+        let alias = Some(vk::Format::R32_UINT);
+        Ok(Some(Self {
+            pipeline: Pipeline::compute(gpu, shader::BUBBLES_CAST_COMP, &[])?,
+            front: Image::new(gpu, &ImageDesc { alias, ..desc })?,
+        }))
+    }
+
+    /// As glsl/include/sunlight.glsl reads it.
+    pub fn resource(&self, gpu: &Gpu) -> Resource {
+        Resource::Sampled(self.front.view, gpu.samplers.nearest)
+    }
+
+    pub fn record(
+        &self,
+        r: &Recording<'_>,
+        uniforms: Resource,
+        (lists, blobs): (&Lists, Option<&Blobs>),
+    ) -> Result<(), Error> {
+        let (gpu, cmd, image) = (r.gpu, r.cmd, &self.front);
+        gpu.barriers(cmd, &[access::image(image, AFTER.discarded(), CLEAR)], &[]);
+        gpu.clear_color(cmd, image, [EMPTY; 4]);
+        gpu.barriers(cmd, &[access::image(image, CLEAR, COMPUTE_READ_WRITE)], &[]);
+        let count = lists.count(gpu, blobs);
+        let resources = [
+            (0, r.uniforms),
+            (1, uniforms),
+            (3, Resource::buffer(lists.buffers()[0])),
+            (4, Resource::Storage(image.alias_view)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
+        self.pipeline.push(gpu, cmd, &count);
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { gpu.device.cmd_dispatch(cmd, count.div_ceil(64).max(1), 1, 1) };
+        gpu.barriers(cmd, &[access::image(image, COMPUTE_READ_WRITE, AFTER)], &[]);
+        Ok(())
+    }
+
+    pub fn memory(&self) -> u64 {
+        self.front.size
+    }
+}

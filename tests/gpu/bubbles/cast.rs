@@ -1,0 +1,78 @@
+//! Blobs as the sun sees them: what they leave of its light on the scene.
+
+use glam::{DVec3, Vec3};
+use whitewater::bubbles::BubbleConfig;
+use whitewater::headless::Bubble;
+use whitewater::{Config, Region};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+
+/// What of a blob casts, and what it leaves (glsl/bubbles/cast.comp, glsl/include/sunlight.glsl).
+const CORE: f64 = 0.78;
+const LEFT: f64 = 0.15;
+
+/// A ball's shadow on a wall, with light from the side: as dark as it gets within it, none beside it.
+#[test]
+fn a_blob_casts_the_shadow_of_its_core() {
+    let gpu = Gpu::shared();
+    let size = extent(128, 96);
+    let bubbles = BubbleConfig { templates: 1, bubbles: 32, ..BubbleConfig::new(4) };
+    let edge = 256;
+    let config = Config { bubbles: Some(bubbles), cast: Some(edge), ..config(size) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    for (lens, radius) in [(Lens::Standard, 0.5_f32), (Lens::LeftHanded, 0.45)] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        let depth = 5.0;
+        shot.scene_depth(|_, _| Some(depth));
+        let points = [[-0.9, 0.3, 3.4], [0.0, 0.0, 4.0], [-0.5, 0.2, 2.9]];
+        let [at, middle, sunward] =
+            [0, 1, 2].map(|i| Vec3::from(scenes::world(&shot.camera, &points)[i]));
+        let sun = (sunward - middle).normalize();
+        shot.settings.light.direction = sun.to_array();
+        shot.settings.light.irradiance = [2.0; 3];
+        shot.settings.light.shade = [0.0; 3];
+        let region = Region { center: middle.to_array(), radius: 4.0 };
+        shot.sun.region = Some(region);
+        let lit = rig.draw(&shot).output;
+        shot.blobs = vec![
+            Bubble { ball: at.extend(radius).to_array(), turn: [0.0, 0.0, 0.0, 1.0], id: 0 },
+            Bubble { ball: [f32::NAN; 4], turn: [0.0; 4], id: 1 },
+        ];
+        let drawn = rig.draw(&shot);
+        let soap = drawn.soap.as_ref().expect("bubble foam");
+        let view = shot.view(size);
+        let back = view.view.inverse();
+        // Of the map of blobs: four of its texels are looked at, and it is as fine as that.
+        let blur = 3.0 * f64::from(2.0 * region.radius) / f64::from(edge / 2);
+        let (mut dark, mut light) = (0, 0);
+        for y in 0..drawn.output.height {
+            for x in 0..drawn.output.width {
+                if soap.color.at(x, y)[3] > 0.0 {
+                    continue;
+                }
+                let p: DVec3 = back.transform_point3(view.ray(x, y) * depth);
+                let to = at.as_dvec3() - p;
+                let beside = (to - to.dot(sun.as_dvec3()) * sun.as_dvec3()).length();
+                let share = f64::from(drawn.output.at(x, y)[0]) / f64::from(lit.at(x, y)[0]);
+                let core = CORE * f64::from(radius);
+                if beside < core - blur {
+                    dark += 1;
+                    assert!(
+                        (share - LEFT).abs() < 2.0e-3,
+                        "{lens:?} ({x}, {y}): {share} of the light"
+                    );
+                } else if beside > core + blur {
+                    light += 1;
+                    assert_eq!(share, 1.0, "{lens:?} ({x}, {y})");
+                }
+            }
+        }
+        println!("{lens:?}: {dark} pixels in the shadow, {light} beside it");
+        assert!(
+            dark > 20 && light > 2000,
+            "{lens:?}: {dark} pixels in the shadow, {light} beside it"
+        );
+    }
+}

@@ -1,0 +1,71 @@
+//! The figures of bubble foam, each by its number in the paper (Huszár, Szécsi).
+
+use std::path::Path;
+
+use crate::Outcome;
+use crate::figures::pictures;
+use crate::panels::{depth, grid};
+use crate::tool::Tool;
+
+/// A blob's upper half from near, with sky behind its films.
+const FILMS: &str = "--eye 0.2,1.9,2.3 --target 0.05,1.45,0";
+
+/// Figure 6: one blob, whole and from near.
+pub fn one(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let near = "--eye 0.3,1.3,1.6 --target 0,1.1,0";
+    let panels = [tool.bubbles("one", 1, "")?, tool.bubbles("one", 1, near)?];
+    grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-one.png"))
+}
+
+/// What films are: thin and thick, all light and three wavelengths, the source's reflectance.
+pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let looks = [
+        "film = 120.0\ncore = [0.4, 0.7]",
+        "core = [0.4, 0.7]",
+        "film = 900.0\ncore = [0.4, 0.7]",
+        "drainage = 0.0\nvariation = 0.0\ncore = [0.4, 0.7]",
+        "spectrum = \"three\"\ncore = [0.4, 0.7]",
+        "spectrum = \"three\"\nfresnel = \"source\"\ncore = [0.4, 0.7]",
+    ];
+    let panel = |look: &&str| -> Outcome<_> {
+        let settings = tool.settings(&format!("[bubbles]\n{look}\n"))?;
+        Ok(tool.bubbles("one", 1, &format!("{FILMS} {settings}"))?.picture)
+    };
+    let panels: Result<Vec<_>, String> = looks.iter().map(panel).collect();
+    grid(&panels?, 3, &pictures(docs, "bubble-films.png"))
+}
+
+/// Both impostors, and without walls.
+pub fn impostors(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let looks = ["", "walls = false", "impostor = \"distance\""];
+    let near = "--eye 0.3,1.3,1.6 --target 0,1.1,0";
+    let panel = |look: &&str| -> Outcome<_> {
+        let settings = tool.settings(&format!("[bubbles]\n{look}\n"))?;
+        Ok(tool.bubbles("one", 1, &format!("{near} {settings}"))?.picture)
+    };
+    let panels: Result<Vec<_>, String> = looks.iter().map(panel).collect();
+    grid(&panels?, 3, &pictures(docs, "bubble-impostors.png"))
+}
+
+/// Figure 7: dense foam, and its depth.
+pub fn dense(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let near = "--eye 2.6,0.7,1.3 --target 1.2,0.12,0";
+    let frame = tool.bubbles("slope:200", 150, near)?;
+    let panels = [depth(&frame.layers, "bubbles.Z")?, frame.picture];
+    grid(&panels, 2, &pictures(docs, "bubble-foam.png"))
+}
+
+/// Figure 8: foam that slides down a slope.
+pub fn slope(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let panels: Result<Vec<_>, String> = [1, 45, 90, 240]
+        .iter()
+        .map(|number| Ok(tool.bubbles("slope", *number, "")?.picture))
+        .collect();
+    grid(&panels?, 2, &pictures(docs, "bubble-slope.png"))
+}
+
+/// Figure 9: a box of 5000 blobs; of a hundred as well.
+pub fn boxes(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let panels = [tool.bubbles("box", 1, "")?, tool.bubbles("box:100", 1, "")?];
+    grid(&panels.map(|frame| frame.picture), 2, &pictures(docs, "bubble-box.png"))
+}
