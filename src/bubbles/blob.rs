@@ -65,7 +65,7 @@ fn apart(a: f64, b: f64) -> f64 {
 }
 
 impl Blob {
-    /// So many bubbles, within [`BUBBLES`].
+    /// So many bubbles, 8 to 256; fewer and more are as many as the nearer of the two.
     pub fn new(seed: u32, count: u32) -> Self {
         let count = count.clamp(*BUBBLES.start(), *BUBBLES.end());
         let mut random = Random { seed: pcg(seed), counter: 0 };

@@ -104,7 +104,9 @@ impl Impostor {
 /// How the nearest blobs of a pixel are found. Both give the same picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BubbleSort {
-    /// Each pixel goes once through the blobs of its tile, front to back, and keeps the nearest. Default.
+    /// Each pixel goes once through the blobs of its tile, front to back, and keeps the nearest. Default. There is room
+    /// for 128 blobs a tile of 16×16 pixels in the mean and four tiles a blob besides: where it is full, the farthest are
+    /// left out.
     Tiles,
     /// All blobs are drawn once a layer, behind what the layer before has found (depth peeling, Everitt 2001), and
     /// once more for how opaque they are: the source's way (Sec. 5).
