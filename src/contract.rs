@@ -121,7 +121,7 @@ pub struct Config {
     /// `splat`, `radiance`, `blur`. `None` (default): they are not. 88 bytes a pixel more.
     pub diffuse: Option<DiffuseConfig>,
     /// Blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`. `None` (default): they
-    /// are not. 12 bytes a pixel more, 4 a layer and pixel, 64 a blob.
+    /// are not. 14½ bytes a pixel more, 4 for each layer and one besides, 64 a blob.
     pub bubbles: Option<BubbleConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
     /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4
@@ -696,6 +696,12 @@ pub struct Recorded {
     /// the front on 256 times the blob's place in the streams and its bubble, 0xffff_ffff of none; then the bits of the
     /// most opacity (f32). Transfer source; last written by a compute shader, read by one.
     pub bubbles: Option<(vk::Buffer, u32)>,
+    /// With [`Config::bubbles`]: a buffer of five `u32`, what became of the blobs: bits of the eye depth at which the
+    /// first begins and of that at which the last does (f32), how many are on the screen, how many are no balls (not
+    /// finite, no radius) and left out, how many places the tiles' lists take
+    /// ([`BubbleSort::Tiles`](crate::bubbles::BubbleSort::Tiles)). Transfer source; last written by a compute shader,
+    /// read by compute shaders.
+    pub blobs: Option<vk::Buffer>,
 }
 
 /// Where the levels of the smoothing lie in the images `water.surface` and `water.iterations`, and how near

@@ -81,7 +81,7 @@ impl Renderer {
         check::config(config)?;
         Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
         let gpu = Gpu::new(host)?;
-        let made = Parts::new(&gpu, config).and_then(|parts| {
+        let made = Parts::new(&gpu, config, None).and_then(|parts| {
             let environment = Environment::new(&gpu, config)?;
             let slots = (0..gpu.slots).map(|_| SlotState::new(&gpu, config));
             Ok((parts, environment, slots.collect::<Result<Vec<_>, _>>()?))
@@ -114,16 +114,15 @@ impl Renderer {
     }
 
     /// Records the first contents of what is read before it is written, and what bubble foam is made of. Once, before
-    /// the first `record`; again after `reconfigure`.
-    ///
-    /// # Errors
-    /// What Vulkan reports.
+    /// the first `record`; again where `reconfigure` says so.
     ///
     /// # Safety
     /// `cmd` is recording outside a render pass and is submitted before any `record`.
-    pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) -> Result<(), Error> {
+    pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         self.environment.record_setup(&self.gpu, cmd);
-        self.bubbles.as_ref().map_or(Ok(()), |bubbles| bubbles.record_setup(&self.gpu, cmd))
+        if let Some(bubbles) = &self.bubbles {
+            bubbles.record_setup(&self.gpu, cmd);
+        }
     }
 
     /// Records the environment that the water reflects, once per environment.
@@ -320,6 +319,7 @@ impl Renderer {
             tiles: Some(self.water.tiles()),
             sheets: self.water.boundaries(),
             bubbles: self.bubbles.as_ref().map(Bubbles::layers),
+            blobs: self.bubbles.as_ref().map(Bubbles::counts),
         };
         Ok((recorded, cmd))
     }
@@ -391,8 +391,8 @@ impl Renderer {
     }
 
     /// Changes the configuration: makes what it needs anew and retires what it replaces. Legal with
-    /// frames in flight. Returns true when the environment was made anew too: then
-    /// [`record_setup`](Self::record_setup) and
+    /// frames in flight. Returns true when the environment or what bubble foam is made of was made anew too: then
+    /// [`record_setup`](Self::record_setup) and, as it empties the environment,
     /// [`record_environment`](Self::record_environment) are due before the next record.
     ///
     /// # Errors
@@ -402,7 +402,9 @@ impl Renderer {
         let new = self.make_parts(config);
         self.gpu.bury();
         let (parts, environment, descriptors) = new?;
-        let new_environment = environment.is_some();
+        let bubbles = parts.bubbles.as_ref();
+        let same_bubbles = bubbles.is_none_or(|own| own.is_set_up_as(self.bubbles.as_ref()));
+        let due = environment.is_some() || !same_bubbles;
         self.config = *config;
         self.whole = true;
         let retired = &mut self.retired;
@@ -420,7 +422,7 @@ impl Renderer {
             retired.replace(&mut slot.descriptors, new);
         }
         self.gpu.bury();
-        Ok(new_environment)
+        Ok(due)
     }
 
     /// What a configuration needs anew: the environment only where its size changes.
@@ -429,7 +431,7 @@ impl Renderer {
         config: &Config,
     ) -> Result<(Parts, Option<Environment>, Vec<Descriptors>), Error> {
         let gpu = &*self.gpu;
-        let parts = Parts::new(gpu, config)?;
+        let parts = Parts::new(gpu, config, self.bubbles.as_ref())?;
         let same_environment = config.environment_size == self.config.environment_size;
         let environment = (!same_environment).then(|| Environment::new(gpu, config)).transpose()?;
         let descriptors =
@@ -513,14 +515,16 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+    /// `before`: bubbles until now, of which what still fits is kept.
+    fn new(gpu: &Gpu, config: &Config, before: Option<&Bubbles>) -> Result<Self, Error> {
+        let bubbles = config.bubbles.map(|own| Bubbles::new(gpu, config, &own, before));
         Ok(Self {
             water: Water::new(gpu, config)?,
             composite: Composite::new(gpu, config)?,
             light: Self::light(gpu, config)?,
             convolving: Self::convolving(gpu, config)?,
             foam: config.diffuse.map(|diffuse| Foam::new(gpu, config, &diffuse)).transpose()?,
-            bubbles: config.bubbles.map(|own| Bubbles::new(gpu, config, &own)).transpose()?,
+            bubbles: bubbles.transpose()?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
     }

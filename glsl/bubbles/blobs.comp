@@ -64,7 +64,7 @@ void place(uint index) {
         blob.nearest = max(-centre.z - ball.w, 0.0);
         blob.turn = turn_of(index);
         blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
-        blob.template_ = pcg(blob.id) % bubbly.blobs.y;
+        blob.template_ = pcg(blob.id) % bubbly.kinds.x;
         atomicAdd(range.seen, 1u);
         uint near = floatBitsToUint(blob.nearest);
         atomicMin(range.nearest, near);

@@ -6,6 +6,7 @@
 
 #include "heap.glsl"
 #include "solid.glsl"
+#include "quaternion.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -18,8 +19,6 @@ layout(set = 0, binding = 7, std430) readonly buffer Heap { Heaped heaped[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Solids { Solid solids[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Field { float field[]; };
 
-// Of a bucket no more are looked at: blobs heaped on one spot must not hang a device.
-const uint MOST_IN_BUCKET = 128u;
 // Of a ball's moment of inertia: 1 / (2/5).
 const float ROUND = 2.5;
 
@@ -27,14 +26,6 @@ struct Pushed {
     vec3 speed; // change of velocity a second
     vec3 spin;
 };
-
-vec3 unturned(vec4 q, vec3 v) {
-    return v + 2.0 * cross(-q.xyz, cross(-q.xyz, v) + q.w * v);
-}
-
-vec3 turned(vec4 q, vec3 v) {
-    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
 
 // What another blob does.
 Pushed pushed_by(Heaped own, Heaped other) {
@@ -71,7 +62,7 @@ vec4 solid_at(Solid solid, vec3 place) {
     if (solid.place.w < 0.5) {
         return vec4(solid.place.xyz, dot(solid.place.xyz, place) - solid.size.w);
     }
-    vec3 q = unturned(solid.turn, place - solid.place.xyz);
+    vec3 q = turned(turned_back(solid.turn), place - solid.place.xyz);
     vec3 d = abs(q) - solid.size.xyz;
     vec3 out_ = max(d, 0.0);
     float beside = length(out_);
@@ -111,7 +102,7 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
         return;
     }
     vec3 n = solid.xyz;
-    float dt = push.solid.w;
+    float dt = push.solid.z;
     float parting = dot(speed, n);
     float gained = max(dt * (push.solid.y * deep - push.damping.z * parting), 0.0);
     speed += gained * n;
@@ -139,23 +130,21 @@ void main() {
     Pushed sum = Pushed(vec3(0.0), vec3(0.0));
     for (int c = 0; c < 27; ++c) {
         ivec3 beside = cell + ivec3(c % 3, c / 3 % 3, c / 9) - 1;
-        uint bucket = heap_bucket(beside);
+        uint bucket = bucket_of(beside);
         uint j = bucket > 0u ? buckets[bucket - 1u] : 0u;
         uint end = min(buckets[bucket], j + MOST_IN_BUCKET);
         while (j < end) {
             Heaped other = heaped[j];
             // Cells share buckets.
             bool there = j != k && other.ball.w > 0.0 && all(equal(heap_cell(other.ball.xyz), beside));
-            while (there) {
+            if (there) {
                 Pushed by = pushed_by(own, other);
-                sum.speed += by.speed;
-                sum.spin += by.spin;
-                there = false;
+                sum = Pushed(sum.speed + by.speed, sum.spin + by.spin);
             }
             ++j;
         }
     }
-    float dt = push.solid.w;
+    float dt = push.solid.z;
     float wet = clamp((push.water.x - own.ball.y + own.ball.w) / (2.0 * own.ball.w), 0.0, 1.0);
     vec3 pull = push.gravity.xyz * (1.0 - wet / push.water.y);
     vec3 speed = own.drift.xyz + dt * (sum.speed + pull);

@@ -1,6 +1,6 @@
 #version 460
 // Pass `heap`, order: the blobs of a bucket in the order of their ids, whichever came first: sums over them are the same
-// in every run.
+// in every run. Of a bucket the first few are enough: of blobs heaped on one spot sorting all would hang a device.
 // Reads: balls, drifts, spins, ids, buckets. Writes: order, heaped.
 
 #include "heap.glsl"
@@ -22,10 +22,18 @@ void main() {
     }
     uint begin = bucket > 0u ? buckets[bucket - 1u] : 0u;
     uint end = buckets[bucket];
+    // Behind the first of them, which alone are looked at, the rest lie anyhow.
+    uint sorted_end = min(end, begin + MOST_IN_BUCKET);
     for (uint i = begin; i < end; ++i) {
         uint own = order[i];
         uint at = i;
-        while (at > begin && ids[order[at - 1u]] > ids[own]) {
+        bool kept = i < sorted_end;
+        if (!kept && ids[own] < ids[order[sorted_end - 1u]]) {
+            at = sorted_end - 1u;
+            order[i] = order[at];
+            kept = true;
+        }
+        while (kept && at > begin && ids[order[at - 1u]] > ids[own]) {
             order[at] = order[at - 1u];
             --at;
         }

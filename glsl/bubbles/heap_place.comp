@@ -18,7 +18,7 @@ void main() {
     if (i >= push.blobs) {
         return;
     }
-    uint at = atomicAdd(buckets[heap_bucket(heap_cell(balls[i].xyz))], 1u);
+    uint at = atomicAdd(buckets[bucket_of(heap_cell(balls[i].xyz))], 1u);
     if (GO == 1u) {
         order[at] = i;
     }

@@ -1,6 +1,6 @@
 #version 460
-// Pass `peel` by tiles: the nearest blobs of each pixel, and how opaque all are together (Huszar, Szecsi, Sec. 5, which draws all
-// once a layer and once more). Here once: a pixel goes through its tile's blobs, slice by slice from the front, keeps
+// Pass `peel` by tiles: the nearest blobs of each pixel, and the most opacity of all (Huszar, Szecsi, Sec. 5, which draws
+// all once a layer and once more). Here once: a pixel goes through its tile's blobs, slice by slice from the front, keeps
 // the nearest, and ends where nothing behind can change it.
 // Reads: blobs, range, cells, spans, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
 
@@ -56,8 +56,7 @@ void main() {
         while (place < end) {
             uint index = list[place];
             Seen seen = blob_seen(blobs[index], ray);
-            bool shows = seen.depth < scene;
-            while (shows) {
+            if (seen.depth < scene) {
                 most = max(most, seen.opacity);
                 float depth = seen.depth;
                 float opacity = seen.opacity;
@@ -74,7 +73,6 @@ void main() {
                     opacity = farther.y;
                     layer = other;
                 }
-                shows = false;
             }
             ++place;
         }

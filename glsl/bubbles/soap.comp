@@ -1,7 +1,7 @@
 #version 460
 // Pass `soap`: what the blobs of a pixel look like, its layers front to back (Huszar, Szecsi, Sec. 4.4 and 5): the film
 // before, the wall between two bubbles, the core, the film behind, each over what lies behind it.
-// Reads: blobs, layers, film, core, environment, irradiance, smoothed water, what blob.glsl and sunlight.glsl read.
+// Reads: blobs, layers, film, core, environment, irradiance, water depth, what blob.glsl and sunlight.glsl read.
 // Writes: bubbles (RGBA16F), premultiplied.
 
 #include "frame.glsl"
@@ -28,11 +28,6 @@ layout(set = 0, binding = 6) uniform sampler2D core_map;
 layout(set = 0, binding = 7) uniform samplerCube environment;
 layout(set = 0, binding = 11) uniform sampler2D irradiance;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D bubbles_image;
-
-vec2 border_place(sampler2D map, vec3 direction) {
-    vec2 texels = vec2(textureSize(map, 0));
-    return ((0.5 * octahedral_place(direction) + 0.5) * (texels - 2.0) + 1.0) / texels;
-}
 
 // What a film reflects of each colour.
 vec3 film_at(float cosine, float thickness) {
@@ -64,9 +59,9 @@ vec3 to_world(Look look, vec3 v) {
     return turned(turned_back(look.blob.turn), v);
 }
 
-// What a film sends to the eye, and in `back` what share of what is behind it it keeps back. Of a sphere of some pixels'
-// radius, which widens the cone that a pixel sees by it. `open`: how much of its surroundings are the environment's, the
-// rest is foam.
+// What a film sends to the eye, and in `back` what share it keeps back of what is behind it. Of a sphere of some
+// pixels' radius, which widens the cone that a pixel sees by it. `open`: how much of its surroundings are the
+// environment's, the rest is foam.
 vec3 film_light(Look look, vec3 normal, float radius, float thickness, float open, vec3 foam, out vec3 back) {
     vec3 n = to_world(look, normal);
     float cosine = dot(n, look.seen);
@@ -83,11 +78,11 @@ vec3 film_light(Look look, vec3 normal, float radius, float thickness, float ope
 // Light of the core where it is seen at a place, behind a bubble's normal.
 vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     vec3 at = normalize(mix(normalize(past), -normal, bubbly.core.z));
-    vec4 pattern = textureLod(core_map, border_place(core_map, at), 0.0);
+    vec4 pattern = textureLod(core_map, octahedral_texture_place(at, textureSize(core_map, 0)), 0.0);
     float shown = bubbly.albedo.w * fine;
     vec3 n = normalize(mix(normal, round_, bubbly.core.w) + shown * pattern.xyz);
     n = to_world(look, n);
-    vec3 sky = textureLod(irradiance, border_place(irradiance, n), 0.0).rgb;
+    vec3 sky = textureLod(irradiance, octahedral_texture_place(n, textureSize(irradiance, 0)), 0.0).rgb;
     // Foam is soft: it is lit beyond where it is turned away.
     float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
     vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
@@ -96,8 +91,8 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
 
-// Beyond the bubble that is met first: the one whose wall with it the ray crosses first, NO_BUBBLE where it crosses none
-// within a way. Told by the planes that their spheres cut each other in, near which the walls lie. The source takes
+// Beyond the bubble that is met first: the one whose wall with it the ray crosses first, NO_BUBBLE where it crosses
+// none within a way. Told by the planes that their spheres cut each other in, near which the walls lie. The source takes
 // what its search finds next, and can miss one.
 uint second_bubble(Look look, uint id, vec4 a, vec2 way) {
     uint other = NO_BUBBLE;
@@ -128,15 +123,14 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body) {
     vec3 middle = vec3(0.0);
     float radius = 1.0;
     if (BY_ID == 1u) {
-        id = min(id, BUBBLES - 1u);
-        ball_hits(ray.origin, ray.direction, bubble_of(look.blob.template_, id), way);
         vec4 bubble = bubble_of(look.blob.template_, id);
+        ball_hits(ray.origin, ray.direction, bubble, way);
         middle = bubble.xyz;
         radius = bubble.w;
     } else {
         BlobHit hit = blob_hit(look.blob.template_, ray.origin, ray.direction, ray.span);
         way = vec2(hit.t, hit.past);
-        radius = 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
+        radius = mean_radius();
     }
     way.x = max(way.x, ray.span.x);
     vec3 met = ray.origin + way.x * ray.direction;
@@ -147,13 +141,13 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body) {
         normal = (met - middle) / radius;
     } else {
         // Of the surface |p| = d(p / |p|), from how d changes across it.
-        vec3 side = normalize(abs(round_.x) < 0.7 ? cross(round_, vec3(1.0, 0.0, 0.0)) : cross(round_, vec3(0.0, 1.0, 0.0)));
+        uint which = look.blob.template_;
+        vec3 axis = abs(round_.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+        vec3 side = 0.03 * normalize(cross(round_, axis));
         vec3 other = cross(round_, side);
-        const float step = 0.03;
-        float d = length(met);
-        float a = distance_at(look.blob.template_, round_ + step * side) - distance_at(look.blob.template_, round_ - step * side);
-        float b = distance_at(look.blob.template_, round_ + step * other) - distance_at(look.blob.template_, round_ - step * other);
-        normal = normalize(round_ - (a * side + b * other) / (2.0 * step * d));
+        float a = distance_at(which, round_ + side) - distance_at(which, round_ - side);
+        float b = distance_at(which, round_ + other) - distance_at(which, round_ - other);
+        normal = normalize(round_ - (a * side + b * other) / (2.0 * 0.03 * 0.03 * length(met)));
     }
     // Bubbles too small to be seen are a rough white ball.
     float pixels = radius * look.pixels;
@@ -244,7 +238,8 @@ void main() {
         vec2 span;
         in_blob(look.blob, world, span);
         look.ray = blob_ray(look.blob, world, span);
-        vec4 ball = BY_ID == 1u ? bubble_of(look.blob.template_, min(layer & 0xffu, BUBBLES - 1u)) : vec4(0.0, 0.0, 0.0, 1.0);
+        uint id = layer & 0xffu;
+        vec4 ball = BY_ID == 1u ? bubble_of(look.blob.template_, id) : vec4(0.0, 0.0, 0.0, 1.0);
         vec2 way;
         ball_hits(look.ray.origin, look.ray.direction, ball, way);
         float depth = max(way.x, look.ray.span.x) * look.ray.scale;
@@ -256,7 +251,7 @@ void main() {
         water = water_before(depth, vec2(pixel), length_);
         vec3 through;
         vec3 own;
-        vec3 light = blob_light(look, layer & 0xffu, through, own);
+        vec3 light = blob_light(look, id, through, own);
         body = i == 0u ? own : mix(body, own, 0.5);
         color += left * water * light;
         left *= mix(vec3(1.0), through, water);

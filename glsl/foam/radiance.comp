@@ -66,9 +66,8 @@ uvec2 samples_of(float pixels, ivec2 pixel) {
 // The environment's light over the hemisphere of a normal, 1/2 of one that is 1 everywhere.
 vec3 gathered(vec3 normal, uvec2 run) {
     if (SAMPLED == 0u) {
-        vec2 texels = vec2(textureSize(irradiance, 0));
-        vec2 at = (0.5 * octahedral_place(normal) + 0.5) * (texels - 2.0) + 1.0;
-        return textureLod(irradiance, at / texels, 0.0).rgb;
+        vec2 at = octahedral_texture_place(normal, textureSize(irradiance, 0));
+        return textureLod(irradiance, at, 0.0).rgb;
     }
     vec3 sum = vec3(0.0);
     for (uint i = run.x; i < run.y; ++i) {

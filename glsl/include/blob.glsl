@@ -40,21 +40,19 @@ vec4 bubble_of(uint template_, uint id) {
     return bubbles[template_ * BUBBLES + id];
 }
 
+// Of a blob's bubbles, as they are made: a shell that hexagons cover, and how far they stand out of it (blob.rs).
+float mean_radius() {
+    return 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
+}
+
 // Distance of the surface from the middle, between texels; across an edge that of the edge.
 float distance_at(uint template_, vec3 direction) {
     int size = textureSize(blob_distances, 0).x;
-    vec3 a = abs(direction);
-    ivec3 texel = cube_texel(direction, size);
-    // The same place, and what of a texel it is off its middle.
-    float major = max(a.x, max(a.y, a.z));
-    vec3 p = direction / major;
-    vec2 uv = texel.z < 2 ? vec2(texel.z == 0 ? -p.z : p.z, -p.y)
-            : texel.z < 4 ? vec2(p.x, texel.z == 2 ? p.z : -p.z)
-                          : vec2(texel.z == 4 ? p.x : -p.x, -p.y);
-    vec2 at = clamp((0.5 * uv + 0.5) * float(size) - 0.5, 0.0, float(size) - 1.0);
+    vec3 place = cube_place(direction);
+    vec2 at = clamp(place.xy * float(size) - 0.5, 0.0, float(size) - 1.0);
     ivec2 base = ivec2(min(at, float(size) - 2.0));
     vec2 f = at - vec2(base);
-    int layer = texel.z + 6 * int(template_);
+    int layer = int(place.z) + 6 * int(template_);
     vec4 d;
     for (int i = 0; i < 4; ++i) {
         d[i] = texelFetch(blob_distances, ivec3(base + ivec2(i & 1, i >> 1), layer), 0).x;
@@ -114,7 +112,8 @@ BlobHit among_neighbours(uint template_, vec3 origin, vec3 direction, BlobHit hi
 
 // By distances: where the ray first comes inside the surface. Looked for in even steps to where it is nearest to the
 // middle, then between two of them by the place where the difference would be 0 (regula falsi, Illinois form). The
-// source turns the ray round so that its search (Szirmay-Kalos et al. 2005) ends on the near side; this one begins there.
+// source turns the ray round so that its search (Szirmay-Kalos et al. 2005) ends on the near side; this one begins
+// there.
 BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span) {
     const uint COARSE = 8u;
     float middle = clamp(-dot(origin, direction), span.x, span.y);
@@ -157,8 +156,7 @@ BlobHit blob_by_distance(uint template_, vec3 origin, vec3 direction, vec2 span)
     }
     hit.t = max(0.5 * (from + to), 0.0);
     // The mean chord of a bubble of the mean size: which one it is is not known.
-    float radius = 1.0 / (0.2625 * sqrt(float(BUBBLES)) + 1.45);
-    hit.past = hit.t + 4.0 / 3.0 * radius;
+    hit.past = hit.t + 4.0 / 3.0 * mean_radius();
     return hit;
 }
 

@@ -74,7 +74,7 @@ uint exact_layer(Blob blob, WorldRay world, uint layer, inout float depth) {
     vec2 span;
     in_blob(blob, world, span);
     BlobRay ray = blob_ray(blob, world, span);
-    BlobHit hit = BlobHit(depth / ray.scale, 0.0, min(layer & 0xffu, BUBBLES - 1u));
+    BlobHit hit = BlobHit(depth / ray.scale, 0.0, layer & 0xffu);
     hit = among_neighbours(blob.template_, ray.origin, ray.direction, hit, ray.span.x);
     depth = hit.t * ray.scale;
     return layer_of(layer >> 8, hit.id);

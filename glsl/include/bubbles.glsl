@@ -1,5 +1,7 @@
 // What the passes of bubble foam share. Needs frame.glsl. Reads: the block of bubble foam.
 
+#include "quaternion.glsl"
+
 layout(set = 0, binding = 1, std140) uniform BubbleFrame {
     vec4 film;    // mean thickness in nm, variation, drainage; the film table's last row in nm
     vec4 core;    // where it is opaque and where gone; weights of the inverse normal and of the blob's own
@@ -8,7 +10,7 @@ layout(set = 0, binding = 1, std140) uniform BubbleFrame {
     vec4 sun;     // its light on what faces it, over 2 pi
     vec4 sun_mirror; // its highlight
     uvec4 tiles;  // across, down, slices of depth, room in their lists
-    uvec4 blobs;  // most there may be, different ones
+    uvec4 kinds;  // different blobs; 0 0 0
 } bubbly;
 
 // A blob on the screen.
@@ -51,12 +53,4 @@ uint slice_of(BlobRange range, float depth) {
 // Of a tile's list the blobs in a slice come after those of nearer ones.
 uint cell_of(uint slice, uvec2 tile) {
     return (slice * bubbly.tiles.y + tile.y) * bubbly.tiles.x + tile.x;
-}
-
-vec3 turned(vec4 q, vec3 v) {
-    return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v);
-}
-
-vec4 turned_back(vec4 q) {
-    return vec4(-q.xyz, q.w);
 }

@@ -10,21 +10,26 @@ vec3 cube_direction(ivec3 texel, int size) {
     return normalize(d);
 }
 
-// The texel that a direction of any length but 0 lies in.
-ivec3 cube_texel(vec3 d, int size) {
+// Where a direction of any length but 0 lies: on its face across and down, 0 to 1, and which face.
+vec3 cube_place(vec3 d) {
     vec3 a = abs(d);
-    int face;
     vec3 p; // across, down, along the face's axis
+    float face;
     if (a.x >= a.y && a.x >= a.z) {
-        face = d.x >= 0.0 ? 0 : 1;
+        face = d.x >= 0.0 ? 0.0 : 1.0;
         p = vec3(d.x >= 0.0 ? -d.z : d.z, -d.y, a.x);
     } else if (a.y >= a.z) {
-        face = d.y >= 0.0 ? 2 : 3;
+        face = d.y >= 0.0 ? 2.0 : 3.0;
         p = vec3(d.x, d.y >= 0.0 ? d.z : -d.z, a.y);
     } else {
-        face = d.z >= 0.0 ? 4 : 5;
+        face = d.z >= 0.0 ? 4.0 : 5.0;
         p = vec3(d.z >= 0.0 ? d.x : -d.x, -d.y, a.z);
     }
-    ivec2 texel = ivec2((p.xy / p.z * 0.5 + 0.5) * float(size));
-    return ivec3(clamp(texel, ivec2(0), ivec2(size - 1)), face);
+    return vec3(p.xy / p.z * 0.5 + 0.5, face);
+}
+
+// The texel that it lies in.
+ivec3 cube_texel(vec3 d, int size) {
+    vec3 place = cube_place(d);
+    return ivec3(clamp(ivec2(place.xy * float(size)), ivec2(0), ivec2(size - 1)), int(place.z));
 }

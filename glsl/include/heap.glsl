@@ -1,5 +1,8 @@
 // What the passes of moving blobs share (Huszar, Szecsi, Sec. 6). Needs nothing.
 
+// Of a bucket no more are looked at, those of the lowest ids: blobs heaped on one spot must not hang a device.
+const uint MOST_IN_BUCKET = 128u;
+
 // A blob beside those of its bucket.
 struct Heaped {
     vec4 ball;  // world, radius
@@ -11,22 +14,19 @@ layout(push_constant, std430) uniform Push {
     vec4 gravity;      // m/s2; drag of the air 1/s
     vec4 pair;         // distance at rest and reach in sums of radii; stiffness 1/s2, pull m/s2
     vec4 damping;      // of pairs along and across, of solids, 1/s; friction
-    vec4 solid;        // contact in radii, stiffness 1/s2; edge of a cell in metres; seconds
+    vec4 solid;        // contact in radii, stiffness 1/s2; seconds; 0
     vec4 water;        // its level, density of foam over its own; 0 0
     vec4 field;        // first point of the field of distances, edge of its cells
     uvec4 field_size;  // points each way; 0: none; solids
     uint blobs;
     uint buckets;      // a power of two
+    float cells;       // of the grid in a metre
 } push;
 
-ivec3 heap_cell(vec3 place) {
-    // One quotient, whoever asks: in one pass and the other the same cell.
-    precise vec3 at = place / push.solid.z;
-    return ivec3(floor(clamp(at, -1.0e9, 1.0e9)));
-}
+#include "random.glsl"
+#include "cells.glsl"
 
-uint heap_bucket(ivec3 cell) {
-    uvec3 c = uvec3(cell) * uvec3(0x9E3779B1u, 0x85EBCA77u, 0xC2B2AE3Du);
-    uint joined = c.x ^ c.y ^ c.z;
-    return (joined ^ joined >> 15) & (push.buckets - 1u);
+// However far it has fallen.
+ivec3 heap_cell(vec3 place) {
+    return cell_of(clamp(place, -1.0e8 / push.cells, 1.0e8 / push.cells));
 }

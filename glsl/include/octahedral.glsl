@@ -20,3 +20,9 @@ vec2 octahedral_place(vec3 d) {
     vec2 p = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
     return d.z < 0.0 ? (1.0 - abs(p.yx)) * octahedral_signs(p) : p;
 }
+
+// The same in an image of so many texels, 0 to 1, of which the outermost are its border.
+vec2 octahedral_texture_place(vec3 d, ivec2 texels) {
+    vec2 at = (0.5 * octahedral_place(d) + 0.5) * (vec2(texels) - 2.0) + 1.0;
+    return at / vec2(texels);
+}

@@ -152,7 +152,8 @@ float past_soap(LightTexels t) {
     for (int i = 0; i < 16; ++i) {
         ivec2 side = ivec2(i & 3, i >> 2) - 1;
         ivec2 texel = clamp(base + side, ivec2(0), ivec2(edge) - 1);
-        vec2 part = vec2(side.x == -1 ? 1.0 - f.x : side.x == 2 ? f.x : 1.0, side.y == -1 ? 1.0 - f.y : side.y == 2 ? f.y : 1.0);
+        vec2 part = mix(vec2(1.0), 1.0 - f, equal(side, ivec2(-1)));
+        part = mix(part, f, equal(side, ivec2(2)));
         float behind = depth - texelFetch(light_soap, texel, 0).x;
         lost += part.x * part.y * smoothstep(1.5 * wide, 9.0 * wide, behind);
     }

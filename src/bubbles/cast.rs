@@ -52,7 +52,6 @@ impl Cast {
     pub fn record(
         &self,
         r: &Recording<'_>,
-        uniforms: Resource,
         (lists, blobs): (&Lists, Option<&Blobs>),
     ) -> Result<(), Error> {
         let (gpu, cmd, image) = (r.gpu, r.cmd, &self.front);
@@ -62,7 +61,7 @@ impl Cast {
         let count = lists.count(gpu, blobs);
         let resources = [
             (0, r.uniforms),
-            (1, uniforms),
+            (1, r.bubbles),
             (3, Resource::buffer(lists.buffers()[0])),
             (4, Resource::Storage(image.alias_view)),
         ];

@@ -14,7 +14,8 @@ use crate::contract::{Blobs, Config, Count, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, FRAGMENT_READ, VERTEX_READ, buffer,
+    Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, FRAGMENT_READ, VERTEX_READ,
+    buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -59,7 +60,7 @@ pub fn tiles(extent: vk::Extent2D) -> [u32; 2] {
     [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)]
 }
 
-/// Places of the list of an extent.
+/// Places of the list of an extent; as many bytes are bound at once as four times that.
 pub fn room(extent: vk::Extent2D, config: &BubbleConfig) -> u32 {
     let [x, y] = tiles(extent);
     PLACES * x * y + 4 * config.max_blobs
@@ -149,11 +150,19 @@ impl Lists {
         [&self.blobs, &self.range, cells, list, spans]
     }
 
-    /// How the blobs are read after the pass.
+    /// How the blobs are read after the pass; all the rest is by compute.
     fn read(&self) -> Access {
         match self.config.sort {
             BubbleSort::Tiles => COMPUTE_READ,
             BubbleSort::Peel => COMPUTE_READ.and(VERTEX_READ).and(FRAGMENT_READ),
+        }
+    }
+
+    /// Lists are for those who go through them.
+    fn goes(&self) -> &[Pipeline] {
+        match self.config.sort {
+            BubbleSort::Tiles => &self.goes,
+            BubbleSort::Peel => &self.goes[..1],
         }
     }
 
@@ -162,24 +171,21 @@ impl Lists {
         blobs.and_then(|blobs| self.bound(gpu, blobs)).map_or(0, |(_, push)| push.most)
     }
 
-    pub fn record(
-        &self,
-        r: &Recording<'_>,
-        uniforms: Resource,
-        blobs: Option<&Blobs>,
-    ) -> Result<(), Error> {
+    pub fn record(&self, r: &Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [own, range, cells, list, spans] = self.buffers();
         let whole = [own, range, cells, list, spans];
-        let all = whole.map(|b| buffer(b.handle, self.read(), COMPUTE_WRITE));
+        let [_, rest @ ..] = whole;
+        let all = rest.map(|b| buffer(b.handle, COMPUTE_READ.and(COPY_READ), COMPUTE_WRITE));
+        let all = all.into_iter().chain([buffer(own.handle, self.read(), COMPUTE_WRITE)]);
         let host = blobs.into_iter().flat_map(|blobs| {
             let to = |handle| buffer(handle, blobs.before, COMPUTE_READ);
             buffers_of(blobs).into_iter().map(to)
         });
-        gpu.barriers(cmd, &[], &all.into_iter().chain(host).collect::<Vec<_>>());
+        gpu.barriers(cmd, &[], &all.chain(host).collect::<Vec<_>>());
         let resources = [
             (0, r.uniforms),
-            (1, uniforms),
+            (1, r.bubbles),
             (6, Resource::buffer(own)),
             (7, Resource::buffer(range)),
             (8, Resource::buffer(cells)),
@@ -200,7 +206,7 @@ impl Lists {
                 Count::Cpu(_) => Resource::buffer(range),
             };
             let resources = [&resources[..], &streams, &[(5, count)]].concat();
-            for (i, go) in self.goes.iter().enumerate() {
+            for (i, go) in self.goes().iter().enumerate() {
                 match i {
                     0 => {}
                     2 => {
@@ -217,7 +223,9 @@ impl Lists {
                 unsafe { gpu.device.cmd_dispatch(cmd, push.most.div_ceil(64).max(1), 1, 1) };
             }
         }
-        gpu.barriers(cmd, &[], &hand(both, self.read()));
+        let back = rest.map(|b| buffer(b.handle, both, COMPUTE_READ)).into_iter();
+        let back = back.chain([buffer(own.handle, both, self.read())]);
+        gpu.barriers(cmd, &[], &back.collect::<Vec<_>>());
         Ok(())
     }
 

@@ -11,6 +11,8 @@ pub mod settings;
 mod soap;
 mod templates;
 
+use std::sync::Arc;
+
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
@@ -30,6 +32,7 @@ pub use heap::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
 pub(crate) use lists::buffers_of;
 use settings::MOST_FILM;
 pub use settings::{BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, Impostor, Spectrum};
+use templates::Templates;
 
 /// How the host's streams are read.
 pub(crate) const READING: Access = COMPUTE_READ;
@@ -45,12 +48,12 @@ pub(crate) struct BubbleUniforms {
     sun: [f32; 4],
     sun_mirror: [f32; 4],
     tiles: [u32; 4],
-    blobs: [u32; 4],
+    kinds: [u32; 4],
 }
 shader::assert_layout!(
     shader::BUBBLES_SOAP_COMP,
     "BubbleFrame",
-    BubbleUniforms { film, core, albedo, mirror, sun, sun_mirror, tiles, blobs }
+    BubbleUniforms { film, core, albedo, mirror, sun, sun_mirror, tiles, kinds }
 );
 
 impl BubbleUniforms {
@@ -69,14 +72,20 @@ impl BubbleUniforms {
             sun: sun_on(light),
             sun_mirror: [sun_r, sun_g, sun_b, 0.0],
             tiles: [x, y, lists::SLICES, lists::room(config.extent, bubbles)],
-            blobs: [bubbles.max_blobs, bubbles.templates, 0, 0],
+            kinds: [bubbles.templates, 0, 0, 0],
         }
     }
 }
 
+/// Bytes of what is bound whole: layers of pixels, lists of tiles.
+pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64, u64) {
+    (peel::layer_bytes(extent, bubbles), 4 * u64::from(lists::room(extent, bubbles)))
+}
+
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Bubbles {
-    templates: templates::Templates,
+    /// Those of the renderer before a `reconfigure`, where they fit.
+    templates: Arc<Templates>,
     lists: lists::Lists,
     cast: Option<cast::Cast>,
     peel: peel::Peel,
@@ -84,9 +93,20 @@ pub(crate) struct Bubbles {
 }
 
 impl Bubbles {
-    pub fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
+    /// `before`: what there was until now.
+    pub fn new(
+        gpu: &Gpu,
+        config: &Config,
+        bubbles: &BubbleConfig,
+        before: Option<&Self>,
+    ) -> Result<Self, Error> {
+        let kept = before.map(|before| &before.templates).filter(|kept| kept.fits(bubbles));
+        let templates = match kept {
+            Some(kept) => kept.clone(),
+            None => Arc::new(Templates::new(gpu, bubbles)?),
+        };
         Ok(Self {
-            templates: templates::Templates::new(gpu, bubbles)?,
+            templates,
             lists: lists::Lists::new(gpu, config, bubbles)?,
             cast: cast::Cast::new(gpu, config)?,
             peel: peel::Peel::new(gpu, config, bubbles)?,
@@ -106,18 +126,23 @@ impl Bubbles {
         self.soap.resize(gpu, config, retired)
     }
 
-    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
-        self.templates.record_setup(gpu, cmd)
+    /// What `record_setup` makes is that of another.
+    pub fn is_set_up_as(&self, other: Option<&Self>) -> bool {
+        other.is_some_and(|other| Arc::ptr_eq(&self.templates, &other.templates))
+    }
+
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        self.templates.record_setup(gpu, cmd);
     }
 
     /// Which there are, and their shadows: before anything asks for the sun's light.
     pub fn record_lists(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"blobs");
-        self.lists.record(r, r.bubbles, blobs)?;
+        self.lists.record(r, blobs)?;
         r.end(scope);
         if let Some(cast) = &self.cast {
             let scope = r.begin(c"cast");
-            cast.record(r, r.bubbles, (&self.lists, blobs))?;
+            cast.record(r, (&self.lists, blobs))?;
             r.end(scope);
         }
         Ok(())
@@ -131,7 +156,7 @@ impl Bubbles {
     /// Where blobs are: before the tiles that are drawn are known.
     pub fn record_peel(&self, r: &mut Recording<'_>, blobs: Option<&Blobs>) -> Result<(), Error> {
         let scope = r.begin(c"peel");
-        self.peel.record(r, r.bubbles, (&self.lists, blobs), &self.templates)?;
+        self.peel.record(r, (&self.lists, blobs), &self.templates)?;
         r.end(scope);
         Ok(())
     }
@@ -144,8 +169,8 @@ impl Bubbles {
         water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"soap");
-        let made = (&self.lists, &self.peel, &self.templates);
-        self.soap.record(r, r.bubbles, made, environment, water.depth)?;
+        let made = (&self.lists, &self.peel, &*self.templates);
+        self.soap.record(r, made, environment, water.depth)?;
         r.end(scope);
         Ok(())
     }
@@ -163,6 +188,11 @@ impl Bubbles {
     /// Of each pixel its layers and the most opacity, and how many words these are.
     pub fn layers(&self) -> (vk::Buffer, u32) {
         (self.peel.layers().handle, self.peel.words())
+    }
+
+    /// What became of the blobs.
+    pub fn counts(&self) -> vk::Buffer {
+        self.lists.buffers()[1].handle
     }
 
     /// The layers of a frame of a size for the host.

@@ -26,6 +26,11 @@ use crate::water::Recording;
 /// How the depth is read.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
+/// Bytes of all pixels' layers and opacities.
+pub fn layer_bytes(extent: vk::Extent2D, bubbles: &BubbleConfig) -> u64 {
+    4 * u64::from(bubbles.layers + 1) * u64::from(extent.width) * u64::from(extent.height)
+}
+
 /// What depends on the frame's size.
 struct Targets {
     layers: Buffer,
@@ -34,7 +39,6 @@ struct Targets {
 
 impl Targets {
     fn new(gpu: &Gpu, config: &Config, bubbles: &BubbleConfig) -> Result<Self, Error> {
-        let pixels = u64::from(config.extent.width) * u64::from(config.extent.height);
         let usage = vk::ImageUsageFlags::STORAGE
             | vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC;
@@ -43,7 +47,7 @@ impl Targets {
             layers: Buffer::new(
                 gpu,
                 "bubbles/layers",
-                4 * pixels * u64::from(bubbles.layers + 1),
+                layer_bytes(config.extent, bubbles),
                 vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_SRC,
                 MemoryLocation::GpuOnly,
             )?,
@@ -111,7 +115,6 @@ impl Peel {
     pub fn record(
         &self,
         r: &Recording<'_>,
-        uniforms: Resource,
         (lists, blobs): (&Lists, Option<&Blobs>),
         templates: &Templates,
     ) -> Result<(), Error> {
@@ -126,7 +129,7 @@ impl Peel {
         let [own, range, cells, list, spans] = lists.buffers().map(Resource::buffer);
         let bound = [
             (0, r.uniforms),
-            (1, uniforms),
+            (1, r.bubbles),
             (2, r.scene_depth),
             (3, own),
             (7, Resource::buffer(layers)),

@@ -109,7 +109,7 @@ pub enum BubbleSort {
     /// left out.
     Tiles,
     /// All blobs are drawn once a layer, behind what the layer before has found (depth peeling, Everitt 2001), and
-    /// once more for how opaque they are: the source's way (Sec. 5).
+    /// once more for how opaque they are: the source's way (Sec. 5). 22 bytes a pixel more.
     Peel,
 }
 

@@ -65,7 +65,6 @@ impl Soap {
     pub fn record(
         &self,
         r: &Recording<'_>,
-        uniforms: Resource,
         (lists, peel, templates): (&Lists, &Peel, &Templates),
         environment: &Environment,
         water: &Image,
@@ -84,7 +83,7 @@ impl Soap {
         let [shadow, thickness, basis, span, cast, soap] = r.sunlight.resources();
         let own = [
             (0, r.uniforms),
-            (1, uniforms),
+            (1, r.bubbles),
             (2, Resource::Sampled(water.view, gpu.samplers.nearest)),
             (3, Resource::buffer(lists.buffers()[0])),
             (4, Resource::buffer(peel.layers())),

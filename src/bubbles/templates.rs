@@ -16,7 +16,7 @@ use crate::gpu::access::{
     buffer,
 };
 use crate::gpu::buffer::Buffer;
-use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::descriptors::{Descriptors, Resource, bind_set};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
@@ -62,13 +62,15 @@ pub struct Templates {
     impostors: [Pipeline; 2],
     core: Pipeline,
     config: BubbleConfig,
-    descriptors: Descriptors,
+    /// Of the pipelines, in the order of the dispatches; they live in the pool.
+    sets: [vk::DescriptorSet; 4],
+    _descriptors: Descriptors,
     /// Reflectance by cosine and thickness.
     pub table: Image,
     /// Centre and radius of each bubble of each blob.
-    pub bubbles: Buffer,
+    bubbles: Buffer,
     /// Which others each of them intersects.
-    pub neighbours: Buffer,
+    neighbours: Buffer,
     /// How far their surfaces are from their middles; or whose they are, a byte a texel.
     distances: Image,
     ids: Buffer,
@@ -111,19 +113,46 @@ impl Templates {
         let impostor =
             |ids| Pipeline::compute(gpu, shader::BUBBLES_IMPOSTOR_COMP, &[(0, u32::from(ids))]);
         let edge = vk::Extent2D { width: CORE + 2, height: CORE + 2 };
+        let film = Pipeline::compute(gpu, shader::BUBBLES_FILM_COMP, &film)?;
+        let impostors = [impostor(false)?, impostor(true)?];
+        let core = Pipeline::compute(gpu, shader::BUBBLES_CORE_COMP, &[])?;
+        let table = Image::new(gpu, &ImageDesc::new("bubbles/film", FILM, half, usage))?;
+        let bubbles = filled("bubbles/bubbles", bytemuck::cast_slice(&bubbles))?;
+        let distances = Image::new(gpu, &ImageDesc { layers, ..map })?;
+        let ids = Buffer::new(gpu, "bubbles/ids", bytes, storage, MemoryLocation::GpuOnly)?;
+        let picture = Image::new(gpu, &ImageDesc::new("bubbles/core", edge, half, usage))?;
+        let descriptors = Descriptors::new(gpu, 4)?;
+        let maps = [
+            (0, Resource::storage(&distances)),
+            (1, Resource::buffer(&ids)),
+            (2, Resource::buffer(&bubbles)),
+        ];
+        let sets = [
+            descriptors.set(gpu, &film, &[(0, Resource::storage(&table))])?,
+            descriptors.set(gpu, &impostors[0], &maps)?,
+            descriptors.set(gpu, &impostors[1], &maps)?,
+            descriptors.set(gpu, &core, &[(0, Resource::storage(&picture))])?,
+        ];
         Ok(Self {
-            film: Pipeline::compute(gpu, shader::BUBBLES_FILM_COMP, &film)?,
-            impostors: [impostor(false)?, impostor(true)?],
-            core: Pipeline::compute(gpu, shader::BUBBLES_CORE_COMP, &[])?,
+            film,
+            impostors,
+            core,
             config: *config,
-            descriptors: Descriptors::new(gpu, 4)?,
-            table: Image::new(gpu, &ImageDesc::new("bubbles/film", FILM, half, usage))?,
-            bubbles: filled("bubbles/bubbles", bytemuck::cast_slice(&bubbles))?,
+            sets,
+            _descriptors: descriptors,
+            table,
+            bubbles,
             neighbours: filled("bubbles/neighbours", bytemuck::cast_slice(&neighbours))?,
-            distances: Image::new(gpu, &ImageDesc { layers, ..map })?,
-            ids: Buffer::new(gpu, "bubbles/ids", bytes, storage, MemoryLocation::GpuOnly)?,
-            picture: Image::new(gpu, &ImageDesc::new("bubbles/core", edge, half, usage))?,
+            distances,
+            ids,
+            picture,
         })
+    }
+
+    /// Whether it is what another configuration asks for, whatever else that changes.
+    pub fn fits(&self, config: &BubbleConfig) -> bool {
+        let BubbleConfig { max_blobs, layers, sort, steps, .. } = *config;
+        BubbleConfig { max_blobs, layers, sort, steps, ..self.config } == *config
     }
 
     /// Edges of the faces of both maps.
@@ -135,13 +164,16 @@ impl Templates {
     }
 
     /// Makes all of it, for good.
-    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> Result<(), Error> {
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         gpu.begin_label(cmd, c"bubbles");
-        self.descriptors.reset(gpu)?;
         let images = [&self.table, &self.distances, &self.picture];
         // Whatever read them in a frame before this, where they are made again.
         let first = images.map(|image| access::image(image, AFTER.discarded(), COMPUTE_WRITE));
         gpu.barriers(cmd, &first, &[buffer(self.ids.handle, READ, COMPUTE_WRITE)]);
+        let begin = |pipeline: &Pipeline, set: usize| {
+            pipeline.bind(gpu, cmd);
+            bind_set(gpu, cmd, pipeline, self.sets[set]);
+        };
         let dispatch = |pipeline: &Pipeline, [width, height, layers]: [u32; 3]| {
             let [x, y, _] = pipeline.local_size;
             // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
@@ -149,28 +181,21 @@ impl Templates {
                 gpu.device.cmd_dispatch(cmd, width.div_ceil(x), height.div_ceil(y), layers);
             }
         };
-        let table = [(0, Resource::storage(&self.table))];
-        self.descriptors.bind(gpu, cmd, &self.film, &table)?;
+        begin(&self.film, 0);
         self.film.push(gpu, cmd, &FilmPush { index: self.config.film.index, most: MOST_FILM });
         dispatch(&self.film, [FILM.width, FILM.height, 1]);
-        let maps = [
-            (0, Resource::storage(&self.distances)),
-            (1, Resource::buffer(&self.ids)),
-            (2, Resource::buffer(&self.bubbles)),
-        ];
-        for (pipeline, size) in self.impostors.iter().zip(Self::edges(&self.config)) {
-            self.descriptors.bind(gpu, cmd, pipeline, &maps)?;
+        let edges = Self::edges(&self.config);
+        for (i, (pipeline, size)) in self.impostors.iter().zip(edges).enumerate() {
+            begin(pipeline, 1 + i);
             pipeline.push(gpu, cmd, &ImpostorPush { count: self.config.bubbles, size });
             dispatch(pipeline, [size, size, 6 * self.config.templates]);
         }
-        let picture = [(0, Resource::storage(&self.picture))];
-        self.descriptors.bind(gpu, cmd, &self.core, &picture)?;
+        begin(&self.core, 3);
         self.core.push(gpu, cmd, &CorePush { size: CORE, seed: self.config.seed });
         dispatch(&self.core, [CORE + 2, CORE + 2, 1]);
         let after = images.map(|image| access::image(image, COMPUTE_WRITE, AFTER));
         gpu.barriers(cmd, &after, &[buffer(self.ids.handle, COMPUTE_WRITE, READ)]);
         gpu.end_label(cmd);
-        Ok(())
     }
 
     /// What glsl/include/blob.glsl reads, and its constants.

@@ -33,6 +33,11 @@ use crate::water::Recording;
 /// Bytes of a pixel's words (glsl/include/diffuse_words.glsl).
 const WORDS: u64 = 32;
 
+/// Bytes of all pixels' words.
+pub fn word_bytes(extent: vk::Extent2D) -> u64 {
+    WORDS * u64::from(extent.width) * u64::from(extent.height)
+}
+
 /// The images between frames, and after the pass.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
@@ -69,7 +74,7 @@ impl Targets {
         };
         let blended = way == Splat::Raster;
         let sums = if blended { Usage::COLOR_ATTACHMENT } else { Usage::STORAGE };
-        let bytes = WORDS * u64::from(extent.width) * u64::from(extent.height);
+        let bytes = word_bytes(extent);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         let (full, half) = (vk::Format::R32G32B32A32_SFLOAT, vk::Format::R16G16B16A16_SFLOAT);
         Ok(Self {

@@ -4,10 +4,13 @@ use std::ffi::CStr;
 
 use ash::vk;
 
+use crate::bubbles::bytes_bound as bubble_bytes;
 use crate::contract::Enabled;
 use crate::error::Error;
 use crate::foam;
+use crate::foam::splat::word_bytes;
 use crate::water::settings::{Gate, Shading, Smoothing, Splat};
+use crate::water::{DEFAULT_SPLAT, foam_bytes, thickness_bytes};
 
 /// One thing the host must or may enable, and why.
 #[derive(Clone, Copy, Debug)]
@@ -272,16 +275,45 @@ impl Offer {
                 ),
             ));
         }
+        let range = u64::from(self.limits.max_storage_buffer_range);
+        for (field, bytes, instead) in bound_whole(config) {
+            if bytes > range {
+                let why = format!(
+                    "{} takes {bytes} bytes, over the {range} that the device binds at once: {instead}",
+                    named(config.extent)
+                );
+                return Err(Error::bad(field, why));
+            }
+        }
         let most = self.limits.max_image_dimension2_d;
         if config.extent.width > most || config.extent.height > most {
             return Err(Error::bad(
                 "Config.extent",
-                format!(
-                    "{}x{} is larger than the device's images ({most})",
-                    config.extent.width, config.extent.height
-                ),
+                format!("{} is larger than the device's images ({most})", named(config.extent)),
             ));
         }
         Ok(())
     }
+}
+
+fn named(extent: vk::Extent2D) -> String {
+    format!("{}x{}", extent.width, extent.height)
+}
+
+/// What grows with the extent by more than a few bytes a pixel and is bound whole: the field, the bytes, and what to do.
+fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'static str)> {
+    let fewer = "a smaller extent, or a higher Config.thickness_level";
+    let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)
+        .then(|| ("Config.extent", thickness_bytes(config), fewer));
+    let words = sums.filter(|_| config.foam).map(|_| ("Config.extent", foam_bytes(config), fewer));
+    let diffuse =
+        config.diffuse.map(|_| ("Config.diffuse", word_bytes(config.extent), "a smaller extent"));
+    let bubbles = config.bubbles.iter().flat_map(|bubbles| {
+        let (layers, lists) = bubble_bytes(config.extent, bubbles);
+        [
+            ("Config.bubbles.layers", layers, "fewer layers, or a smaller extent"),
+            ("Config.bubbles.max_blobs", lists, "fewer blobs, or a smaller extent"),
+        ]
+    });
+    sums.into_iter().chain(words).chain(diffuse).chain(bubbles).collect()
 }

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{COMPUTE_READ_WRITE, buffer};
 use crate::gpu::buffer::Buffer;
-use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::descriptors::{Descriptors, Resource, bind_set};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
@@ -66,23 +66,50 @@ impl Scan {
         count: Option<u32>,
         total: u32,
     ) -> Result<(), Error> {
+        let sets = self.sets(gpu, descriptors, counts, values)?;
+        self.record_with((gpu, cmd, sets), counts, (values, most), count, total);
+        Ok(())
+    }
+
+    /// What [`record_with`](Self::record_with) is given, where the same values are summed often.
+    pub fn sets(
+        &self,
+        gpu: &Gpu,
+        descriptors: &Descriptors,
+        counts: &Buffer,
+        values: &Buffer,
+    ) -> Result<[vk::DescriptorSet; SETS as usize], Error> {
+        let all = [
+            (1, Resource::buffer(counts)),
+            (2, Resource::buffer(&self.sums)),
+            (3, Resource::buffer(values)),
+        ];
+        let set = |pipeline| descriptors.set(gpu, pipeline, &all);
+        Ok([set(&self.sum)?, set(&self.blocks)?, set(&self.apply)?])
+    }
+
+    /// [`record`](Self::record) with sets made before, of the same buffers.
+    pub fn record_with(
+        &self,
+        (gpu, cmd, sets): (&Gpu, vk::CommandBuffer, [vk::DescriptorSet; SETS as usize]),
+        counts: &Buffer,
+        (values, most): (&Buffer, u32),
+        count: Option<u32>,
+        total: u32,
+    ) {
         let push = Push { most, count: count.unwrap_or(u32::MAX), total };
         let groups = most.div_ceil(BLOCK).clamp(1, MOST_GROUPS);
-        for (pipeline, groups) in [(&self.sum, groups), (&self.blocks, 1), (&self.apply, groups)] {
+        let passes = [(&self.sum, groups), (&self.blocks, 1), (&self.apply, groups)];
+        for ((pipeline, groups), set) in passes.into_iter().zip(sets) {
             let both = COMPUTE_READ_WRITE;
             let shared = [counts, values, &self.sums];
             gpu.barriers(cmd, &[], &shared.map(|shared| buffer(shared.handle, both, both)));
-            let all = [
-                (1, Resource::buffer(counts)),
-                (2, Resource::buffer(&self.sums)),
-                (3, Resource::buffer(values)),
-            ];
-            descriptors.bind(gpu, cmd, pipeline, &all)?;
+            pipeline.bind(gpu, cmd);
+            bind_set(gpu, cmd, pipeline, set);
             pipeline.push(gpu, cmd, &push);
             // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
             unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
         }
-        Ok(())
     }
 
     pub fn memory(&self) -> u64 {

@@ -3,7 +3,7 @@
 use super::Headless;
 use super::inputs::{Bubble, Foamed};
 use crate::bubbles::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
-use crate::contract::Slot;
+use crate::contract::{Slot, Stream};
 use crate::error::Error;
 
 impl Headless {
@@ -66,6 +66,33 @@ impl Headless {
     pub fn heap_time(&mut self) -> Option<f64> {
         let heap = self.heap.as_mut()?;
         heap.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
+    }
+
+    /// The blobs of the heap after the last step, in the order they were handed over; none without a heap.
+    ///
+    /// # Errors
+    /// No memory, and what Vulkan reports.
+    pub fn heap_blobs(&mut self) -> Result<Vec<Bubble>, Error> {
+        let Some((blobs, count)) = self.heap.as_ref().map(|heap| (heap.blobs(), heap.count()))
+        else {
+            return Ok(Vec::new());
+        };
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let mut words = |stream: Option<Stream>, each: u64| match stream {
+            Some(stream) => self.read_buffer(stream.buffer, each * u64::from(count)),
+            None => Ok(vec![0; (each / 4) as usize * count as usize]),
+        };
+        let (balls, turns) = (words(Some(blobs.balls), 16)?, words(blobs.turns, 16)?);
+        let ids = words(blobs.ids, 4)?;
+        let four = |words: &[u32], i: usize| [0, 1, 2, 3].map(|k| f32::from_bits(words[4 * i + k]));
+        let blob = |(i, id): (usize, &u32)| Bubble {
+            ball: four(&balls, i),
+            turn: four(&turns, i),
+            id: *id,
+        };
+        Ok(ids.iter().enumerate().map(blob).collect())
     }
 
     pub(super) fn drop_heap(&mut self) {

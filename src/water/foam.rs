@@ -170,6 +170,12 @@ pub fn words_of(config: &Config) -> u32 {
     if lit(config) { 6 } else { 5 }
 }
 
+/// Bytes of all.
+pub fn word_bytes(config: &Config) -> u64 {
+    let size = reduced(config.extent, config.thickness_level);
+    4 * u64::from(words_of(config)) * u64::from(size.width) * u64::from(size.height)
+}
+
 /// What the compute path has.
 struct Splats {
     /// Of the depth and of the thickness.
@@ -200,9 +206,7 @@ impl Splats {
     fn sized(gpu: &Gpu, config: &Config) -> Result<(Image, Image, Buffer), Error> {
         let image = |kind| Image::new(gpu, &desc(config, kind));
         let (depth, thickness) = (image(Kind::Depth)?, image(Kind::Thickness)?);
-        let texels = u64::from(depth.extent.width) * u64::from(depth.extent.height);
-        let bytes = 4 * u64::from(words_of(config)) * texels;
-        let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+        let (bytes, usage) = (word_bytes(config), vk::BufferUsageFlags::STORAGE_BUFFER);
         let words = Buffer::new(gpu, "water/foam/words", bytes, usage, MemoryLocation::GpuOnly)?;
         Ok((depth, thickness, words))
     }

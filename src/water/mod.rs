@@ -43,11 +43,14 @@ pub(crate) use classify::{Classify, ROW};
 pub(crate) use cull::{
     CAST, SphereList, Window, buffers_of, capacity, chunk_unit, chunks, each_once,
 };
+pub(crate) use depth::DEFAULT_SPLAT;
+pub(crate) use foam::word_bytes as foam_bytes;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
     Amplitude, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium, NoiseLook, Rule,
     Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
 };
+pub(crate) use thickness::sum_bytes as thickness_bytes;
 
 /// What every pass records with.
 pub(crate) struct Recording<'a> {

@@ -64,6 +64,14 @@ struct Apart {
     resolve: Pipeline,
 }
 
+/// Bytes of the compute path's sums: two words a texel of all water, with foam of what is before it, and with two
+/// sheets of the front one and of the window.
+pub fn sum_bytes(config: &Config) -> u64 {
+    let size = reduced(config.extent, config.thickness_level);
+    let sums = u64::from(config.foam) + if config.sheets > 1 { 3 } else { 1 };
+    8 * sums * u64::from(size.width) * u64::from(size.height)
+}
+
 /// The pass.
 pub struct Thickness {
     path: Path,
@@ -133,7 +141,7 @@ impl Thickness {
                     },
                     &[],
                 )?,
-                sums: Self::sums(gpu, config, &image)?,
+                sums: Self::sums(gpu, config)?,
             },
         };
         Ok(Self { path, image, sheets, level: config.thickness_level })
@@ -182,14 +190,11 @@ impl Thickness {
         gpu.framebuffer_of("water/thickness", pass, &views, image.extent)
     }
 
-    /// Two words a texel: of all water, with foam of what is before it, and with two sheets of the
-    /// front one and of the window.
-    fn sums(gpu: &Gpu, config: &Config, image: &Image) -> Result<Buffer, Error> {
-        let texels = u64::from(image.extent.width) * u64::from(image.extent.height);
+    fn sums(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
         Buffer::new(
             gpu,
             "water/thickness/sums",
-            8 * texels * (u64::from(config.foam) + if config.sheets > 1 { 3 } else { 1 }),
+            sum_bytes(config),
             vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryLocation::GpuOnly,
         )
@@ -209,7 +214,7 @@ impl Thickness {
                 retired.replace(framebuffer, new);
             }
             Path::Compute { sums, .. } => {
-                let new = Self::sums(gpu, config, &image)?;
+                let new = Self::sums(gpu, config)?;
                 retired.replace(sums, new);
             }
         }

@@ -2,6 +2,8 @@
 //! and timestamps of few bits.
 
 use ash::vk;
+use whitewater::bubbles::{BubbleConfig, DistanceField, Heap, HeapConfig};
+use whitewater::foam::DiffuseConfig;
 use whitewater::water::Splat;
 use whitewater::{Config, Count, Error, Packets, Particles, Slot};
 
@@ -200,5 +202,52 @@ fn a_queue_without_timestamps_has_no_timings() {
     }
     for unused in [&spy::CREATE_QUERY_POOL, &spy::CMD_TIMESTAMP, &spy::QUERY_RESULTS] {
         assert_eq!(unused.calls(), 0, "{:?}", unused.name);
+    }
+}
+
+/// What is bound whole, of a size that each of these alone is over: errors that say which.
+#[test]
+fn what_the_device_does_not_bind_at_once_is_an_error() {
+    let mut gpu = Gpu::spied();
+    claim(&mut gpu, Claims { max_storage_buffer_range: Some(1 << 17), ..Claims::default() });
+    let gpu = gpu;
+    // 8 bytes a pixel of 120x120 are 115 200, under the 131 072.
+    let base = Config { thickness_level: 0, ..config(extent(120, 120)) };
+    drop(Rig::new(&gpu, &base));
+    let foam = Config { foam: true, ..base };
+    // Blended, they are images.
+    drop(Rig::new(&gpu, &Config { thickness_splat: Some(Splat::Raster), ..foam }));
+    let bubbles = BubbleConfig { templates: 1, bubbles: 8, ..BubbleConfig::new(8) };
+    let of = |own| Config { bubbles: Some(own), ..base };
+    drop(Rig::new(&gpu, &of(BubbleConfig { layers: 1, ..bubbles })));
+    let many = BubbleConfig { layers: 1, max_blobs: 10_000, ..bubbles };
+    for (field, bad) in [
+        ("Config.extent", Config { sheets: 2, ..base }),
+        ("Config.extent", foam),
+        ("Config.diffuse", Config { diffuse: Some(DiffuseConfig::new(64)), ..base }),
+        ("Config.bubbles.layers", of(BubbleConfig { layers: 2, ..bubbles })),
+        ("Config.bubbles.max_blobs", of(many)),
+    ] {
+        match Rig::try_new(&gpu, &bad, 1) {
+            Err(Error::BadInput { field: found, why }) => {
+                assert!(found == field && why.contains("131072"), "{field}: {found}, {why}");
+            }
+            other => panic!("{field}: {:?}", other.map(|_| "no error")),
+        }
+    }
+    let points = [33, 33, 33];
+    let field = DistanceField {
+        points,
+        corner: [0.0; 3],
+        edge: 1.0,
+        distances: vec![1.0; points.iter().product::<u32>() as usize],
+    };
+    // SAFETY: the device outlives it.
+    let heap = unsafe { Heap::new(&gpu.host(1), &HeapConfig::new(8), Some(&field)) };
+    match heap.map(|_| "no error") {
+        Err(Error::BadInput { field: "DistanceField", why }) => {
+            assert!(why.contains("131072"), "{why}");
+        }
+        other => panic!("{other:?}"),
     }
 }

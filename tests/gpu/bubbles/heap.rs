@@ -26,6 +26,16 @@ impl Running {
         velocities: &[[f32; 3]],
         field: Option<&DistanceField>,
     ) -> Self {
+        Self::stepped(gpu, (blobs, velocities), field, None)
+    }
+
+    /// In the same command buffer a step is recorded too.
+    fn stepped(
+        gpu: &Gpu,
+        (blobs, velocities): (&[Bubble], &[[f32; 3]]),
+        field: Option<&DistanceField>,
+        step: Option<&HeapStep<'_>>,
+    ) -> Self {
         let config = HeapConfig::new(blobs.len().max(1) as u32);
         let stub = Stub::new(gpu, 1);
         // SAFETY: the device outlives this.
@@ -48,8 +58,10 @@ impl Running {
         let largest = blobs.iter().map(|b| b.ball[3]).fold(0.01, f32::max);
         let drifts = stream(&speeds, 0, 12);
         // SAFETY: submitted at once, the buffers live to its end.
-        stub.run(|cmd| unsafe { heap.record_set(cmd, Slot(0), &set, Some(&drifts), largest) })
-            .expect("set");
+        stub.run(|cmd| unsafe {
+            heap.record_set(cmd, Slot(0), &set, Some(&drifts), largest).expect("set");
+            step.map_or(Ok(()), |step| heap.record_step(cmd, step)).expect("a step");
+        });
         Self { stub, heap: Some(heap), count: blobs.len() }
     }
 
@@ -198,19 +210,22 @@ fn a_heap_comes_to_rest_and_loses_energy() {
 fn the_order_of_blobs_is_no_matter_to_a_heap() {
     let gpu = Gpu::shared();
     let settings = HeapSettings::default();
-    let blobs = cloud(300, [0.8, 1.0, 0.8], [0.05, 0.1], 6);
     let mut random = Random(2);
-    let order = random.order(blobs.len());
-    let turned: Vec<Bubble> = order.iter().map(|i| blobs[*i]).collect();
-    let mut both = [&blobs, &turned].map(|b| Running::new(&gpu, b, &[], None));
-    for _ in 0..20 {
-        for running in &mut both {
-            running.step(1.0 / 60.0, &settings, &[FLOOR]).expect("a step");
+    // Loose ones, and more in one bucket than are looked at.
+    for (count, edge, steps) in [(300, [0.8, 1.0, 0.8], 20), (1200, [0.004; 3], 2)] {
+        let blobs = cloud(count, edge, [0.05, 0.1], 6);
+        let order = random.order(blobs.len());
+        let turned: Vec<Bubble> = order.iter().map(|i| blobs[*i]).collect();
+        let mut both = [&blobs, &turned].map(|b| Running::new(&gpu, b, &[], None));
+        for _ in 0..steps {
+            for running in &mut both {
+                running.step(1.0 / 60.0, &settings, &[FLOOR]).expect("a step");
+            }
         }
-    }
-    let [one, other] = both.each_ref().map(Running::blobs);
-    for (i, from) in order.iter().enumerate() {
-        assert_eq!(one[*from], other[i], "blob {from}");
+        let [one, other] = both.each_ref().map(Running::blobs);
+        for (i, from) in order.iter().enumerate() {
+            assert_eq!(one[*from], other[i], "blob {from} of {edge:?}");
+        }
     }
 }
 
@@ -332,4 +347,21 @@ fn what_is_no_blob_and_none_do_nothing() {
             "{field}"
         );
     }
+}
+
+/// A slot's command buffer may set the blobs and move them at once.
+#[test]
+fn blobs_are_set_and_moved_in_one_command_buffer() {
+    let gpu = Gpu::shared();
+    let blobs = cloud(70, [0.8, 1.0, 0.8], [0.05, 0.2], 3);
+    let settings = HeapSettings::default();
+    let step = HeapStep { slot: Slot(0), dt: 1.0 / 60.0, settings: &settings, solids: &[FLOOR] };
+    let mut apart = Running::new(&gpu, &blobs, &[], None);
+    apart.step(step.dt, step.settings, step.solids).expect("a step");
+    let at_once = Running::stepped(&gpu, (&blobs, &[]), None, Some(&step));
+    let balls = |running: &Running| {
+        running.read(running.heap.as_ref().expect("only drop takes it").blobs().balls.buffer)
+    };
+    assert_eq!(balls(&apart), balls(&at_once));
+    assert!(balls(&apart).iter().zip(&blobs).any(|(now, then)| *now != then.ball), "they move");
 }

@@ -6,27 +6,21 @@ use whitewater::bubbles::{Blob, BubbleConfig, BubbleSort, Impostor};
 use whitewater::headless::Bubble;
 
 use crate::reference::bubbles::impostor::{first, into_blob};
+use crate::reference::classify::pcg;
 use crate::reference::{Image, is_surface};
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, Soaped, config, extent};
 use crate::support::scenes::{Lens, Random};
 
-const NONE: u32 = 0xffff_ffff;
-
-/// The hash by which a blob's template is chosen, and its seed (glsl/include/random.glsl).
-fn pcg(value: u32) -> u32 {
-    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (word >> 22) ^ word
-}
+pub const NONE: u32 = 0xffff_ffff;
 
 /// The templates of a configuration.
-fn templates(config: &BubbleConfig) -> Vec<Vec<[f32; 4]>> {
+pub fn templates(config: &BubbleConfig) -> Vec<Vec<[f32; 4]>> {
     (0..config.templates).map(|i| Blob::new(config.seed ^ pcg(i), config.bubbles).bubbles).collect()
 }
 
 /// A turned blob at a place before the camera of tests.
-fn blob(shot: &Shot, at: [f32; 3], radius: f32, id: u32, random: &mut Random) -> Bubble {
+pub fn blob(shot: &Shot, at: [f32; 3], radius: f32, id: u32, random: &mut Random) -> Bubble {
     let [x, y, z] = crate::support::scenes::world(&shot.camera, &[at])[0];
     let axis = Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 1.0).normalize();
     let turn = Quat::from_axis_angle(axis, random.between(0.0, 6.0));
@@ -34,7 +28,7 @@ fn blob(shot: &Shot, at: [f32; 3], radius: f32, id: u32, random: &mut Random) ->
 }
 
 /// Each pixel's ray: where the eye is, and along what, an eye depth long.
-fn rays(shot: &Shot) -> (DVec3, Image<DVec3>) {
+pub fn rays(shot: &Shot) -> (DVec3, Image<DVec3>) {
     let view = shot.view(shot.size);
     let back = view.view.inverse();
     let (width, height) = (shot.size.width as usize, shot.size.height as usize);
@@ -138,7 +132,7 @@ fn impostors_find_the_first_bubble() {
 }
 
 /// A heap of blobs that lie over and in each other.
-fn heap(shot: &Shot, count: u32) -> Vec<Bubble> {
+pub fn heap(shot: &Shot, count: u32) -> Vec<Bubble> {
     let mut random = Random(5);
     (0..count)
         .map(|id| {
@@ -217,10 +211,20 @@ fn what_is_no_blob_is_not_drawn_and_none_changes_nothing() {
     // Behind the eye, and beside the view.
     shot.blobs.push(blob(&shot, [0.0, 0.0, -4.0], 0.5, 1, &mut random));
     shot.blobs.push(blob(&shot, [30.0, 0.0, 4.0], 0.5, 1, &mut random));
-    assert_eq!(rig.draw(&shot).output.data, shot.color);
+    let nothing = rig.draw(&shot);
+    assert_eq!(nothing.output.data, shot.color);
+    let [_, _, seen, dropped, taken] = nothing.soap.expect("bubble foam").range;
+    assert_eq!([seen, dropped, taken], [0, 5, 0], "on the screen, no balls, in lists");
     // A turn that is none is none.
     shot.blobs = vec![Bubble { turn: [0.0; 4], ..good }];
     let still = rig.draw(&shot);
+    let [nearest, farthest, seen, dropped, taken] = still.soap.as_ref().expect("bubble foam").range;
+    let [nearest, farthest] = [nearest, farthest].map(f32::from_bits);
+    assert!((nearest - 3.5).abs() < 1.0e-4 && (farthest - nearest).abs() < 1.0e-4);
+    assert!(
+        [seen, dropped] == [1, 0] && taken > 0,
+        "{seen} seen, {dropped} dropped, {taken} places"
+    );
     shot.blobs = vec![Bubble { turn: [0.0, 0.0, 0.0, 2.0], ..good }];
     assert_eq!(rig.draw(&shot).output.data, still.output.data);
     assert_ne!(still.output.data, shot.color);

@@ -5,4 +5,5 @@ mod cast;
 mod film;
 mod heap;
 mod impostor;
+mod life;
 mod wall;

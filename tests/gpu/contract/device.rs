@@ -1,6 +1,7 @@
 //! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
 
 use ash::vk;
+use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Shading, Smoothing};
 use whitewater::{Config, Enabled, Error, Renderer, Slot};
 
@@ -173,6 +174,35 @@ fn memory_is_as_documented() {
             let found = of(true) - of(false);
             let off = (found - said * pixels).abs();
             assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
+        }
+        // Bubble foam: of a pixel its depth, colour and layers, of a tile its lists; the blobs; the film's table, and a
+        // picture of the core.
+        for (sort, layers, each) in [
+            (BubbleSort::Tiles, 3, 14.5 + 16.0),
+            (BubbleSort::Tiles, 1, 14.5 + 8.0),
+            (BubbleSort::Peel, 3, 14.5 + 16.0 + 22.0),
+        ]
+        .into_iter()
+        .step_by(step)
+        .filter(|_| whole)
+        {
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let templates =
+                BubbleConfig { templates: 1, bubbles: 8, map: 8, ..BubbleConfig::new(count) };
+            let bubbles = Some(BubbleConfig { sort, layers, ..templates });
+            let config = Config { bubbles, ..Config::new(extent(width, height), format, count) };
+            // SAFETY: live handles.
+            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let memory = renderer.memory();
+            // SAFETY: nothing was recorded.
+            unsafe { renderer.destroy() };
+            let found = (memory.images + memory.buffers) as f64;
+            let more = found - needed(width, height, count, (2, 3, false, false));
+            let said = each * pixels + 64.0 * n + 64.0 * 256.0 * 8.0 + 258.0 * 258.0 * 8.0;
+            assert!(
+                (more - said).abs() < 0.01 * said + 64.0 * 1024.0,
+                "{sort:?}, {layers}: {more}, said {said}"
+            );
         }
         // Noise: a number a texel of its own, and its sprites.
         for level in (0..4).step_by(step).filter(|_| whole) {

@@ -16,7 +16,7 @@ use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
 use crate::support::limits::{Claims, claim};
-use crate::support::rig::{Drawn, Rig, Shot, attenuation, config, stream, twins};
+use crate::support::rig::{Drawn, Rig, Shot, attenuation, config, extent, stream, twins};
 use crate::support::scenes::{self, Lens, Random};
 use crate::support::slow;
 use crate::support::spy;
@@ -393,8 +393,12 @@ fn shadows_do_not_change_with_the_maps_resolution() {
 
 /// All that the sun does, of particles of all kinds.
 fn all_kinds(cast: u32) -> (Cloud, Config) {
-    let mut case = Foamy::new(SIZE, Lens::Reversed, 30.0);
-    let config = Config { shadow: None, cast: Some(cast), ..everything(&mut case) };
+    all_kinds_of(SIZE, cast)
+}
+
+fn all_kinds_of(size: vk::Extent2D, cast: u32) -> (Cloud, Config) {
+    let mut case = Foamy::new(size, Lens::Reversed, 30.0);
+    let config = Config { extent: size, shadow: None, cast: Some(cast), ..everything(&mut case) };
     case.shot.settings.diffuse.half = 0.1;
     let positions = scenes::world(&case.shot.camera, &scenes::cloud(17, 700, 1.0, 8.0));
     (Cloud::mixed(case, positions, 0.1), diffusing(config, 700))
@@ -470,7 +474,8 @@ fn packets_cast_as_single_particles() {
 fn pieces_do_not_show() {
     let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
-    let (cloud, config) = all_kinds(64);
+    // What is by the pixel is bound whole: 32 bytes of each.
+    let (cloud, config) = all_kinds_of(extent(13, 12), 64);
     let expected = cloud.draw(&mut Rig::lit(&gpu, &config, 1));
     // 5 rows of the map, 256 records of particles; then 19 and more particles than there are.
     for range in [5 * 1024 + 100, 19 * 1024] {

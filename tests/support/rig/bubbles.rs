@@ -19,6 +19,8 @@ pub struct Soaped {
     pub film: Image<[f32; 4]>,
     /// Of each pixel its layers, and the most opacity.
     pub layers: Vec<Vec<u32>>,
+    /// What became of them: [`whitewater::Recorded::blobs`].
+    pub range: [u32; 5],
 }
 
 /// What was uploaded, and how many.
@@ -39,11 +41,16 @@ impl Rig<'_> {
         (buffer, words): (vk::Buffer, u32),
         frame: vk::Extent2D,
     ) -> Vec<Vec<u32>> {
-        let size = 4 * u64::from(words * frame.width * frame.height);
+        let all = self.words_of(buffer, words * frame.width * frame.height);
+        all.chunks_exact(words as usize).map(<[u32]>::to_vec).collect()
+    }
+
+    /// Words of a buffer that is a transfer source.
+    pub fn words_of(&self, buffer: vk::Buffer, count: u32) -> Vec<u32> {
+        let size = 4 * u64::from(count);
         let back = self.stub.sized(size, vk::BufferUsageFlags::TRANSFER_DST);
         self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, buffer, &back));
-        let all: &[u32] = bytemuck::cast_slice(&back.bytes()[..size as usize]);
-        all.chunks_exact(words as usize).map(<[u32]>::to_vec).collect()
+        bytemuck::cast_slice(&back.bytes()[..size as usize]).to_vec()
     }
 }
 

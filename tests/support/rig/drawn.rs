@@ -217,6 +217,11 @@ impl Rig<'_> {
             color: four(),
             film: four(),
             layers: self.soap_layers(layers, output.rect.extent),
+            range: recorded
+                .blobs
+                .map(|buffer| self.words_of(buffer, 5))
+                .and_then(|words| words.try_into().ok())
+                .expect("with blobs what became of them"),
         });
         for layer in &recorded.layers {
             let whole = layer.extent.into();

@@ -178,7 +178,7 @@ pub fn draw(
         unsafe {
             gpu.clear(cmd, &color, &depth);
             if number == 0 {
-                water.record_setup(cmd)?;
+                water.record_setup(cmd);
                 water.record_environment(cmd, slot, &EnvironmentSource::Sky(Sky::default()))?;
             }
             water.record(cmd, &frame)?;

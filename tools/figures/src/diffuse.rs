@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use image::{Rgb, RgbImage};
 use plotters::prelude::SeriesLabelPosition;
 
 use crate::Outcome;
 use crate::curves::{Function, functions};
 use crate::figures::pictures;
 use crate::panels::{amount, channel, depth, grid, light, normals, share};
-use crate::tool::Tool;
+use crate::tool::{Tool, linear};
 
 /// Figures 1 and 8, upper row: the seas, each with as many particles as the source's.
 pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
@@ -16,6 +17,44 @@ pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
     let panels: Result<Vec<_>, String> =
         seas.iter().map(|(sea, count)| tool.sea(sea, count, "640x480", "")).collect();
     grid(&panels?, 2, &pictures(docs, "seas.png"))
+}
+
+/// Figure 8: above ours, below the same foam by volume ray-casting, which knows of emission and absorption alone: it
+/// shines as the mean of ours.
+pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let size = "480x360";
+    let seas = [("wave", 820_000), ("lighthouse", 15_000_000), ("ship", 9_000_000)];
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for (sea, count) in seas {
+        let picture = tool.sea(sea, &count.to_string(), size, "")?;
+        let layers = tool.sea_layers(sea, &count.to_string(), size, "")?;
+        // Foam of which nothing shows.
+        let bare = tool.sea(sea, "1", size, "")?;
+        let covered = tool.sea_ray_cast(sea, count, size)?;
+        let shine = mean_of_dense(&picture, channel(&layers, "foam.intensity")?);
+        let mut cast = bare;
+        for (pixel, part) in cast.pixels_mut().zip(&covered) {
+            let over = |c: usize| part * shine[c] + (1.0 - part) * linear(pixel[c]);
+            *pixel = Rgb([0, 1, 2].map(|c| shown(over(c))));
+        }
+        ours.push(picture);
+        theirs.push(cast);
+    }
+    grid(&[ours, theirs].concat(), 3, &pictures(docs, "seas-ray-cast.png"))
+}
+
+/// Linear, of what foam covers nearly whole.
+fn mean_of_dense(picture: &RgbImage, intensity: &[f32]) -> [f32; 3] {
+    let dense = || picture.pixels().zip(intensity).filter(|(_, part)| **part > 0.9);
+    let count = dense().count().max(1) as f32;
+    [0, 1, 2].map(|c| dense().map(|(pixel, _)| linear(pixel[c])).sum::<f32>() / count)
+}
+
+/// The byte of a linear value (IEC 61966-2-1).
+fn shown(v: f32) -> u8 {
+    let v = v.clamp(0.0, 1.0);
+    let curved = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * curved).round() as u8
 }
 
 /// Figure 3: what each pass leaves.

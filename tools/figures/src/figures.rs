@@ -14,7 +14,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 23] = [
+pub const ALL: [(&str, Figure); 24] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -29,6 +29,7 @@ pub const ALL: [(&str, Figure); 23] = [
     ("flight-corridor", |tool, docs| flight(tool, docs, "corridor")),
     ("flight-bamboo", |tool, docs| flight(tool, docs, "bamboo")),
     ("seas", diffuse::seas),
+    ("seas-ray-cast", diffuse::ray_cast),
     ("diffuse-layers", diffuse::layers),
     ("diffuse-shapes", diffuse::shapes),
     ("diffuse-look", diffuse::looks),

@@ -2,7 +2,7 @@
 //! (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi), drawn anew by `whitewater`.
 //!
 //! ```sh
-//! cargo build --release -p whitewater-cli -p whitewater-figures
+//! cargo build --release -p whitewater-cli -p whitewater-figures -p whitewater-raycast
 //! target/release/whitewater-figures --caches DIR            # all of them, into docs/
 //! target/release/whitewater-figures --caches DIR --only thresholds
 //! ```

@@ -8,6 +8,9 @@ use whitewater::io::picture::{self, Layers};
 
 use crate::Outcome;
 
+/// The program that draws the foam of seas by volume ray-casting.
+const CASTER: &str = "whitewater-raycast";
+
 /// Size of a panel's picture.
 pub const SIZE: (usize, usize) = (480, 270);
 
@@ -58,14 +61,7 @@ impl Tool {
     }
 
     fn run(&self, arguments: &[String]) -> Outcome<()> {
-        let status = Command::new(&self.program)
-            .args(arguments)
-            .status()
-            .map_err(|error| format!("cannot run {}: {error}", self.program.display()))?;
-        if status.success() {
-            return Ok(());
-        }
-        Err(format!("whitewater {} ended with {status}", arguments.join(" ")))
+        run(&self.program, arguments)
     }
 
     /// Files of a scene's simulation, made when they are not there.
@@ -160,6 +156,27 @@ impl Tool {
         Ok(to)
     }
 
+    /// How much of each pixel the foam of a sea covers by volume ray-casting, 0 to 1.
+    pub fn sea_ray_cast(&self, sea: &str, diffuse: u32, size: &str) -> Outcome<Vec<f32>> {
+        let (program, png) = (self.program.with_file_name(CASTER), self.temporary("cast.png"));
+        if !program.exists() {
+            return Err(format!("{} is not there; build {CASTER}", program.display()));
+        }
+        run(
+            &program,
+            &[
+                format!("--sea={sea}"),
+                format!("--particles={diffuse}"),
+                format!("--size={size}"),
+                "--method=grid".to_owned(),
+                "--step=1".to_owned(),
+                format!("--output={}", png.display()),
+            ],
+        )?;
+        let grey = image::open(&png).map_err(|error| error.to_string())?.into_luma8();
+        Ok(grey.iter().map(|v| linear(*v)).collect())
+    }
+
     /// The layers of one diffuse particle of a kind, whose disc has a radius in pixels in the middle of a picture of so
     /// many.
     pub fn particle(&self, kind: &str, size: u32, pixels: f64) -> Outcome<Layers> {
@@ -220,6 +237,23 @@ impl Tool {
         self.run(&arguments)?;
         read_times(&csv)
     }
+}
+
+fn run(program: &Path, arguments: &[String]) -> Outcome<()> {
+    let status = Command::new(program)
+        .args(arguments)
+        .status()
+        .map_err(|error| format!("cannot run {}: {error}", program.display()))?;
+    if status.success() {
+        return Ok(());
+    }
+    Err(format!("{} {} ended with {status}", program.display(), arguments.join(" ")))
+}
+
+/// What a screen shows of a byte (IEC 61966-2-1).
+pub fn linear(byte: u8) -> f32 {
+    let v = f32::from(byte) / 255.0;
+    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Of two runs over the same frames the quicker of each frame's passes.

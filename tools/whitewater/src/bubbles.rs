@@ -36,6 +36,18 @@ pub enum Which {
     File(PathBuf),
 }
 
+impl Which {
+    /// As on the command line.
+    pub fn name(&self) -> String {
+        match self {
+            Self::One => "one".into(),
+            Self::Slope(count) => format!("slope:{count}"),
+            Self::Box(count) => format!("box:{count}"),
+            Self::File(path) => path.display().to_string(),
+        }
+    }
+}
+
 /// Of the command line.
 pub fn named(text: &str) -> Result<Which, String> {
     let (name, count) = match text.split_once(':') {
@@ -132,13 +144,13 @@ impl Random {
 }
 
 /// What is drawn: blobs, what stands round them, and from where.
-struct Set {
-    blobs: Blobs,
-    scene: Scene,
+pub struct Set {
+    pub blobs: Blobs,
+    pub scene: Scene,
     /// Where shadows fall.
-    lit: Bounds,
-    eye: [f32; 3],
-    target: [f32; 3],
+    pub lit: Bounds,
+    pub eye: [f32; 3],
+    pub target: [f32; 3],
 }
 
 /// Concrete, or plain where there is none.
@@ -146,7 +158,8 @@ fn concrete() -> Material {
     Material::named("concrete").unwrap_or_default()
 }
 
-fn set(which: &Which) -> Outcome<Set> {
+/// What is built in, or a file's.
+pub fn set(which: &Which) -> Outcome<Set> {
     let mut random = Random(1);
     let mut blob = |at: Vec3, radius: f32, id: u32| Bubble {
         ball: at.extend(radius).to_array(),

@@ -1,8 +1,10 @@
 //! `whitewater bench`: per-pass times on the GPU's own clock, over particle counts, resolutions and
-//! paths, beside the bytes each pass has to move. Of water, or of the foam of a sea.
+//! paths, beside the bytes each pass has to move. Of water, of the foam of a sea, or of bubble foam.
 
+mod blobs;
 mod bytes;
 mod calibrate;
+mod heap;
 mod pool;
 mod report;
 mod sea;
@@ -10,7 +12,7 @@ mod sea;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::headless::scene::{Material, Mesh, Scene};
@@ -22,6 +24,7 @@ use whitewater::{Camera, Config, Error, Previous, Region, Settings};
 use whitewater_seas::Sea;
 
 use crate::bounds::Bounds;
+use crate::bubbles::Which;
 use crate::failure::{Failure, Outcome};
 use crate::output;
 use crate::progress::Progress;
@@ -29,16 +32,21 @@ use report::{Format, Report, Row};
 
 /// Arguments of `bench`.
 #[derive(Args, Debug)]
+#[command(group = ArgGroup::new("instead").args(["sea", "bubbles"]))]
 pub struct BenchArgs {
     /// Particle counts: 16k, 64k, 256k, 1m or any number; the pool is the same, resolved finer
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
-    /// Picture sizes [default: 1280x720; of a sea the source's, 800x600 or 1280x960]
+    /// Picture sizes [default: 1280x720; of a sea the source's, 800x600 or 1280x960, of bubbles 640x480]
     #[arg(long, value_delimiter = ',', value_parser = parse_size)]
     size: Vec<(u32, u32)>,
     /// Instead of water the diffuse particles of a sea, over its scene
     #[arg(long, value_delimiter = ',', value_parser = sea::parser(), conflicts_with_all = ["particles", "path"])]
     sea: Vec<Sea>,
+    /// Instead of water bubble foam: one, slope, box, slope:N and box:N of N blobs, or a file of them; drawn, and moved on
+    /// the GPU and on the CPU
+    #[arg(long, value_delimiter = ',', value_parser = crate::bubbles::named, conflicts_with_all = ["particles", "path"])]
+    bubbles: Vec<Which>,
     /// Diffuse particles of a sea: 20k, 0.8m, 29m (thousands and millions) or any number [default: as many as the
     /// source's: 0.82m, 9m, 15m, 29m]
     #[arg(long, value_delimiter = ',', value_parser = sea::parse_count, requires = "sea")]
@@ -63,8 +71,8 @@ pub struct BenchArgs {
     /// Write the last frame, of a sea and one combination; an .exr with all layers of its foam
     #[arg(long, value_name = "FILE", requires = "sea")]
     picture: Option<PathBuf>,
-    /// TOML of settings, whose table [diffuse] says how the foam of a sea looks
-    #[arg(long, value_name = "FILE.toml", requires = "sea")]
+    /// TOML of settings, whose table [diffuse] says how the foam of a sea looks, and [bubbles] how bubble foam is drawn
+    #[arg(long, value_name = "FILE.toml", requires = "instead")]
     settings: Option<PathBuf>,
     /// Ways to draw: `default` is what the library chooses on the device
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["default"])]
@@ -224,10 +232,12 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
     let report = Arc::new(Mutex::new(Report::new(args.format, adapter, driver)?));
     let begun = Arc::clone(&report);
     output::at_interrupt(move || lock(&begun).finish());
-    let outcome = if args.sea.is_empty() {
-        measure_all(args, &paths, &options, &report)
-    } else {
+    let outcome = if !args.sea.is_empty() {
         sea::measure_all(args, &options, &report)
+    } else if !args.bubbles.is_empty() {
+        blobs::measure_all(args, &options, &report)
+    } else {
+        measure_all(args, &paths, &options, &report)
     };
     // What there is is told, whatever became of the rest.
     let told = output::at_end();

@@ -47,6 +47,9 @@ pub struct Row {
     /// Of a sea.
     #[serde(flatten)]
     pub sea: Option<SeaRow>,
+    /// Of bubble foam.
+    #[serde(flatten)]
+    pub blobs: Option<BlobRow>,
 }
 
 /// What there is to say of a sea beside.
@@ -56,6 +59,19 @@ pub struct SeaRow {
     /// Diffuse particles.
     pub diffuse: u32,
     pub occlusion: &'static str,
+}
+
+/// What there is to say of bubble foam beside.
+#[derive(Clone, Debug, Serialize)]
+pub struct BlobRow {
+    pub bubble_scene: String,
+    pub blobs: u32,
+    /// Of all.
+    pub bubbles: u32,
+    pub layers: u32,
+    pub impostor: &'static str,
+    pub map: u32,
+    pub steps: u32,
 }
 
 impl Row {
@@ -101,7 +117,7 @@ impl Report {
             Format::Csv => out::print(format_args!(
                 "adapter,driver,version,particles,width,height,path,pass,median_ms,p10_ms,p90_ms,\
                  bytes,calibration_ms,most_iterations,memory_bytes,sea,diffuse,occlusion,\
-                 input_bytes,ns_per_diffuse\n"
+                 input_bytes,ns_per_diffuse,bubble_scene,blobs,bubbles,layers,impostor,map,steps\n"
             ))?,
             Format::Json => {}
         }
@@ -143,8 +159,15 @@ fn csv(adapter: &str, driver: &str, r: &Row) -> String {
         Some(sea) => format!("{},{},{},{},{each}", sea.sea, sea.diffuse, sea.occlusion, r.inputs),
         None => ",,,,".into(),
     };
+    let blobs = r.blobs.as_ref().map_or_else(
+        || ",,,,,,".into(),
+        |b| {
+            let BlobRow { bubble_scene, blobs, bubbles, layers, impostor, map, steps } = b;
+            format!("{bubble_scene},{blobs},{bubbles},{layers},{impostor},{map},{steps}")
+        },
+    );
     format!(
-        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{},{},{sea}\n",
+        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{},{},{sea},{blobs}\n",
         r.particles,
         r.width,
         r.height,
@@ -163,8 +186,8 @@ fn csv(adapter: &str, driver: &str, r: &Row) -> String {
 fn table(rows: &[Row]) -> String {
     let Some(first) = rows.first() else { return String::new() };
     let mb = |bytes: u64| bytes as f64 * 1e-6;
-    let mut text = match &first.sea {
-        Some(sea) => format!(
+    let mut text = match (&first.sea, &first.blobs) {
+        (Some(sea), _) => format!(
             "\n{}, {} diffuse particles, {}x{}, {} occlusion; renderer {:.1} MB, particles {:.1} MB ({:.1} a million)",
             sea.sea,
             sea.diffuse,
@@ -175,7 +198,21 @@ fn table(rows: &[Row]) -> String {
             mb(first.inputs),
             first.inputs as f64 / f64::from(sea.diffuse.max(1))
         ),
-        None => format!(
+        (None, Some(b)) => format!(
+            "\n{}, {} blobs of {} bubbles in all, {}x{}, {}, {} layers, {} of {} texels in {} steps; renderer {:.1} MB",
+            b.bubble_scene,
+            b.blobs,
+            b.bubbles,
+            first.width,
+            first.height,
+            first.path,
+            b.layers,
+            b.impostor,
+            b.map,
+            b.steps,
+            mb(first.memory)
+        ),
+        (None, None) => format!(
             "\n{} particles, {}x{}, {}, at most {} iterations",
             first.particles, first.width, first.height, first.path, first.most_iterations
         ),

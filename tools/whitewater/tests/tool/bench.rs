@@ -47,6 +47,40 @@ fn check(format: &str, text: &str) {
     }
 }
 
+/// Blobs are drawn, and moved on the GPU and on the CPU.
+#[test]
+fn bubble_foam_is_timed() {
+    let folder = Folder::new();
+    folder.text("few.toml", "[bubbles]\ntemplates = 1\nbubbles = 8\nlayers = 2\nsort = \"peel\"\n");
+    let command =
+        "bench --bubbles box:20,one --settings few.toml --frames 2 --warmup 0 --size 64x48";
+    let json = folder.run(&format!("{command} --format json")).ok();
+    let all: Value = serde_json::from_str(&json.stdout()).unwrap();
+    for (scene, blobs) in [("box:20", 20), ("one", 1)] {
+        let rows = || all["rows"].as_array().unwrap().iter().filter(|r| r["bubble_scene"] == scene);
+        for pass in ["peel", "soap", "frame", "heap", "heap on CPU"] {
+            let row = rows().find(|row| row["pass"] == pass).unwrap();
+            assert!(row["median"].as_f64().unwrap() > 0.0, "{row}");
+            assert!(row["blobs"] == blobs && row["bubbles"] == 8 * blobs, "{row}");
+            assert!(row["layers"] == 2 && row["path"] == "peel", "{row}");
+        }
+    }
+    let csv = folder.run(&format!("{command} --format csv")).ok().stdout();
+    let columns = csv.lines().next().unwrap().split(',').count();
+    let whole = csv
+        .lines()
+        .skip(1)
+        .all(|line| line.rsplit_once('"').unwrap().1.split(',').count() == columns - 1);
+    assert!(whole && csv.contains(",box:20,20,160,2,ids,128,10"), "{csv}");
+    for (bad, part) in [
+        (format!("{command} --sea wave"), "--sea"),
+        ("bench --bubbles box:0".into(), "1 to 1000000"),
+    ] {
+        let text = folder.run(&bad).stderr();
+        assert!(text.contains("--bubbles") && text.contains(part), "{text}");
+    }
+}
+
 #[test]
 fn each_format_has_all_rows_also_where_it_ends_early() {
     let folder = Folder::new();

@@ -5,11 +5,13 @@
 //! of their ids, so that the same blobs move the same in every run, whatever their order.
 //! Reads: the host's streams and solids. Writes: balls, turns, velocities.
 
+mod field;
+mod settings;
+
 use std::sync::Arc;
 
 use ash::vk;
-use bytemuck::{NoUninit, Pod, Zeroable};
-use glam::Vec3;
+use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
 use super::lists::buffers_of;
@@ -21,218 +23,19 @@ use crate::gpu::access::{
     CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
-use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::descriptors::{Descriptors, Resource, bind_set};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::scan::{self, Scan};
 use crate::gpu::shader;
 use crate::gpu::timing::{Timer, Timing};
 use crate::water::Window;
 use crate::water::settings::range;
+pub use field::DistanceField;
+use settings::GpuSolid;
+pub use settings::{HeapConfig, HeapSettings, HeapStep, Solid};
 
-/// Most parts of a step.
-pub const MOST_SUBSTEPS: u32 = 64;
-
-/// How blobs move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HeapSettings {
-    /// m/s², default (0, −9.81, 0).
-    pub gravity: [f32; 3],
-    /// What the air takes of their speed, 1/s, [0, 100], default 0.8.
-    pub drag: f32,
-    /// How far apart neighbours rest, in sums of their radii, (0, 1), default 0.75: they lie in each other.
-    pub rest: f32,
-    /// How near they pull each other, in sums of their radii, above `rest` to 1.2, default 0.95.
-    pub reach: f32,
-    /// How much they push, m/s² a metre, (0, 100 000], default 4000.
-    pub stiffness: f32,
-    /// How much they pull at most, m/s², [0, 1000], default 12.
-    pub cohesion: f32,
-    /// What two that touch take of each other's speed, along and across, 1/s, [0, 100], default 12 and 6.
-    pub damping: [f32; 2],
-    /// Distance at which solids begin, in radii, (0, 1], default 0.85: foam clings to what it lies on.
-    pub contact: f32,
-    /// How much solids push, m/s² a metre, (0, 100 000], default 20 000.
-    pub solidity: f32,
-    /// What solids take of the speed along their normal, 1/s, [0, 200], default 60.
-    pub solid_damping: f32,
-    /// Coefficient of friction on solids, [0, 10], default 0.35.
-    pub friction: f32,
-    /// Level of water that they float on, metres; default: none.
-    pub water: Option<f32>,
-    /// Density of the foam over the water's, [0.01, 10], default 0.2.
-    pub density: f32,
-    /// Parts of a step, 1 to 64, default 4: forces are stable to parts of 1/200 s.
-    pub substeps: u32,
-}
-
-impl Default for HeapSettings {
-    fn default() -> Self {
-        Self {
-            gravity: [0.0, -9.81, 0.0],
-            drag: 0.8,
-            rest: 0.75,
-            reach: 0.95,
-            stiffness: 4000.0,
-            cohesion: 12.0,
-            damping: [12.0, 6.0],
-            contact: 0.85,
-            solidity: 20_000.0,
-            solid_damping: 60.0,
-            friction: 0.35,
-            water: None,
-            density: 0.2,
-            substeps: 4,
-        }
-    }
-}
-
-impl HeapSettings {
-    fn check(&self) -> Result<(), Error> {
-        for part in self.gravity {
-            range("HeapSettings.gravity", part, -1.0e4, 1.0e4)?;
-        }
-        range("HeapSettings.drag", self.drag, 0.0, 100.0)?;
-        range("HeapSettings.rest", self.rest, 1.0e-3, 1.0)?;
-        range("HeapSettings.reach", self.reach, self.rest + 1.0e-3, 1.2)?;
-        range("HeapSettings.stiffness", self.stiffness, 1.0e-3, 1.0e5)?;
-        range("HeapSettings.cohesion", self.cohesion, 0.0, 1000.0)?;
-        range("HeapSettings.damping", self.damping[0], 0.0, 100.0)?;
-        range("HeapSettings.damping", self.damping[1], 0.0, 100.0)?;
-        range("HeapSettings.contact", self.contact, 1.0e-3, 1.0)?;
-        range("HeapSettings.solidity", self.solidity, 1.0e-3, 1.0e5)?;
-        range("HeapSettings.solid_damping", self.solid_damping, 0.0, 200.0)?;
-        range("HeapSettings.friction", self.friction, 0.0, 10.0)?;
-        range("HeapSettings.water", self.water.unwrap_or(0.0), -1.0e9, 1.0e9)?;
-        range("HeapSettings.density", self.density, 0.01, 10.0)?;
-        if !(1..=MOST_SUBSTEPS).contains(&self.substeps) {
-            let why = format!("expected 1 to {MOST_SUBSTEPS}, found {}", self.substeps);
-            return Err(Error::bad("HeapSettings.substeps", why));
-        }
-        Ok(())
-    }
-}
-
-/// What blobs run against.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Solid {
-    /// All that lies behind a plane: `normal · x < distance`.
-    Plane {
-        /// Unit length.
-        normal: [f32; 3],
-        /// Of the plane from 0, along the normal.
-        distance: f32,
-    },
-    /// A box.
-    Box {
-        /// Its middle.
-        center: [f32; 3],
-        /// Half its edges.
-        half: [f32; 3],
-        /// How it is turned: a unit quaternion, the real part last.
-        turn: [f32; 4],
-    },
-}
-
-/// The same for the shader (glsl/include/solid.glsl).
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct GpuSolid {
-    place: [f32; 4],
-    size: [f32; 4],
-    turn: [f32; 4],
-}
-
-impl Solid {
-    fn check(&self) -> Result<(), Error> {
-        let whole = |all: &[f32]| all.iter().all(|v| v.is_finite());
-        let unit = |all: &[f32]| (all.iter().map(|v| v * v).sum::<f32>() - 1.0).abs() < 1.0e-3;
-        let good = match self {
-            Self::Plane { normal, distance } => unit(normal) && distance.is_finite(),
-            Self::Box { center, half, turn } => {
-                whole(center) && whole(half) && half.iter().all(|v| *v >= 0.0) && unit(turn)
-            }
-        };
-        if good {
-            return Ok(());
-        }
-        let why = format!("{self:?}: finite, with a unit normal or turn expected");
-        Err(Error::bad("HeapStep.solids", why))
-    }
-
-    fn on_gpu(self) -> GpuSolid {
-        match self {
-            Self::Plane { normal: [x, y, z], distance } => GpuSolid {
-                place: [x, y, z, 0.0],
-                size: [0.0, 0.0, 0.0, distance],
-                turn: [0.0, 0.0, 0.0, 1.0],
-            },
-            Self::Box { center: [x, y, z], half: [a, b, c], turn } => {
-                GpuSolid { place: [x, y, z, 1.0], size: [a, b, c, 0.0], turn }
-            }
-        }
-    }
-}
-
-/// Distances from a solid of any shape, negative inside, at the points of a grid; between them they are even. Beyond the
-/// grid there is nothing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DistanceField {
-    /// Points each way, 2 to 1024; x runs fastest.
-    pub points: [u32; 3],
-    /// The first point.
-    pub corner: [f32; 3],
-    /// From one to the next.
-    pub edge: f32,
-    /// As many as there are points.
-    pub distances: Vec<f32>,
-}
-
-impl DistanceField {
-    fn check(&self) -> Result<(), Error> {
-        let bad = |why: String| Err(Error::bad("HeapConfig.field", why));
-        if !self.points.iter().all(|n| (2..=1024).contains(n)) {
-            return bad(format!("{:?} points: 2 to 1024 each way expected", self.points));
-        }
-        let count = self.points.iter().map(|n| *n as usize).product::<usize>();
-        if self.distances.len() != count {
-            return bad(format!("{} distances of {count} points", self.distances.len()));
-        }
-        let whole = self.corner.iter().chain(&self.distances).all(|v| v.is_finite());
-        if !whole || !self.edge.is_finite() || self.edge <= 0.0 {
-            return bad("not finite, or an edge that is not above 0".into());
-        }
-        Ok(())
-    }
-}
-
-/// What fixes the memory of a [`Heap`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct HeapConfig {
-    /// Most blobs, 1 to 2^20.
-    pub max_blobs: u32,
-    /// Most solids of a step, default 64.
-    pub max_solids: u32,
-}
-
-impl HeapConfig {
-    /// The defaults for so many blobs.
-    pub fn new(max_blobs: u32) -> Self {
-        Self { max_blobs, max_solids: 64 }
-    }
-}
-
-/// One step of a heap.
-#[derive(Clone, Copy, Debug)]
-pub struct HeapStep<'a> {
-    /// The slot; its earlier work is complete.
-    pub slot: Slot,
-    /// Seconds, [0, 1].
-    pub dt: f32,
-    /// Uniform settings.
-    pub settings: &'a HeapSettings,
-    /// What is solid, as it is at the step's end.
-    pub solids: &'a [Solid],
-}
+/// How blobs are used between steps.
+const AFTER: crate::contract::Access = COMPUTE_READ.and(COPY_READ);
 
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -246,11 +49,12 @@ struct Push {
     field_size: [u32; 4],
     blobs: u32,
     buckets: u32,
+    cells: f32,
 }
 shader::assert_layout!(
     shader::BUBBLES_HEAP_MOVE_COMP,
     "Push",
-    Push { gravity, pair, damping, solid, water, field, field_size, blobs, buckets }
+    Push { gravity, pair, damping, solid, water, field, field_size, blobs, buckets, cells }
 );
 
 #[repr(C)]
@@ -304,6 +108,8 @@ struct Buffers {
 }
 
 struct HeapSlot {
+    /// Of `record_set` and of a step: one command buffer may have both.
+    setting: Descriptors,
     descriptors: Descriptors,
     timer: Timer,
     solids: Buffer,
@@ -327,7 +133,8 @@ pub struct Heap {
 }
 
 impl Heap {
-    /// Makes pipelines and memory, 150 bytes a blob. `field`: what is solid besides the steps' own.
+    /// Makes pipelines and memory: 124 to 128 bytes a blob, 4 a point of the field, for each slot 48 a solid. `field`:
+    /// what is solid besides the steps' own.
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
@@ -349,7 +156,10 @@ impl Heap {
         }
         field.map_or(Ok(()), DistanceField::check)?;
         let gpu = Gpu::new(host)?;
-        match Self::made(&gpu, config, field) {
+        let made = field
+            .map_or(Ok(()), |field| field.check_binding(gpu.limits.max_storage_buffer_range))
+            .and_then(|()| Self::made(&gpu, config, field));
+        match made {
             Ok(heap) => Ok(heap),
             Err(error) => {
                 // Nothing was submitted with what was made before the failure.
@@ -381,11 +191,12 @@ impl Heap {
         let mut own_field = mapped("heap/field", bytes.len() as u64)?;
         own_field.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
         let place = |go| Pipeline::compute(gpu, shader::BUBBLES_HEAP_PLACE_COMP, &[(0, go)]);
-        let sets = 1 + MOST_SUBSTEPS * (4 + scan::SETS);
         let slot = |_| {
             let size = size_of::<GpuSolid>() as u64 * u64::from(config.max_solids);
             Ok(HeapSlot {
-                descriptors: Descriptors::new(gpu, sets)?,
+                // One set, of nine bindings where two sets have room for sixteen.
+                setting: Descriptors::new(gpu, 2)?,
+                descriptors: Descriptors::new(gpu, 4 + scan::SETS)?,
                 timer: Timer::new(gpu)?,
                 solids: mapped("heap/solids", size)?,
             })
@@ -464,7 +275,7 @@ impl Heap {
         }
         let gpu = &*self.gpu;
         let own = &mut self.slots[slot.0 as usize];
-        own.descriptors.reset(gpu)?;
+        own.setting.reset(gpu)?;
         let balls = Window::new(gpu, &blobs.balls, 0)
             .ok_or_else(|| Error::bad("Blobs.balls", "ends before the first"))?;
         let other = |stream: Option<&Stream>| {
@@ -492,7 +303,7 @@ impl Heap {
             (7, ids.resource),
             (8, drifts.resource),
         ];
-        own.descriptors.bind(gpu, cmd, &self.pipelines.set, &resources)?;
+        own.setting.bind(gpu, cmd, &self.pipelines.set, &resources)?;
         let push = SetPush {
             ball_word: balls.word,
             ball_stride: balls.stride,
@@ -549,44 +360,42 @@ impl Heap {
             (8, Resource::buffer(&slot.solids)),
             (9, Resource::buffer(&b.field)),
         ];
-        let descriptors = &slot.descriptors;
-        let both = COMPUTE_READ_WRITE;
-        let dispatch = |pipeline: &Pipeline, invocations: u32| -> Result<(), Error> {
-            descriptors.bind(gpu, cmd, pipeline, &resources)?;
+        let p = &self.pipelines;
+        let set = |pipeline| slot.descriptors.set(gpu, pipeline, &resources);
+        let sets = [set(&p.place[0])?, set(&p.place[1])?, set(&p.order)?, set(&p.run)?];
+        let scan = self.scan.sets(gpu, &slot.descriptors, &b.counts, &b.buckets)?;
+        let dispatch = |pipeline: &Pipeline, set: usize, invocations: u32| {
+            pipeline.bind(gpu, cmd);
+            bind_set(gpu, cmd, pipeline, sets[set]);
             pipeline.push(gpu, cmd, &push);
             // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
             unsafe { gpu.device.cmd_dispatch(cmd, invocations.div_ceil(64), 1, 1) };
-            Ok(())
         };
-        let parts = if self.count == 0 { 0 } else { step.settings.substeps };
+        let both = COMPUTE_READ_WRITE;
         let moved = [&b.balls, &b.turns, &b.drifts, &b.spins];
-        let all = [&b.buckets, &b.order, &b.heaped];
+        let moved = |from, to| moved.map(|b| buffer(b.handle, from, to));
         let wait = |which: &[&Buffer]| {
             let barriers: Vec<_> = which.iter().map(|b| buffer(b.handle, both, both)).collect();
             gpu.barriers(cmd, &[], &barriers);
         };
-        let first: Vec<_> = moved.iter().map(|b| buffer(b.handle, AFTER, both)).collect();
-        gpu.barriers(cmd, &[], &first);
-        for _ in 0..parts {
-            gpu.barriers(cmd, &[], &[buffer(b.buckets.handle, both, CLEAR)]);
+        for part in 0..if self.count == 0 { 0 } else { step.settings.substeps } {
+            let before = moved(if part == 0 { AFTER } else { both }, both);
+            let clear = [buffer(b.buckets.handle, both, CLEAR)];
+            gpu.barriers(cmd, &[], &[&before[..], &clear].concat());
             // SAFETY: cmd is recording outside a render pass; the part before is done (barrier).
             unsafe { gpu.device.cmd_fill_buffer(cmd, b.buckets.handle, 0, vk::WHOLE_SIZE, 0) };
             gpu.barriers(cmd, &[], &[buffer(b.buckets.handle, CLEAR, both)]);
-            wait(&[&b.order]);
-            dispatch(&self.pipelines.place[0], self.count)?;
-            let on = (gpu, cmd, descriptors);
-            self.scan.record(on, &b.counts, (&b.buckets, self.buckets), None, 0)?;
-            wait(&all);
-            dispatch(&self.pipelines.place[1], self.count)?;
-            wait(&all);
-            dispatch(&self.pipelines.order, self.buckets)?;
-            wait(&all);
-            wait(&moved);
-            dispatch(&self.pipelines.run, self.count)?;
-            wait(&moved);
+            dispatch(&p.place[0], 0, self.count);
+            let values = (&b.buckets, self.buckets);
+            self.scan.record_with((gpu, cmd, scan), &b.counts, values, None, 0);
+            wait(&[&b.buckets, &b.order]);
+            dispatch(&p.place[1], 1, self.count);
+            wait(&[&b.buckets, &b.order, &b.heaped]);
+            dispatch(&p.order, 2, self.buckets);
+            wait(&[&b.heaped, &b.balls, &b.drifts, &b.spins]);
+            dispatch(&p.run, 3, self.count);
         }
-        let last: Vec<_> = moved.iter().map(|b| buffer(b.handle, both, AFTER)).collect();
-        gpu.barriers(cmd, &[], &last);
+        gpu.barriers(cmd, &[], &moved(both, AFTER));
         slot.timer.end(gpu, cmd, scope);
         gpu.end_label(cmd);
         Ok(())
@@ -597,17 +406,18 @@ impl Heap {
         let [x, y, z] = s.gravity;
         let (points, field) = self.field;
         // As wide as the farthest neighbours are from each other.
-        let cell = 2.0 * self.largest * s.reach;
+        let cells = 1.0 / (2.0 * self.largest * s.reach);
         Push {
             gravity: [x, y, z, s.drag],
             pair: [s.rest, s.reach, s.stiffness, s.cohesion],
             damping: [s.damping[0], s.damping[1], s.solid_damping, s.friction],
-            solid: [s.contact, s.solidity, cell, step.dt / s.substeps as f32],
+            solid: [s.contact, s.solidity, step.dt / s.substeps as f32, 0.0],
             water: [s.water.unwrap_or(-1.0e30), s.density, 0.0, 0.0],
             field,
             field_size: [points[0], points[1], points[2], step.solids.len() as u32],
             blobs: self.count,
             buckets: self.buckets,
+            cells,
         }
     }
 
@@ -638,6 +448,12 @@ impl Heap {
     /// Their angular velocities (3×f32, 1/s), in the same order.
     pub fn spins(&self) -> Stream {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
+    }
+
+    /// How many they are.
+    #[cfg(feature = "headless")]
+    pub(crate) fn count(&self) -> u32 {
+        self.count
     }
 
     /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
@@ -685,72 +501,4 @@ impl Heap {
         }
         step.solids.iter().try_for_each(Solid::check)
     }
-}
-
-/// How blobs are used between steps.
-const AFTER: crate::contract::Access = COMPUTE_READ.and(COPY_READ);
-
-impl DistanceField {
-    /// Of a mesh (three corners a triangle), on a grid of points `edge` apart that goes `margin` beyond it. The inside is
-    /// where the mesh winds round a point (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation using
-    /// Generalized Winding Numbers, 2013): it may have holes and cross itself. By all triangles for each point, once.
-    ///
-    /// # Errors
-    /// No triangles, corners that are not finite, more than 1024 points in a row.
-    pub fn of_mesh(triangles: &[[[f32; 3]; 3]], edge: f32, margin: f32) -> Result<Self, Error> {
-        let bad = |why: &str| Err(Error::bad("DistanceField", why));
-        let corners = || triangles.iter().flatten().map(|c| Vec3::from(*c));
-        if triangles.is_empty() || !corners().all(|c| c.is_finite()) {
-            return bad("triangles with finite corners expected");
-        }
-        if !(edge.is_finite() && edge > 0.0 && margin.is_finite() && margin >= 0.0) {
-            return bad("an edge above 0 and a margin expected");
-        }
-        let low = corners().reduce(Vec3::min).unwrap_or_default() - margin;
-        let high = corners().reduce(Vec3::max).unwrap_or_default() + margin;
-        let span = ((high - low) / edge).ceil();
-        if span.max_element() > 1023.0 {
-            return bad("more than 1024 points in a row: a longer edge expected");
-        }
-        let points = span.to_array().map(|n| n as u32 + 2);
-        let mut distances = Vec::with_capacity(points.iter().map(|n| *n as usize).product());
-        for z in 0..points[2] {
-            for y in 0..points[1] {
-                for x in 0..points[0] {
-                    let at = low + edge * Vec3::new(x as f32, y as f32, z as f32);
-                    let (mut nearest, mut winds) = (f32::INFINITY, 0.0);
-                    for triangle in triangles {
-                        let [a, b, c] = triangle.map(Vec3::from);
-                        nearest = nearest.min(to_triangle(at, [a, b, c]));
-                        winds += solid_angle([a - at, b - at, c - at]);
-                    }
-                    let inside = winds.abs() > 2.0 * std::f32::consts::PI;
-                    distances.push(if inside { -nearest } else { nearest });
-                }
-            }
-        }
-        Ok(Self { points, corner: low.to_array(), edge, distances })
-    }
-}
-
-/// Distance of a point from a triangle (Ericson, Real-Time Collision Detection, 2004, Sec. 5.1.5).
-fn to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
-    let along = |from: Vec3, to: Vec3| {
-        let way = to - from;
-        let t = ((p - from).dot(way) / way.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-        p.distance(from + t * way)
-    };
-    let normal = (b - a).cross(c - a);
-    let over = |from: Vec3, to: Vec3| (to - from).cross(p - from).dot(normal) >= 0.0;
-    if normal.length_squared() > 0.0 && over(a, b) && over(b, c) && over(c, a) {
-        return (p - a).dot(normal.normalize()).abs();
-    }
-    along(a, b).min(along(b, c)).min(along(c, a))
-}
-
-/// Of a triangle seen from 0 (Van Oosterom, Strackee 1983).
-fn solid_angle([a, b, c]: [Vec3; 3]) -> f32 {
-    let (x, y, z) = (a.length(), b.length(), c.length());
-    let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-    2.0 * a.dot(b.cross(c)).atan2(below)
 }

@@ -1,0 +1,113 @@
+//! What is solid besides a step's own: distances at the points of a grid.
+
+use glam::Vec3;
+
+use crate::error::Error;
+
+/// Distances from a solid of any shape, negative inside, at the points of a grid; between them they are even. Beyond the
+/// grid there is nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DistanceField {
+    /// Points each way, 2 to 1024; x runs fastest.
+    pub points: [u32; 3],
+    /// The first point.
+    pub corner: [f32; 3],
+    /// From one to the next.
+    pub edge: f32,
+    /// As many as there are points.
+    pub distances: Vec<f32>,
+}
+
+impl DistanceField {
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let bad = |why: String| Err(Error::bad("DistanceField", why));
+        if !self.points.iter().all(|n| (2..=1024).contains(n)) {
+            return bad(format!("{:?} points: 2 to 1024 each way expected", self.points));
+        }
+        let count = self.points.iter().map(|n| *n as usize).product::<usize>();
+        if self.distances.len() != count {
+            return bad(format!("{} distances of {count} points", self.distances.len()));
+        }
+        let whole = self.corner.iter().chain(&self.distances).all(|v| v.is_finite());
+        if !whole || !self.edge.is_finite() || self.edge <= 0.0 {
+            return bad("not finite, or an edge that is not above 0".into());
+        }
+        Ok(())
+    }
+
+    /// Whether a device binds it all at once, up to so many bytes.
+    pub(super) fn check_binding(&self, most: u32) -> Result<(), Error> {
+        let bytes = size_of_val(&self.distances[..]);
+        if bytes as u64 <= u64::from(most) {
+            return Ok(());
+        }
+        let why = format!(
+            "{:?} points are {bytes} bytes, the device binds {most}: a longer edge",
+            self.points
+        );
+        Err(Error::bad("DistanceField", why))
+    }
+
+    /// Of a mesh (three corners a triangle), on a grid of points `edge` apart that goes `margin` beyond it. The inside is
+    /// where the mesh winds round a point (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation using
+    /// Generalized Winding Numbers, 2013): it may have holes and cross itself. By all triangles for each point, once.
+    ///
+    /// # Errors
+    /// No triangles, corners that are not finite, more than 1024 points in a row.
+    pub fn of_mesh(triangles: &[[[f32; 3]; 3]], edge: f32, margin: f32) -> Result<Self, Error> {
+        let bad = |why: &str| Err(Error::bad("DistanceField", why));
+        let corners = || triangles.iter().flatten().map(|c| Vec3::from(*c));
+        if triangles.is_empty() || !corners().all(|c| c.is_finite()) {
+            return bad("triangles with finite corners expected");
+        }
+        if !(edge.is_finite() && edge > 0.0 && margin.is_finite() && margin >= 0.0) {
+            return bad("an edge above 0 and a margin expected");
+        }
+        let low = corners().reduce(Vec3::min).unwrap_or_default() - margin;
+        let high = corners().reduce(Vec3::max).unwrap_or_default() + margin;
+        let span = ((high - low) / edge).ceil();
+        if span.max_element() > 1023.0 {
+            return bad("more than 1024 points in a row: a longer edge expected");
+        }
+        let points = span.to_array().map(|n| n as u32 + 2);
+        let mut distances = Vec::with_capacity(points.iter().map(|n| *n as usize).product());
+        for z in 0..points[2] {
+            for y in 0..points[1] {
+                for x in 0..points[0] {
+                    let at = low + edge * Vec3::new(x as f32, y as f32, z as f32);
+                    let (mut nearest, mut winds) = (f32::INFINITY, 0.0);
+                    for triangle in triangles {
+                        let [a, b, c] = triangle.map(Vec3::from);
+                        nearest = nearest.min(to_triangle(at, [a, b, c]));
+                        winds += solid_angle([a - at, b - at, c - at]);
+                    }
+                    let inside = winds.abs() > 2.0 * std::f32::consts::PI;
+                    distances.push(if inside { -nearest } else { nearest });
+                }
+            }
+        }
+        Ok(Self { points, corner: low.to_array(), edge, distances })
+    }
+}
+
+/// Distance of a point from a triangle (Ericson, Real-Time Collision Detection, 2004, Sec. 5.1.5).
+fn to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
+    let along = |from: Vec3, to: Vec3| {
+        let way = to - from;
+        let t = ((p - from).dot(way) / way.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        p.distance(from + t * way)
+    };
+    let normal = (b - a).cross(c - a);
+    let over = |from: Vec3, to: Vec3| (to - from).cross(p - from).dot(normal) >= 0.0;
+    if normal.length_squared() > 0.0 && over(a, b) && over(b, c) && over(c, a) {
+        return (p - a).dot(normal.normalize()).abs();
+    }
+    along(a, b).min(along(b, c)).min(along(c, a))
+}
+
+/// Of a triangle seen from 0 (Van Oosterom, Strackee 1983).
+fn solid_angle([a, b, c]: [Vec3; 3]) -> f32 {
+    let (x, y, z) = (a.length(), b.length(), c.length());
+    let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+    2.0 * a.dot(b.cross(c)).atan2(below)
+}

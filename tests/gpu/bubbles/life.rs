@@ -1,0 +1,85 @@
+//! Bubble foam when a renderer's size and configuration change.
+
+use whitewater::Config;
+use whitewater::bubbles::{BubbleConfig, BubbleSort, Film, Impostor};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::scenes::Lens;
+use crate::support::{compare, slow};
+
+use super::impostor::heap;
+
+fn shot(width: u32, height: u32) -> Shot {
+    let mut shot = Shot::new(extent(width, height), Lens::Standard, 0.1, &[]);
+    shot.blobs = heap(&shot, 30);
+    shot
+}
+
+fn same(name: &str, rig: &mut Rig<'_>, fresh: &mut Rig<'_>, shot: &Shot) {
+    let (found, expected) = (rig.draw(shot), fresh.draw(shot));
+    assert_ne!(expected.output.data, shot.color, "{name}: something is drawn");
+    compare::same_color(name, &found.output, &expected.output);
+    let [found, expected] = [found, expected].map(|drawn| drawn.soap.expect("bubble foam"));
+    assert_eq!(found.layers, expected.layers, "{name}");
+    assert_eq!(found.film.data, expected.film.data, "{name}");
+}
+
+#[test]
+fn a_resize_gives_what_a_new_renderer_gives() {
+    let gpu = Gpu::shared();
+    let bubbles = BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(64) };
+    for sort in [BubbleSort::Tiles, BubbleSort::Peel] {
+        let of = |size| Config { bubbles: Some(BubbleConfig { sort, ..bubbles }), ..config(size) };
+        let mut rig = Rig::lit(&gpu, &of(extent(96, 64)), 1);
+        for (width, height) in [(33, 17), (120, 90)] {
+            let shot = shot(width, height);
+            rig.resize(shot.size);
+            let mut fresh = Rig::lit(&gpu, &of(shot.size), 1);
+            same(&format!("bubbles-{width}-{sort:?}"), &mut rig, &mut fresh, &shot);
+        }
+    }
+}
+
+/// What bubble foam is made of is made anew where it is another, and the host is told so; else it is kept.
+#[test]
+fn a_reconfiguration_gives_what_a_new_renderer_gives() {
+    let gpu = Gpu::shared();
+    let shot = shot(64, 48);
+    let base = BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(64) };
+    let distance = Impostor::Distance;
+    let film = |index| Film { index, ..Film::default() };
+    let of = |bubbles| Config { bubbles, ..config(shot.size) };
+    let goes = [
+        ("layers", false, BubbleConfig { layers: 5, ..base }),
+        ("sort", false, BubbleConfig { sort: BubbleSort::Peel, ..base }),
+        ("count", false, BubbleConfig { max_blobs: 1000, ..base }),
+        ("steps", false, BubbleConfig { steps: 4, ..base }),
+        ("film", true, BubbleConfig { film: film(1.8), ..base }),
+        ("seed", true, BubbleConfig { seed: 5, film: film(1.8), ..base }),
+        ("templates", true, BubbleConfig { templates: 3, seed: 5, film: film(1.8), ..base }),
+        ("map", true, BubbleConfig { map: 32, ..base }),
+        ("impostor", true, BubbleConfig { impostor: distance, map: 32, steps: 20, ..base }),
+        ("none", false, base),
+        ("again", true, base),
+    ];
+    let mut rig = Rig::lit(&gpu, &of(Some(base)), 1);
+    // Each takes two renderers: all in the long tests.
+    let few = ["layers", "film", "none", "again"];
+    for (name, anew, bubbles) in goes {
+        if !slow() && !few.contains(&name) {
+            continue;
+        }
+        let config = of((name != "none").then_some(bubbles));
+        assert_eq!(rig.renderer().reconfigure(&config).expect("reconfigure"), anew, "{name}");
+        rig.config = config;
+        if anew {
+            rig.set_up();
+            rig.light();
+        }
+        if config.bubbles.is_some() {
+            let mut fresh = Rig::lit(&gpu, &config, 1);
+            same(&format!("bubbles-{name}"), &mut rig, &mut fresh, &shot);
+        }
+    }
+}
