@@ -185,6 +185,10 @@ fn bubbles(blobs: &Blobs, config: &Config, limits: &vk::PhysicalDeviceLimits) ->
     let Some(config) = &config.bubbles else {
         return Err(Error::bad("Frame.bubbles", "given, but Config.bubbles is None"));
     };
+    if config.hand_over {
+        let why = "given, but Config.bubbles.hand_over makes the blobs of diffuse foam";
+        return Err(Error::bad("Frame.bubbles", why));
+    }
     let fields = ["Frame.bubbles.count", "Frame.bubbles.count.offset"];
     let most = ("Config.bubbles.max_blobs", config.max_blobs);
     let count = count(fields, blobs.count, most, limits)?;
@@ -332,6 +336,9 @@ pub fn config(config: &Config) -> Result<(), Error> {
     }
     if let Some(bubbles) = &config.bubbles {
         bubbles.check()?;
+        if bubbles.hand_over && config.diffuse.is_none() {
+            return bad("Config.bubbles.hand_over", "set, but Config.diffuse is None".into());
+        }
     }
     if let Some(level) = config.noise
         && level > 3

@@ -120,7 +120,8 @@ pub struct Config {
     /// Diffuse particles are drawn (spray, foam and bubbles of their own, [`Frame::diffuse`]): the passes
     /// `splat`, `radiance`, `blur`. `None` (default): they are not. 88 bytes a pixel more.
     pub diffuse: Option<DiffuseConfig>,
-    /// Blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`. `None` (default): they
+    /// Blobs of bubble foam are drawn ([`Frame::bubbles`]): the passes `blobs`, `peel`, `soap`, and before them `near` where they are
+    /// diffuse foam's ([`BubbleConfig::hand_over`]). `None` (default): they
     /// are not. 14½ bytes a pixel more, 4 for each layer and one besides, 64 a blob.
     pub bubbles: Option<BubbleConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0

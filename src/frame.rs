@@ -305,6 +305,9 @@ impl FrameUniforms {
         let (parts, carried, began) = pattern_phases(look);
         let ripples = &frame.settings.noise;
         let diffuse = &frame.settings.diffuse;
+        let over = config.bubbles.filter(|bubbles| bubbles.hand_over);
+        let over = over.map(|_| frame.settings.bubbles.hand_over);
+        let [near, far] = over.map_or([0.0; 2], |over| [over.near, over.far]);
         let falloff = match diffuse.submerged {
             Submerged::Water => None,
             Submerged::Falloff { most, n, m } => Some([most, n, m, 0.0]),
@@ -409,13 +412,13 @@ impl FrameUniforms {
                 ripples.cells / radius,
             ],
             noise_color: foam_color(ripples.color, light),
-            diffuse: [diffuse.radius, 0.0, 0.0, f32::from(u8::from(falloff.is_some()))],
+            diffuse: [diffuse.radius, near, far, f32::from(u8::from(falloff.is_some()))],
             diffuse_below: falloff.unwrap_or([1.0; 4]),
             diffuse_light: [
                 diffuse.half,
                 diffuse.exponent,
                 f32::from(u8::from(diffuse.mixing == Mixing::Source)),
-                0.0,
+                over.map_or(0.0, |over| over.size),
             ],
             diffuse_search: [
                 diffuse.search[0],

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use crate::bubbles::{self, BubbleUniforms, Bubbles};
+use crate::bubbles::{self, BubbleUniforms, Bubbles, near_sets};
 use crate::check;
 use crate::composite::{Composite, Surroundings};
 use crate::contract::{
@@ -216,6 +216,7 @@ impl Renderer {
             Resource::SampledIn(frame.scene_depth.view, gpu.samplers.nearest, depth_layout);
         let uniforms = Resource::Buffer(slot.uniforms.handle, 0, size_of::<FrameUniforms>() as u64);
         let from = (self.light.as_ref(), self.convolving.as_ref());
+        let handed_over = self.bubbles.as_ref().and_then(Bubbles::handed_over);
         let mut r = Recording {
             gpu,
             cmd,
@@ -233,6 +234,7 @@ impl Renderer {
                 BUBBLES as u64,
                 size_of::<BubbleUniforms>() as u64,
             ),
+            hand_over: handed_over.map(|(_, over)| over),
             scene_depth,
             sunlight: sunlight(
                 frame,
@@ -248,7 +250,8 @@ impl Renderer {
             convolving.record(&mut r, &convolution, shadow, shadow_map(shadow, gpu))?;
         }
         let diffuse = self.foam.as_ref().map(|foam| (foam, frame.diffuse.as_ref()));
-        let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, frame.bubbles.as_ref()));
+        let blobs = frame.bubbles.or(handed_over.map(|(blobs, _)| blobs));
+        let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, blobs.as_ref()));
         let beside = Beside { light: self.light.as_ref(), diffuse, bubbles };
         self.water.record(&mut r, &frame.particles, &beside)?;
         if let Some(foam) = &self.foam {
@@ -569,7 +572,9 @@ impl SlotState {
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
-        137 + 27 * water + 4 * diffuse + diffuse_sets(&gpu.limits, config)
+        let near = config.diffuse.filter(|_| config.bubbles.is_some_and(|own| own.hand_over));
+        let near = near.map_or(0, |diffuse| near_sets(&gpu.limits, &diffuse));
+        137 + 27 * water + 4 * diffuse + near + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

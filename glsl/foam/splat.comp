@@ -8,6 +8,7 @@
 #include "frustum.glsl"
 #include "falloff.glsl"
 #include "diffuse.glsl"
+#include "hand_over.glsl"
 #include "diffuse_words.glsl"
 
 layout(local_size_x = 64) in;

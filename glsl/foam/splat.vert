@@ -5,6 +5,7 @@
 #include "frame.glsl"
 #include "falloff.glsl"
 #include "diffuse.glsl"
+#include "hand_over.glsl"
 #include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 

@@ -4,6 +4,7 @@
 // lies, so that far foam does not sparkle. Not in the source.
 // Needs frame.glsl, falloff.glsl.
 
+const uint FOAM = 0u;
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 

@@ -1,5 +1,5 @@
 // The host's streams of diffuse particles, as a pass that splats them binds a chunk of each.
-// Needs frame.glsl, falloff.glsl, diffuse.glsl, and of the push constants where the streams begin and their strides:
+// Needs frame.glsl, falloff.glsl, diffuse.glsl, hand_over.glsl, and of the push constants where the streams begin and their strides:
 // 0 of one that is not there. Reads: positions, kinds, radii, ages, ids.
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
@@ -15,12 +15,23 @@ vec4 diffuse_world(uint i) {
     return vec4(position, push.age_stride > 0u ? uintBitsToFloat(ages[push.age_word + i * push.age_stride]) : 0.0);
 }
 
-// All of it.
-Diffuse diffuse_at(uint i, vec4 world) {
+// Its number.
+uint diffuse_id(uint i) {
+    return push.id_stride > 0u ? ids[push.id_word + i * push.id_stride] : push.chunk_first + i;
+}
+
+// All of it, though blobs may stand for it.
+Diffuse diffuse_whole(uint i, vec4 world) {
     uint kind = push.kind_stride > 0u ? kinds[push.kind_word + i * push.kind_stride] : 0u;
     float radius = push.radius_stride > 0u ? uintBitsToFloat(radii[push.radius_word + i * push.radius_stride]) : 0.0;
-    uint id = push.id_stride > 0u ? ids[push.id_word + i * push.id_stride] : push.chunk_first + i;
-    return diffuse_of(world.xyz, kind, radius, world.w, id);
+    return diffuse_of(world.xyz, kind, radius, world.w, diffuse_id(i));
+}
+
+// What of it is a sprite's.
+Diffuse diffuse_at(uint i, vec4 world) {
+    Diffuse p = diffuse_whole(i, world);
+    p.life *= kept_of(p);
+    return p;
 }
 
 Diffuse diffuse_at(uint i) {

@@ -7,6 +7,7 @@
 #include "frame.glsl"
 #include "falloff.glsl"
 #include "diffuse.glsl"
+#include "hand_over.glsl"
 #include "light_diffuse.glsl"
 
 layout(local_size_x = 64) in;

@@ -6,6 +6,7 @@ mod blob;
 mod cast;
 mod heap;
 mod lists;
+mod near;
 mod peel;
 pub mod settings;
 mod soap;
@@ -16,7 +17,7 @@ use std::sync::Arc;
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
 
-use crate::contract::{Blobs, Config, Frame, Layer};
+use crate::contract::{Blobs, Config, DiffuseParticles, Frame, Layer};
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::frame::sun_on;
@@ -30,8 +31,11 @@ use crate::water::{Recording, WaterLayers};
 pub use blob::Blob;
 pub use heap::{DistanceField, Heap, HeapConfig, HeapSettings, HeapStep, Solid};
 pub(crate) use lists::buffers_of;
+pub(crate) use near::sets as near_sets;
 use settings::MOST_FILM;
-pub use settings::{BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, Impostor, Spectrum};
+pub use settings::{
+    BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, HandOver, Impostor, Spectrum,
+};
 use templates::Templates;
 
 /// How the host's streams are read.
@@ -86,6 +90,7 @@ pub(crate) fn bytes_bound(extent: vk::Extent2D, bubbles: &BubbleConfig) -> (u64,
 pub(crate) struct Bubbles {
     /// Those of the renderer before a `reconfigure`, where they fit.
     templates: Arc<Templates>,
+    near: Option<near::Near>,
     lists: lists::Lists,
     cast: Option<cast::Cast>,
     peel: peel::Peel,
@@ -107,6 +112,11 @@ impl Bubbles {
         };
         Ok(Self {
             templates,
+            near: config
+                .diffuse
+                .filter(|_| bubbles.hand_over)
+                .map(|diffuse| near::Near::new(gpu, &diffuse, bubbles))
+                .transpose()?,
             lists: lists::Lists::new(gpu, config, bubbles)?,
             cast: cast::Cast::new(gpu, config)?,
             peel: peel::Peel::new(gpu, config, bubbles)?,
@@ -133,6 +143,24 @@ impl Bubbles {
 
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         self.templates.record_setup(gpu, cmd);
+    }
+
+    /// Diffuse foam near the eye becomes blobs, where it does. Whether the particles' buffers were taken over for it, as
+    /// read by compute.
+    pub fn record_near(
+        &self,
+        r: &mut Recording<'_>,
+        particles: Option<&DiffuseParticles>,
+    ) -> Result<bool, Error> {
+        match &self.near {
+            Some(near) => near.record(r, particles).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// The blobs that are made of diffuse foam, and what says up to where they are.
+    pub fn handed_over(&self) -> Option<(Blobs, Resource)> {
+        self.near.as_ref().map(|near| (near.blobs(), near.over()))
     }
 
     /// Which there are, and their shadows: before anything asks for the sun's light.
@@ -218,6 +246,10 @@ impl Bubbles {
         let (maps, bubbles) = self.templates.memory();
         let (depth, layers) = self.peel.memory();
         let cast = self.cast.as_ref().map_or(0, cast::Cast::memory);
-        (maps + depth + cast + self.soap.image().size, bubbles + layers + self.lists.memory())
+        let near = self.near.as_ref().map_or(0, near::Near::memory);
+        (
+            maps + depth + cast + self.soap.image().size,
+            bubbles + layers + self.lists.memory() + near,
+        )
     }
 }

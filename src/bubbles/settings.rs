@@ -33,6 +33,10 @@ pub struct BubbleConfig {
     pub sort: BubbleSort,
     /// The soap film.
     pub film: Film,
+    /// Diffuse foam near the eye becomes blobs ([`BubbleLook::hand_over`]), at most `max_blobs` of them; frames then have no
+    /// other blobs. Default false. With [`Config::diffuse`](crate::Config::diffuse); 36 bytes a blob more, the pass
+    /// `near`.
+    pub hand_over: bool,
 }
 
 impl BubbleConfig {
@@ -49,6 +53,7 @@ impl BubbleConfig {
             layers: 3,
             sort: BubbleSort::Tiles,
             film: Film::default(),
+            hand_over: false,
         }
     }
 
@@ -180,6 +185,27 @@ pub struct BubbleLook {
     pub walls: bool,
     /// Whether what lies behind the last layer plugs the holes (Sec. 5); default true.
     pub plug: bool,
+    /// Where blobs take over from sprites of diffuse foam, with [`BubbleConfig::hand_over`].
+    pub hand_over: HandOver,
+}
+
+/// Diffuse foam near the eye as blobs: Akinci et al. 2013 give foam up that is nearer than some metres. What is spray or
+/// under water stays sprites.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HandOver {
+    /// Up to this distance from the eye there are blobs alone, scene units, [0, ∞), default 2.
+    pub near: f32,
+    /// From there on sprites alone, above `near`, default 4. Between the two a blob grows as its sprite goes. Where more
+    /// particles are nearer than there may be blobs, both distances are less.
+    pub far: f32,
+    /// Radius of a blob in that of its particle, (0, 100], default 1.
+    pub size: f32,
+}
+
+impl Default for HandOver {
+    fn default() -> Self {
+        Self { near: 2.0, far: 4.0, size: 1.0 }
+    }
 }
 
 impl Default for BubbleLook {
@@ -197,6 +223,7 @@ impl Default for BubbleLook {
             shininess: 800.0,
             walls: true,
             plug: true,
+            hand_over: HandOver::default(),
         }
     }
 }
@@ -219,6 +246,14 @@ impl BubbleLook {
         range("Settings.bubbles.distortion", self.distortion, 0.0, 1.0)?;
         range("Settings.bubbles.roundness", self.roundness, 0.0, 1.0)?;
         range("Settings.bubbles.reflection", self.reflection, 0.0, 8.0)?;
-        range("Settings.bubbles.shininess", self.shininess, 1.0, 10_000.0)
+        range("Settings.bubbles.shininess", self.shininess, 1.0, 10_000.0)?;
+        let HandOver { near, far, size } = self.hand_over;
+        range("Settings.bubbles.hand_over.near", near, 0.0, 1.0e9)?;
+        range("Settings.bubbles.hand_over.far", far, 1.0e-9, 1.0e9)?;
+        if near >= far {
+            let why = format!("{far} is not above near, {near}");
+            return Err(Error::bad("Settings.bubbles.hand_over.far", why));
+        }
+        range("Settings.bubbles.hand_over.size", size, 1.0e-6, 100.0)
     }
 }

@@ -151,8 +151,8 @@ impl Templates {
 
     /// Whether it is what another configuration asks for, whatever else that changes.
     pub fn fits(&self, config: &BubbleConfig) -> bool {
-        let BubbleConfig { max_blobs, layers, sort, steps, .. } = *config;
-        BubbleConfig { max_blobs, layers, sort, steps, ..self.config } == *config
+        let BubbleConfig { max_blobs, layers, sort, steps, hand_over, .. } = *config;
+        BubbleConfig { max_blobs, layers, sort, steps, hand_over, ..self.config } == *config
     }
 
     /// Edges of the faces of both maps.

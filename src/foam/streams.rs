@@ -58,7 +58,13 @@ macro_rules! assert_places {
         );)+
     };
 }
-assert_places!(FOAM_SPLAT_COMP, FOAM_SPLAT64_COMP, FOAM_SPLAT_VERT, LIGHT_DIFFUSE_COMP);
+assert_places!(
+    FOAM_SPLAT_COMP,
+    FOAM_SPLAT64_COMP,
+    FOAM_SPLAT_VERT,
+    LIGHT_DIFFUSE_COMP,
+    BUBBLES_NEAR_COMP,
+);
 
 /// What tells how many there are in each chunk (glsl/include/diffuse_chunks.glsl).
 #[repr(C)]
@@ -141,6 +147,8 @@ impl Chunks {
                 (3, radii.resource),
                 (4, ages.resource),
                 (5, ids.resource),
+                // Not read where there is none.
+                (11, r.hand_over.unwrap_or(positions.resource)),
             ];
             r.descriptors.bind(r.gpu, r.cmd, pipeline, &[&streams[..], own].concat())?;
             let places = Places {

@@ -66,6 +66,8 @@ pub(crate) struct Recording<'a> {
     pub levels: Resource,
     /// The numbers of bubble foam.
     pub bubbles: Resource,
+    /// Where that takes over from sprites of diffuse particles, if it does.
+    pub hand_over: Option<Resource>,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,
     /// What tells where the sun does not come.
@@ -222,12 +224,19 @@ impl Water {
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
         let Beside { light, diffuse, bubbles } = *beside;
+        let mut diffuse = diffuse.map(|(foam, particles)| (foam, particles.copied()));
         if let Some((bubbles, blobs)) = bubbles {
+            if let Some((_, particles)) = &mut diffuse
+                && bubbles.record_near(r, particles.as_ref())?
+                && let Some(particles) = particles
+            {
+                particles.before = COMPUTE_READ;
+            }
             bubbles.record_lists(r, blobs)?;
         }
         self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
-            let diffuse = diffuse.and_then(|(_, particles)| particles);
+            let diffuse = diffuse.as_ref().and_then(|(_, particles)| particles.as_ref());
             light.record_maps(r, particles, &self.cull.list, diffuse)?;
         }
         self.front.record(r, &self.cull)?;
@@ -238,10 +247,11 @@ impl Water {
         if let Some(spray) = &self.spray {
             spray.record(r, particles, &self.cull.list, &self.depth.image)?;
         }
-        if let Some((foam, particles)) = diffuse {
+        if let Some((foam, mut particles)) = diffuse {
             // The light's maps have taken their buffers over.
-            let before = |p: &DiffuseParticles| light.map_or(p.before, |_| COMPUTE_READ);
-            let particles = particles.map(|p| DiffuseParticles { before: before(p), ..*p });
+            if let (Some(particles), Some(_)) = (&mut particles, light) {
+                particles.before = COMPUTE_READ;
+            }
             foam.record_splat(r, particles.as_ref(), &self.depth.image)?;
         }
         if let Some((bubbles, blobs)) = bubbles {

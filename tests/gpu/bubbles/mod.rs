@@ -6,4 +6,5 @@ mod film;
 mod heap;
 mod impostor;
 mod life;
+mod near;
 mod wall;

@@ -233,7 +233,8 @@ impl<'g> Rig<'g> {
             ..texture.host_image()
         };
         let output = placed(apart.as_ref().unwrap_or(&color), shot.size);
-        let blobs = self.config.bubbles.map(|_| self.blobs(shot));
+        let theirs = self.config.bubbles.filter(|bubbles| !bubbles.hand_over);
+        let blobs = theirs.map(|_| self.blobs(shot));
         let frame = Frame {
             scene_color: placed(&color, shot.size),
             bubbles: blobs.as_ref().map(Foamed::streams),

@@ -10,6 +10,22 @@ use crate::tool::Tool;
 /// A blob's upper half from near, with sky behind its films.
 const FILMS: &str = "--eye 0.2,1.9,2.3 --target 0.05,1.45,0";
 
+/// Diffuse foam from near: sprites, and the blobs that take over from them.
+pub fn near(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let kept = tool.temporary("kept_%04d.bgeo");
+    let kept = kept.display();
+    let frame = 240;
+    tool.frame("waterfall", frame, &format!("--whitewater generate --write-whitewater {kept}"))?;
+    let look = tool.settings("[bubbles]\nhand_over = [0.5, 1.0]\n")?;
+    let view = "--eye 1.1,0.6,0.75 --target 1.0,0.22,0.2 --fov 45";
+    let panels = ["", &look].map(|look| {
+        let more = format!("--whitewater {kept} {view} {look} --foam none --spray none");
+        tool.frame("waterfall", frame, &more).map(|frame| frame.picture)
+    });
+    let [sprites, blobs] = panels;
+    grid(&[sprites?, blobs?], 2, &pictures(docs, "foam-near.png"))
+}
+
 /// Figure 6: one blob, whole and from near.
 pub fn one(tool: &Tool, docs: &Path) -> Outcome<()> {
     let near = "--eye 0.3,1.3,1.6 --target 0,1.1,0";

@@ -28,8 +28,8 @@ pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
     for (sea, count) in seas {
         let picture = tool.sea(sea, &count.to_string(), size, "")?;
         let layers = tool.sea_layers(sea, &count.to_string(), size, "")?;
-        // Foam of which nothing shows.
-        let bare = tool.sea(sea, "1", size, "")?;
+        // The one particle does not show.
+        let bare = tool.sea(sea, "1", size, "half = 1000000.0")?;
         let covered = tool.sea_ray_cast(sea, count, size)?;
         let shine = mean_of_dense(&picture, channel(&layers, "foam.intensity")?);
         let mut cast = bare;

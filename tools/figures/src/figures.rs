@@ -14,7 +14,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 24] = [
+pub const ALL: [(&str, Figure); 25] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -33,6 +33,7 @@ pub const ALL: [(&str, Figure); 24] = [
     ("diffuse-layers", diffuse::layers),
     ("diffuse-shapes", diffuse::shapes),
     ("diffuse-look", diffuse::looks),
+    ("foam-near", bubbles::near),
     ("bubble-one", bubbles::one),
     ("bubble-films", bubbles::films),
     ("bubble-impostors", bubbles::impostors),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use serde::Deserialize;
-use whitewater::bubbles::{HeapSettings, Solid};
+use whitewater::bubbles::{BubbleConfig, HeapSettings, Solid};
 use whitewater::headless::Bubble;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::io::particles::{Particles, sequence};
@@ -339,7 +339,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         diffuse: None,
         occlusion: file.diffuse.occlusion(),
         splat: file.diffuse.splat(),
-        bubbles: Some((blobs, file.bubbles.config())),
+        bubbles: Some((blobs, BubbleConfig { hand_over: false, ..file.bubbles.config() })),
         spray: false,
         shadows: file.shadows().map_err(Failure::input)?,
         region: Region { center, radius: 1.5 * radius },

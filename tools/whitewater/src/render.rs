@@ -96,6 +96,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let settings = settings.unwrap_or_default();
     let settings_of_bubbles = settings.bubbles.config();
+    if settings_of_bubbles.hand_over && (foam.is_some() || args.whitewater.is_empty()) {
+        let why = "--settings, [bubbles] hand_over: diffuse particles become blobs, so that --whitewater is expected, and no \
+                   --bubbles";
+        return Err(Failure::usage(why));
+    }
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
     let files = diffuse::Files::find(files, args.up_axis, single)?;
@@ -106,6 +111,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, camera, settings, environment, &progress)
     })?;
+    let foam = match foam {
+        None if settings_of_bubbles.hand_over => Some(Vec::new()),
+        foam => foam,
+    };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
     let look = Look { diffuse: files.or(look.diffuse), bubbles: foam, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;

@@ -281,7 +281,8 @@ impl<'a> Session<'a> {
             DiffuseConfig { max_stride, occlusion, splat, ..DiffuseConfig::new(most) }
         });
         config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
-            let max_blobs = (blobs.blobs.len() as u32).max(1);
+            let own = (blobs.blobs.len() as u32).max(1);
+            let max_blobs = if bubbles.hand_over { bubbles.max_blobs } else { own };
             BubbleConfig { max_blobs, ..*bubbles }
         });
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
@@ -309,7 +310,7 @@ impl<'a> Session<'a> {
         if args.shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
-        if let Some((blobs, _)) = &self.look.bubbles {
+        if let Some((blobs, _)) = self.look.bubbles.as_ref().filter(|(_, own)| !own.hand_over) {
             times.step("upload", number, || match &blobs.motion {
                 Some(_) => headless.heap(&blobs.blobs, None),
                 None => headless.bubbles(&blobs.blobs),

@@ -65,7 +65,7 @@ fn measure(
 ) -> Outcome<Vec<Row>> {
     let set = set(which)?;
     let max_blobs = set.blobs.blobs.len().max(1) as u32;
-    let bubbles = BubbleConfig { max_blobs, ..file.bubbles.config() };
+    let bubbles = BubbleConfig { max_blobs, hand_over: false, ..file.bubbles.config() };
     // There is no water, and room for it is not zero.
     let config = Config { bubbles: Some(bubbles), ..Config::new(extent, COLOR_FORMAT, 64) };
     let mut headless = Headless::new(Device::new(options)?, &config)?;

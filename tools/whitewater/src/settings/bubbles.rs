@@ -5,6 +5,12 @@ use whitewater::bubbles::{
     BubbleConfig, BubbleLook, BubbleSort, Film, FilmFresnel, Impostor, Spectrum,
 };
 
+/// Of what diffuse foam near the eye becomes: blobs at most, different ones, bubbles of each. A particle is a small
+/// cluster, whose bubbles are seen one by one.
+const HANDED_OVER: (u32, u32, u32) = (65_536, 32, 9);
+/// Its core: little of it is opaque.
+const CLUSTER: [f32; 2] = [0.25, 0.9];
+
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BubbleTable {
@@ -20,6 +26,10 @@ pub struct BubbleTable {
     shininess: Option<f32>,
     walls: Option<bool>,
     plug: Option<bool>,
+    /// Near and far.
+    hand_over: Option<[f32; 2]>,
+    hand_over_size: Option<f32>,
+    hand_over_blobs: Option<u32>,
     /// Not of the look, as all below: they choose passes.
     templates: Option<u32>,
     bubbles: Option<u32>,
@@ -64,9 +74,12 @@ enum SpectrumTable {
 }
 
 impl BubbleTable {
-    /// What of the foam chooses passes, for any number of blobs.
+    /// What of the foam chooses passes, for any number of blobs; or for those that diffuse foam becomes.
     pub fn config(&self) -> BubbleConfig {
-        let standard = BubbleConfig::new(1);
+        let mut standard = BubbleConfig::new(1);
+        if self.hand_over.is_some() {
+            (standard.max_blobs, standard.templates, standard.bubbles) = HANDED_OVER;
+        }
         let impostor = match self.impostor {
             Some(ImpostorTable::Distance) => Impostor::Distance,
             Some(ImpostorTable::Ids) | None => Impostor::Ids,
@@ -95,7 +108,8 @@ impl BubbleTable {
                     Some(SpectrumTable::Whole) | None => Spectrum::Whole,
                 },
             },
-            ..standard
+            hand_over: self.hand_over.is_some(),
+            max_blobs: self.hand_over_blobs.unwrap_or(standard.max_blobs),
         }
     }
 
@@ -114,5 +128,10 @@ impl BubbleTable {
         set(&mut look.shininess, self.shininess);
         look.walls = self.walls.unwrap_or(look.walls);
         look.plug = self.plug.unwrap_or(look.plug);
+        if let Some([near, far]) = self.hand_over {
+            look.core = self.core.unwrap_or(CLUSTER);
+            (look.hand_over.near, look.hand_over.far) = (near, far);
+        }
+        set(&mut look.hand_over.size, self.hand_over_size);
     }
 }

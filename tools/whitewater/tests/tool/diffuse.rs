@@ -10,6 +10,28 @@ const FOAM: &str =
 /// Particles as large as a few pixels.
 const LOOK: &str = "[diffuse]\nradius = 0.1\nhalf = 0.3\n";
 
+/// Foam near the eye as blobs; bubbles in the water stay what they are.
+#[test]
+fn near_foam_becomes_blobs() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    folder.text("foam.csv", FOAM);
+    let bubbles =
+        "[bubbles]\nhand_over = [8.0, 9.0]\nhand_over_blobs = 16\nhand_over_size = 2.0\nmap = 16\n";
+    folder.text("near.toml", &format!("{LOOK}{bubbles}"));
+    let common = format!("render a.ply {SMALL} {FRONT} --settings near.toml --validate");
+    folder.run(&format!("{common} -o near.exr --layers all --whitewater foam.csv")).ok();
+    let near = folder.picture("near.exr");
+    let at = |name: &str, x: usize| near.channel(name).unwrap()[32 * 96 + x];
+    assert!((1.7..1.82).contains(&at("bubbles.Z", 48)), "{}", at("bubbles.Z", 48));
+    assert!(at("foam.thickness", 48) == 0.0, "no sprite where a blob is");
+    let bubble = near.channel("foam.submerged").unwrap().iter().any(|v| *v > 0.0);
+    assert!(bubble, "the bubble is one still");
+    let text =
+        folder.run(&format!("{common} -o none.png")).fails(2, &["hand_over", "--whitewater"]);
+    assert!(!text.stderr().is_empty() && !folder.exists("none.png"));
+}
+
 #[test]
 fn diffuse_particles_are_drawn_before_and_in_the_water() {
     let folder = Folder::new();

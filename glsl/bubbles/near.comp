@@ -1,0 +1,77 @@
+#version 460
+// Pass `near`: diffuse foam near the eye becomes blobs (Akinci et al. 2013 gives foam seen from near up; blobs by Huszar,
+// Szecsi). A particle's blob grows as its sprite goes. Two goes over the particles: how many there are at each distance;
+// then those for which there is room, as blobs in the world.
+// Reads: positions, kinds, radii, ages, ids, arguments, hand-over. Writes: numbers; count, balls, turns, blob ids.
+
+#include "frame.glsl"
+#include "frustum.glsl"
+#include "falloff.glsl"
+#include "diffuse.glsl"
+#include "random.glsl"
+#include "hand_over.glsl"
+
+layout(local_size_x = 64) in;
+// 0: how many. 1: which.
+layout(constant_id = 0) const uint GO = 0;
+
+layout(push_constant, std430) uniform Push {
+    uint position_word;
+    uint position_stride;
+    uint kind_word;
+    uint kind_stride;
+    uint radius_word;
+    uint radius_stride;
+    uint age_word;
+    uint age_stride;
+    uint id_word;
+    uint id_stride;
+    uint chunk_first;
+    uint chunk;
+    uint room; // blobs there may be
+} push;
+
+#include "diffuse_streams.glsl"
+
+layout(set = 0, binding = 6, std430) buffer Numbers { uint numbers[]; };
+layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
+layout(set = 0, binding = 8, std430) writeonly buffer Balls { vec4 balls[]; };
+layout(set = 0, binding = 9, std430) writeonly buffer Turns { vec4 turns[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer BlobIds { uint blob_ids[]; };
+layout(set = 0, binding = 12, std430) buffer Count { uint count; };
+
+// Some turn, each number's own.
+vec4 turn_of(uint id) {
+    vec4 q = vec4(uniform_of(1u, id, 0u), uniform_of(1u, id, 1u), uniform_of(1u, id, 2u), uniform_of(1u, id, 3u)) - 0.5;
+    return dot(q, q) > 1.0e-4 ? normalize(q) : vec4(0.0, 0.0, 0.0, 1.0);
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= arguments[push.chunk].w) {
+        return;
+    }
+    vec4 world = diffuse_world(i);
+    Diffuse p = diffuse_whole(i, world);
+    // In both goes the very same.
+    precise float distance_ = length(p.centre);
+    uint ring = ring_of(distance_);
+    bool near = p.kind == FOAM && p.life > 0.0 && ring < RINGS && in_frustum(p.centre, frame.diffuse_light.w * p.radius);
+    if (GO == 0u) {
+        if (near) {
+            atomicAdd(numbers[ring], 1u);
+        }
+        return;
+    }
+    if (near && ring < hand_over.rings) {
+        uint slot = atomicAdd(count, 1u);
+        if (slot < push.room) {
+            uint id = diffuse_id(i);
+            // As much of the picture as the sprite gives up.
+            float part = sqrt(1.0 - kept_of(p));
+            balls[slot] = vec4(world.xyz, frame.diffuse_light.w * p.radius * p.life * part);
+            turns[slot] = turn_of(id);
+            blob_ids[slot] = id;
+        }
+    }
+}

@@ -1,0 +1,42 @@
+#version 460
+// Pass `near`, between its goes: up to which distance there is room. Where there is not for all, sprites take over nearer
+// by, all of them: what is lost at the far end is no blob's half.
+// Reads: numbers. Writes: hand-over.
+
+#include "frame.glsl"
+#include "hand_over_rings.glsl"
+
+layout(local_size_x = 128) in;
+
+layout(set = 0, binding = 6, std430) readonly buffer Numbers { uint numbers[]; };
+layout(set = 0, binding = 11, std430) writeonly buffer Over { HandOver hand_over; };
+layout(push_constant, std430) uniform Push { uint room; } push;
+
+const uint OWN = RINGS / 128u;
+shared uint sums[128];
+
+void main() {
+    uint own = gl_LocalInvocationIndex;
+    uint sum = 0u;
+    for (uint i = 0u; i < OWN; ++i) {
+        sum += numbers[own * OWN + i];
+    }
+    sums[own] = sum;
+    barrier();
+    if (own > 0u) {
+        return;
+    }
+    uint before = 0u;
+    uint ring = 0u;
+    while (ring < RINGS && before + sums[ring / OWN] <= push.room) {
+        before += sums[ring / OWN];
+        ring += OWN;
+    }
+    uint last = min(ring + OWN, RINGS);
+    while (ring < last && before + numbers[ring] <= push.room) {
+        before += numbers[ring];
+        ++ring;
+    }
+    float part = float(ring) / float(RINGS);
+    hand_over = HandOver(frame.diffuse.y * part, frame.diffuse.z * part, ring, before);
+}

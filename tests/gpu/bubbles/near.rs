@@ -1,0 +1,275 @@
+//! Diffuse foam that becomes blobs near the eye.
+
+use glam::{DVec3, Vec3, Vec4};
+use whitewater::bubbles::{BubbleConfig, BubbleLook, HandOver};
+use whitewater::foam::DiffuseConfig;
+use whitewater::headless::{Bubble, Diffuse};
+use whitewater::{Config, Error, Frame, Region};
+
+use crate::reference::classify::pcg;
+use crate::reference::is_surface;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens, Random};
+
+const FOAM: u32 = 0;
+const RINGS: f64 = 1024.0;
+
+/// Diffuse particles of all kinds and ages.
+#[derive(Clone)]
+struct Cloud {
+    shot: Shot,
+    positions: Vec<[f32; 3]>,
+    kinds: Vec<u32>,
+    ages: Vec<f32>,
+    ids: Vec<u32>,
+}
+
+/// Radius of all of them before their numbers divide it.
+const RADIUS: f32 = 0.3;
+
+impl Cloud {
+    /// So many, their eye depths by their place.
+    fn new(count: usize, depth: impl Fn(usize) -> f32) -> Self {
+        let mut shot = Shot::new(extent(96, 80), Lens::ReversedInfinite, 0.1, &[]);
+        let center = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
+        shot.sun.region = Some(Region { center, radius: 4.0 });
+        shot.settings.diffuse.radius = RADIUS;
+        shot.settings.bubbles.hand_over = HandOver { near: 2.0, far: 3.0, size: 1.25 };
+        let mut random = Random(6);
+        let place = |i| {
+            let z = depth(i);
+            [z * random.between(-0.4, 0.4), z * random.between(-0.3, 0.3), z]
+        };
+        let eye: Vec<[f32; 3]> = (0..count).map(place).collect();
+        let ages = (0..count).map(|i| [0.0, 0.5, -0.1, 0.9][i % 4]).collect();
+        Self {
+            positions: scenes::world(&shot.camera, &eye),
+            kinds: vec![FOAM; count],
+            ages,
+            ids: (0..count as u32).map(|i| 7 * i + 3).collect(),
+            shot,
+        }
+    }
+
+    fn input(&self) -> Diffuse<'_> {
+        Diffuse {
+            positions: &self.positions,
+            kinds: Some(&self.kinds),
+            radii: None,
+            ages: Some(&self.ages),
+            ids: Some(&self.ids),
+        }
+    }
+
+    fn draw(&self, rig: &mut Rig<'_>) -> Drawn {
+        let fluid = rig.particles(&self.shot);
+        let cloud = rig.diffuse(&self.input());
+        rig.draw_diffuse(&self.shot, &fluid.particles(), Some(cloud.particles()))
+    }
+
+    fn distance(&self, i: usize) -> f64 {
+        let view = self.shot.view(self.shot.size).view;
+        view.transform_point3(DVec3::from(self.positions[i].map(f64::from))).length()
+    }
+
+    /// What of one is its blob's where there is room, of all.
+    fn part(&self, i: usize) -> f64 {
+        let HandOver { near, far, .. } = self.shot.settings.bubbles.hand_over;
+        let [near, far] = [near, far].map(f64::from);
+        let t = ((self.distance(i) - near) / (far - near)).clamp(0.0, 1.0);
+        if self.kinds[i] == FOAM { 1.0 - t * t * (3.0 - 2.0 * t) } else { 0.0 }
+    }
+
+    /// The blobs that they are.
+    fn blobs(&self) -> Vec<Bubble> {
+        let size = f64::from(self.shot.settings.bubbles.hand_over.size);
+        (0..self.positions.len())
+            .filter(|i| self.part(*i) > 0.0)
+            .map(|i| {
+                let life = (1.0 - f64::from(self.ages[i].max(0.0)).powi(2)).powf(0.4);
+                let own = f64::from(RADIUS) / f64::from(self.ids[i] % 5 + 1);
+                let radius = size * own * life * self.part(i).sqrt();
+                let ball = Vec3::from(self.positions[i]).extend(radius as f32).to_array();
+                Bubble { ball, turn: turn(self.ids[i]), id: self.ids[i] }
+            })
+            .collect()
+    }
+}
+
+/// As near.comp has it.
+fn turn(id: u32) -> [f32; 4] {
+    let uniform = |n: u32| {
+        let hash = pcg(id.wrapping_add(pcg(n.wrapping_add(pcg(1)))));
+        (hash >> 8) as f32 / 16_777_216.0 - 0.5
+    };
+    Vec4::new(uniform(0), uniform(1), uniform(2), uniform(3)).normalize().to_array()
+}
+
+fn bubbles(max_blobs: u32) -> BubbleConfig {
+    BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(max_blobs) }
+}
+
+fn with(cloud: &Cloud, bubbles: BubbleConfig) -> Config {
+    let most = cloud.positions.len() as u32;
+    Config {
+        diffuse: Some(DiffuseConfig::new(most)),
+        bubbles: Some(bubbles),
+        cast: Some(32),
+        ..config(cloud.shot.size)
+    }
+}
+
+/// Pixels that differ by more than rounding moves them.
+fn off(a: &Drawn, b: &Drawn) -> usize {
+    let apart =
+        |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|c| (a[c] - b[c]).abs() > 0.01 * (1.0 + a[c]));
+    a.output.data.iter().zip(&b.output.data).filter(|pair| apart(*pair)).count()
+}
+
+/// Eye depths of particles by their place.
+type Depths = (&'static str, fn(usize) -> f32);
+
+/// Near ones are blobs, as the host's would be, far ones sprites, and in between both are less.
+#[test]
+fn foam_near_the_eye_is_blobs() {
+    let gpu = Gpu::shared();
+    let depths: [Depths; 2] = [
+        ("apart", |i| if i % 2 == 0 { 1.3 + 0.005 * i as f32 } else { 3.8 + 0.05 * i as f32 }),
+        ("between", |i| 2.1 + 0.02 * i as f32),
+    ];
+    for (name, depth) in depths {
+        let mut cloud = Cloud::new(40, depth);
+        // Others of them, near too, stay what they are.
+        for i in (0..40).step_by(10) {
+            cloud.kinds[i] = 1 + i as u32 / 10 % 2;
+        }
+        let over = BubbleConfig { hand_over: true, ..bubbles(64) };
+        let found = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, over), 1));
+        let soap = found.soap.as_ref().expect("bubble foam");
+        let mut other = cloud.clone();
+        other.shot.blobs = cloud.blobs();
+        let seen = soap.range[2] as usize;
+        assert!(seen > 10 && seen <= other.shot.blobs.len(), "{name}: {seen} blobs");
+        // Sprites that nothing is left of are too old.
+        for i in 0..40 {
+            if cloud.part(i) == 1.0 {
+                other.ages[i] = 1.0;
+            }
+        }
+        let expected = other.draw(&mut Rig::lit(&gpu, &with(&cloud, bubbles(64)), 1));
+        let theirs = expected.soap.as_ref().expect("bubble foam");
+        let mut edges = 0;
+        for (a, b) in soap.depth.data.iter().zip(&theirs.depth.data) {
+            let both = is_surface((*a).into()) && is_surface((*b).into());
+            edges += usize::from(if both { (a - b).abs() > 0.002 } else { a != b });
+        }
+        let all = soap.depth.data.iter().filter(|z| is_surface((**z).into())).count();
+        println!(
+            "{name}: {seen} blobs on {all} pixels, {edges} of other depth, {} off",
+            off(&found, &expected)
+        );
+        assert!(all > 300 && edges * 100 < all, "{name}: {edges} of {all} pixels have other blobs");
+        if name == "apart" {
+            assert!(off(&found, &expected) * 100 < all, "{name}");
+            let plain = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, bubbles(64)), 1));
+            assert!(off(&found, &plain) > all / 2, "{name}: sprites do not look so");
+        } else {
+            // Where both are, sprites are less than the whole.
+            let thick = |drawn: &Drawn| {
+                let diffuse = drawn.diffuse.as_ref().expect("foam");
+                diffuse.thickness.data.iter().map(|t| f64::from(t[0])).sum::<f64>()
+            };
+            let part = thick(&found) / thick(&expected);
+            assert!((0.2..0.8).contains(&part), "{part} of the sprites are left");
+        }
+    }
+}
+
+/// Where there is no room for all the nearest are blobs and the rest sprites, whatever their order.
+#[test]
+fn where_blobs_have_no_room_sprites_stay() {
+    let gpu = Gpu::shared();
+    let mut cloud = Cloud::new(120, |i| 1.2 + 0.014 * i as f32);
+    cloud.ages.fill(0.0);
+    let over = BubbleConfig { hand_over: true, ..bubbles(30) };
+    let mut rig = Rig::lit(&gpu, &with(&cloud, over), 1);
+    let one = cloud.draw(&mut rig);
+    let far = f64::from(cloud.shot.settings.bubbles.hand_over.far);
+    let mut rings: Vec<_> = (0..120).map(|i| (cloud.distance(i) / far * RINGS) as u32).collect();
+    rings.sort_unstable();
+    let ends = rings[30];
+    let expected = rings.iter().filter(|ring| **ring < ends).count() as u32;
+    let [_, _, seen, dropped, _] = one.soap.as_ref().expect("bubble foam").range;
+    // Where the far end is nearer, the last blobs are next to nothing, and those at it are none.
+    assert_eq!(dropped, 0);
+    assert!(seen <= expected && seen + 2 >= expected, "{seen} of {expected} blobs");
+    let mut other = cloud.clone();
+    for (to, from) in Random(1).order(120).into_iter().enumerate() {
+        other.positions[to] = cloud.positions[from];
+        other.ids[to] = cloud.ids[from];
+    }
+    let again = other.draw(&mut rig);
+    compare::same_color("near-order", &again.output, &one.output);
+    // Sprites beyond are whole: as where there are no blobs.
+    let plain = cloud.draw(&mut Rig::lit(&gpu, &with(&cloud, bubbles(30)), 1));
+    let alone = (0..one.output.data.len()).filter(|i| {
+        let thickness = |drawn: &Drawn| drawn.diffuse.as_ref().expect("foam").thickness.data[*i][0];
+        thickness(&plain) > 0.0 && (thickness(&one) - thickness(&plain)).abs() < 1.0e-3
+    });
+    assert!(alone.count() > 100);
+    // None at all.
+    cloud.ages.fill(1.0);
+    let none = cloud.draw(&mut rig);
+    assert_eq!(none.output.data, cloud.shot.color);
+}
+
+/// 36 bytes a blob, and some KiB.
+#[test]
+fn it_takes_the_memory_it_says() {
+    let gpu = Gpu::shared();
+    let cloud = Cloud::new(4, |_| 2.0);
+    let [with_it, without] = [true, false].map(|hand_over| {
+        let bubbles = BubbleConfig { hand_over, ..bubbles(1 << 18) };
+        let mut rig = Rig::with_slots(&gpu, &with(&cloud, bubbles), 1);
+        rig.renderer().memory().buffers
+    });
+    let more = with_it - without;
+    assert!((36 << 18..(36 << 18) + (16 << 10)).contains(&more), "{more} bytes");
+}
+
+#[test]
+fn bad_hand_overs_are_errors() {
+    let gpu = Gpu::shared();
+    let cloud = Cloud::new(4, |_| 2.0);
+    let over = BubbleConfig { hand_over: true, ..bubbles(8) };
+    let without = Config { diffuse: None, ..with(&cloud, over) };
+    assert!(matches!(
+        Rig::try_new(&gpu, &without, 1),
+        Err(Error::BadInput { field: "Config.bubbles.hand_over", .. })
+    ));
+    let mut rig = Rig::lit(&gpu, &with(&cloud, over), 1);
+    let (color, depth) = rig.scene(&cloud.shot);
+    let fluid = rig.particles(&cloud.shot);
+    let blobs = rig.blobs(&cloud.shot);
+    let frame = cloud.shot.frame(color.host_image(), depth.host_image(), fluid.particles());
+    let bad = Frame { bubbles: Some(blobs.streams()), ..frame };
+    let cmd = rig.stub.begin(0);
+    // SAFETY: nothing of a bad frame may be used.
+    let result = unsafe { rig.renderer().record(cmd, &bad) };
+    assert!(matches!(result, Err(Error::BadInput { field: "Frame.bubbles", .. })));
+    for (field, hand_over) in [
+        ("Settings.bubbles.hand_over.far", HandOver { near: 2.0, far: 2.0, size: 1.0 }),
+        ("Settings.bubbles.hand_over.near", HandOver { near: -1.0, far: 2.0, size: 1.0 }),
+        ("Settings.bubbles.hand_over.size", HandOver { near: 1.0, far: 2.0, size: f32::NAN }),
+    ] {
+        let mut settings = cloud.shot.settings.clone();
+        settings.bubbles = BubbleLook { hand_over, ..settings.bubbles };
+        // SAFETY: as above.
+        let result = unsafe { rig.renderer().record(cmd, &Frame { settings: &settings, ..frame }) };
+        assert!(matches!(result, Err(Error::BadInput { field: found, .. }) if found == field));
+    }
+    rig.stub.end(0);
+    rig.stub.wait(0);
+}
