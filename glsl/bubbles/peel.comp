@@ -13,9 +13,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const uint LAYERS = 3;
 
-// What of the light behind is too little to matter.
-const float HIDDEN = 1.0 / 256.0;
-
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3, std430) readonly buffer Blobs { Blob blobs[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Range { BlobRange range; };

@@ -91,25 +91,25 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
 
-// Beyond the bubble that is met first: the one whose wall with it the ray crosses first, NO_BUBBLE where it crosses
-// none within a way. Told by the planes that their spheres cut each other in, near which the walls lie. The source takes
-// what its search finds next, and can miss one.
-uint second_bubble(Look look, uint id, vec4 a, vec2 way) {
+// The first wall on a way through a bubble, `at` where it is crossed: whose it is beside that one's, NO_BUBBLE where there is
+// none. The source takes what its search finds next, and can miss one.
+uint second_bubble(Look look, uint id, vec4 a, vec2 way, out float at) {
     uint other = NO_BUBBLE;
-    float nearest = way.y;
-    float at_origin = dot(a.xyz, a.xyz) - a.w * a.w;
+    at = way.y;
     uvec4 words = neighbours_of(look.blob.template_, id);
     uint i = 0u;
     do {
-        uint at = words.x & 0xffu;
-        vec4 b = bubble_of(look.blob.template_, at);
-        vec3 apart = b.xyz - a.xyz;
-        float plane = 0.5 * (dot(b.xyz, b.xyz) - b.w * b.w - at_origin) - dot(apart, look.ray.origin);
-        float towards = dot(apart, look.ray.direction);
-        float t = towards > 0.0 ? plane / towards : -1.0;
-        bool nearer = t > way.x && t < nearest;
-        nearest = nearer ? t : nearest;
-        other = nearer ? at : other;
+        uint number = words.x & 0xffu;
+        vec4 b = bubble_of(look.blob.template_, number);
+        vec2 ends;
+        // It lies in both.
+        bool meets = ball_hits(look.ray.origin, look.ray.direction, b, ends) && ends.y > way.x && ends.x < at;
+        if (meets && number != id) {
+            float t = wall_hit(wall_between(a, b), a, b, look.ray.origin, look.ray.direction, way.x);
+            bool nearer = t > 0.0 && t < at;
+            at = nearer ? t : at;
+            other = nearer ? number : other;
+        }
         ++i;
         words = (i & 3u) == 0u ? words.yzwx : uvec4(words.x >> 8, words.yzw);
     } while (i < 16u);
@@ -117,7 +117,8 @@ uint second_bubble(Look look, uint id, vec4 a, vec2 way) {
 }
 
 // A blob, and what it leaves of what is behind it.
-vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body) {
+// `opacity`: of its core as the pass before knows it, and behind a wall.
+vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 opacity) {
     BlobRay ray = look.ray;
     vec2 way = ray.span;
     vec3 middle = vec3(0.0);
@@ -165,35 +166,30 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body) {
     vec3 light = film_light(look, normal, pixels, thick, open, core, back);
     through = 1.0 - back;
 
-    bool walled = BY_ID == 1u && bubbly.mirror.z > 0.5 && fine > 0.0;
-    vec4 a = vec4(middle, radius);
+    opacity.x = core_opacity(past);
+    float at = way.y;
     uint other = NO_BUBBLE;
-    while (walled) {
-        other = second_bubble(look, id, a, way);
-        walled = false;
+    if (BY_ID == 1u && bubbly.mirror.z > 0.5 && fine > 0.0) {
+        other = second_bubble(look, id, vec4(middle, radius), way, at);
     }
-    walled = other != NO_BUBBLE;
-    while (walled) {
+    if (other != NO_BUBBLE) {
         vec4 b = bubble_of(look.blob.template_, other);
-        Wall wall = wall_between(a, b);
-        float at = wall_hit(wall, a, b, ray.origin, ray.direction, way.x);
-        if (at > 0.0 && at < way.y) {
-            vec3 on = ray.origin + at * ray.direction;
-            float own = film_thickness(number ^ other, 2.5 * on / radius, 0.0);
-            vec3 kept;
-            vec3 more = film_light(look, wall_normal(wall, on), pixels, own, 0.4, core, kept);
-            light += fine * through * more;
-            through *= 1.0 - fine * kept;
-            // On into the other bubble.
-            vec2 ends;
-            ball_hits(ray.origin, ray.direction, b, ends);
-            way.y = max(way.y, ends.y);
-            past = ray.origin + way.y * ray.direction;
-            middle = b.xyz;
-        }
-        walled = false;
+        vec3 on = ray.origin + at * ray.direction;
+        float own = film_thickness(number ^ other, 2.5 * on / radius, 0.0);
+        vec3 kept;
+        vec3 across = wall_normal(wall_between(vec4(middle, radius), b), on);
+        vec3 more = film_light(look, across, pixels, own, 0.4, core, kept);
+        light += fine * through * more;
+        through *= 1.0 - fine * kept;
+        // On into the other bubble.
+        vec2 ends;
+        ball_hits(ray.origin, ray.direction, b, ends);
+        middle = ends.y > way.y ? b.xyz : middle;
+        way.y = max(way.y, ends.y);
+        past = ray.origin + way.y * ray.direction;
     }
     float solid = core_opacity(past);
+    opacity.y = solid;
     light += through * solid * core;
     through *= 1.0 - solid;
     // The film behind, from within.
@@ -228,6 +224,8 @@ void main() {
     vec3 body = vec3(0.0);
     vec3 water = vec3(1.0);
     vec3 sun = vec3(1.0);
+    vec2 opacities = vec2(0.0);
+    float behind = 1.0;
     uint i = 0u;
     bool more = layers[first] != NO_LAYER;
     while (more) {
@@ -251,17 +249,22 @@ void main() {
         water = water_before(depth, vec2(pixel), length_);
         vec3 through;
         vec3 own;
-        vec3 light = blob_light(look, id, through, own);
+        vec2 opacity;
+        vec3 light = blob_light(look, id, through, own, opacity);
+        opacities = max(opacities, opacity);
+        behind *= 1.0 - opacity.x;
         body = i == 0u ? own : mix(body, own, 0.5);
         color += left * water * light;
         left *= mix(vec3(1.0), through, water);
         ++i;
         // Behind what is opaque nothing is seen.
-        bool open = max(left.r, max(left.g, left.b)) > 1.0 / 256.0;
+        bool open = max(left.r, max(left.g, left.b)) > HIDDEN;
         more = open && i < LAYERS && layers[first + min(i, LAYERS - 1u)] != NO_LAYER;
     }
     float covered = 1.0 - dot(left, vec3(1.0 / 3.0));
-    // Holes between the layers are as opaque as anything there is (Sec. 5).
+    // Holes between the layers are as opaque as anything there is (Sec. 5): of the layers themselves as they turned out, and
+    // else what lies farther, where `peel` looks that far. By half precision, where it was blended.
+    most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most * dot(water, vec3(1.0 / 3.0)) - covered, 0.0) : 0.0;
     color += plug * water * body;
     imageStore(bubbles_image, pixel, vec4(min(color, 65000.0), min(covered + plug, 1.0)));

@@ -1,5 +1,8 @@
 // A blob on the ray of a pixel. Needs frame.glsl, bubbles.glsl, blob.glsl.
 
+// What of the light behind is too little to matter.
+const float HIDDEN = 1.0 / 256.0;
+
 // Number of a blob and of its bubble, for a later look; of none.
 const uint NO_LAYER = 0xffffffffu;
 

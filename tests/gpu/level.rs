@@ -10,7 +10,7 @@ use crate::shading::close;
 use crate::smooth::forms;
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::rig::{Drawn, Rig, Shot, coarsening, config, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::slow;
 use crate::support::tolerance;
@@ -343,7 +343,7 @@ fn small_images_go_coarser_too() {
                     max_iterations: 3,
                     smoothing: Some(smoothing),
                     sheets: 1 + level % 2,
-                    ..config(size)
+                    ..coarsening(config(size))
                 };
                 let mut rig = Rig::new(&gpu, &config);
                 let mut shot = Shot::new(size, Lens::Reversed, 1.0, &[[0.0, 0.0, 2.0]]);

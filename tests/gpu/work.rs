@@ -7,7 +7,7 @@ use super::invariants::packet_bytes;
 use crate::reference::Image;
 use crate::reference::cull::{CullParams, cull};
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::rig::{Rig, Shot, coarsening, config, extent};
 use crate::support::scenes::{self, LENSES, Lens};
 
 /// Edge of a tile of the smoothing, in its texels.
@@ -96,7 +96,7 @@ fn tiles_without_work_are_not_listed() {
     let gpu = Gpu::shared();
     // Six by four tiles, and what is left over.
     let size = extent(2 * 16 * 6 + 6, 2 * 16 * 4 + 10);
-    let mut rig = Rig::new(&gpu, &config(size));
+    let mut rig = Rig::new(&gpu, &coarsening(config(size)));
     // Drops near and far, so that tiles differ.
     let mut points = scenes::block(5, 0.3, [3, 3, 2], [-2.2, -1.4, 6.0]);
     points.extend(scenes::block(6, 0.3, [3, 3, 2], [1.0, 0.6, 3.0]));

@@ -150,7 +150,7 @@ impl Solid {
     }
 }
 
-/// What fixes the memory of a [`Heap`].
+/// What fixes the memory of a [`Heap`](super::Heap).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HeapConfig {
     /// Most blobs, 1 to 2^20.

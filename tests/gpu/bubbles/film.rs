@@ -49,7 +49,7 @@ fn no_more_comes_back_than_there_was() {
 /// What one value of the table may be off. Sums of terms of at most 1, each of some thirty roundings (the phase is up to
 /// ten turns, of which a rounding is 10 · 2π u); weights by exponentials, 3 + 2x ulp, of which x is at most 40 where a
 /// weight is more than rounding; and half precision, one step.
-fn bound(value: f64, sizes: f64) -> f64 {
+pub fn bound(value: f64, sizes: f64) -> f64 {
     let terms = 81.0 * U + U * (30.0 + 4.0 * 63.0) + U * (6.0 + 4.0 * 40.0);
     2.0 * sizes * terms + (value.abs() / 1024.0).max(1.0 / f64::from(1 << 24))
 }

@@ -7,4 +7,5 @@ mod heap;
 mod impostor;
 mod life;
 mod near;
+mod soap;
 mod wall;

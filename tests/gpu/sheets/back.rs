@@ -17,7 +17,7 @@ use crate::reference::{EMPTY, Image, View, depth, is_surface, smooth};
 use crate::smooth::forms;
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Drawn, Rig, Sheets, Shot, extent};
+use crate::support::rig::{Drawn, Rig, Sheets, Shot, coarsening, extent};
 use crate::support::scenes::{self, LENSES, Lens, Random};
 use crate::support::tolerance::{self, Sum, U};
 
@@ -367,8 +367,12 @@ fn coarser_back_sheets_are_the_twins() {
     shot.settings.water.smoothing_width = 1.0;
     let mut wanted_of = [0; 3];
     for cap in [4, 9, 30] {
-        let config =
-            Config { smoothing_level: 0, thickness_level: 0, max_iterations: cap, ..two(size) };
+        let config = Config {
+            smoothing_level: 0,
+            thickness_level: 0,
+            max_iterations: cap,
+            ..coarsening(two(size))
+        };
         let flat = Rig::new(&gpu, &config).draw(&unsmoothed(&shot));
         let mut rig = Rig::new(&gpu, &config);
         // The second frame starts from what the first one left.

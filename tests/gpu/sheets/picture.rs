@@ -16,7 +16,7 @@ use crate::reference::noise::{Look, Ripples};
 use crate::reference::{Image, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Drawn, Rig, Shot, extent};
+use crate::support::rig::{Drawn, Rig, Shot, coarsening, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::shaded::{Filter, Shaded, shaded_both};
 use crate::support::tolerance::U;
@@ -339,8 +339,12 @@ fn near_sheets_are_the_twins() {
     for (way, lens, thickness_level) in
         [(Shading::Raster, Lens::Standard, 0), (Shading::Compute, Lens::OffAxis, 3)]
     {
-        let config =
-            Config { smoothing_level: 0, thickness_level, composite: Some(way), ..two(size) };
+        let config = Config {
+            smoothing_level: 0,
+            thickness_level,
+            composite: Some(way),
+            ..coarsening(two(size))
+        };
         let mut rig = even(&gpu, config);
         for (torn, width) in [(true, 2.8), (true, 5.7), (false, 4.2), (false, 7.8), (false, 15.6)] {
             let shot = if torn { shot(size, lens) } else { slabs(size) };

@@ -3,4 +3,5 @@
 pub mod film;
 pub mod heap;
 pub mod impostor;
+pub mod soap;
 pub mod wall;

@@ -14,6 +14,7 @@ use whitewater::{
 
 use super::device::Gpu;
 use super::host::{self, COLOR, DEPTH, Data, HOST_WRITE, Stub, Texture};
+use super::slow;
 
 pub use bubbles::{Foamed, Soaped};
 pub use diffuse::{attenuation, twins};
@@ -29,7 +30,8 @@ pub fn extent(width: u32, height: u32) -> vk::Extent2D {
 }
 
 /// A configuration for tests: small environment, layers kept, sums whose order is no matter, and all
-/// water in one sheet, as most twins have it.
+/// water in one sheet, as most twins have it. Smoothing at one level but in the long tests: half of what a renderer takes
+/// to make is the composite of tiles with several, which few tests have.
 pub fn config(size: vk::Extent2D) -> Config {
     Config {
         environment_size: 16,
@@ -37,8 +39,14 @@ pub fn config(size: vk::Extent2D) -> Config {
         depth_splat: Some(Splat::Compute),
         thickness_splat: Some(Splat::Compute),
         sheets: 1,
+        coarsening: if slow() { Config::new(size, OUTPUT, 1).coarsening } else { 0 },
         ..Config::new(size, OUTPUT, 4096)
     }
+}
+
+/// The same, smoothed at several levels where water is near.
+pub fn coarsening(config: Config) -> Config {
+    Config { coarsening: Config::new(config.extent, OUTPUT, 1).coarsening, ..config }
 }
 
 /// A renderer and its host.

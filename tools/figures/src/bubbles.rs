@@ -2,9 +2,13 @@
 
 use std::path::Path;
 
+use plotters::prelude::SeriesLabelPosition;
+use whitewater::io::picture::EMPTY;
+
 use crate::Outcome;
+use crate::curves::{Function, functions};
 use crate::figures::pictures;
-use crate::panels::{depth, grid};
+use crate::panels::{channel, depth, grid};
 use crate::tool::Tool;
 
 /// A blob's upper half from near, with sky behind its films.
@@ -49,6 +53,56 @@ pub fn films(tool: &Tool, docs: &Path) -> Outcome<()> {
     };
     let panels: Result<Vec<_>, String> = looks.iter().map(panel).collect();
     grid(&panels?, 3, &pictures(docs, "bubble-films.png"))
+}
+
+/// What an impostor's map and steps are worth: of a blob's pixels those whose depth is off by more than a hundredth of its
+/// radius, beside the finest by bubble ids, which is that of all bubbles (a test).
+pub fn errors(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let depths = |look: &str| -> Outcome<Vec<f32>> {
+        let settings = tool.settings(&format!("[bubbles]\n{look}\n"))?;
+        Ok(channel(&tool.bubbles("one", 1, &settings)?.layers, "bubbles.Z")?.to_vec())
+    };
+    let exact = depths("map = 512\nsteps = 64")?;
+    let there = |z: f32| z < EMPTY;
+    let off = |look: &str| -> Outcome<f64> {
+        let (mut bad, mut all) = (0, 0);
+        for (a, b) in depths(look)?.iter().zip(&exact) {
+            let either = there(*a) || there(*b);
+            all += u32::from(either);
+            bad += u32::from(either && (there(*a) != there(*b) || (a - b).abs() > 0.01));
+        }
+        Ok(100.0 * f64::from(bad) / f64::from(all.max(1)))
+    };
+    let kinds = [
+        ("ids", "By bubble ids", [1, 2, 3, 4, 6, 8, 10, 13, 16]),
+        ("distance", "By distances", [8, 10, 12, 14, 16, 18, 20, 22, 24]),
+    ];
+    for (impostor, title, steps) in kinds {
+        let mut all = Vec::new();
+        for map in [32, 64, 128] {
+            let at = |n: &u32| -> Outcome<(f64, f64)> {
+                let look = format!("impostor = \"{impostor}\"\nmap = {map}\nsteps = {n}");
+                Ok((f64::from(*n), off(&look)?))
+            };
+            let line: Vec<_> = steps.iter().map(at).collect::<Outcome<_>>()?;
+            let last = line.last().map_or(0.0, |(_, y)| *y);
+            all.push(Function {
+                name: format!("{map}² texels, {last:.1} % at last"),
+                dots: line.clone(),
+                line,
+            });
+        }
+        let most = all.iter().flat_map(|f| &f.line).map(|(_, y)| *y).fold(1.0, f64::max);
+        let far = f64::from(steps[steps.len() - 1]);
+        functions(
+            (title, SeriesLabelPosition::UpperRight),
+            ["steps", "% of the pixels"],
+            [far, 1.1 * most],
+            &all,
+            &pictures(docs, &format!("bubble-error-{impostor}.svg")),
+        )?;
+    }
+    Ok(())
 }
 
 /// Both impostors, and without walls.

@@ -14,7 +14,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 25] = [
+pub const ALL: [(&str, Figure); 26] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -37,6 +37,7 @@ pub const ALL: [(&str, Figure); 25] = [
     ("bubble-one", bubbles::one),
     ("bubble-films", bubbles::films),
     ("bubble-impostors", bubbles::impostors),
+    ("bubble-error", bubbles::errors),
     ("bubble-foam", bubbles::dense),
     ("bubble-slope", bubbles::slope),
     ("bubble-box", bubbles::boxes),

@@ -1,0 +1,301 @@
+//! Pass `soap` against its twin, in an environment of one colour and in one that grows lighter to a side, without a sun.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::OnceLock;
+
+use glam::DVec3;
+use whitewater::Config;
+use whitewater::bubbles::{BubbleConfig, BubbleLook};
+use whitewater::headless::Bubble;
+
+use super::film::bound;
+use super::impostor::{NONE, blob, rays, templates};
+use crate::reference::Image;
+use crate::reference::bubbles::soap::{Look, Pixel, Placed, Table, Template, pixel};
+use crate::reference::classify::pcg;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, Soaped, config, extent};
+use crate::support::scenes::{Lens, Random};
+use crate::support::tolerance::U;
+
+/// Of the environment; halves hold it and its half.
+const RADIANCE: DVec3 = DVec3::new(1.0, 0.625, 1.75);
+
+/// How far a ray may be turned by rounding: the eye's and a blob's place are sums of some ten numbers, each as long as
+/// the way from one to the other or a few times that.
+const TURNED: f64 = 64.0 * U;
+
+/// Where turning a ray so little changes a colour by more, it shows another wall, or none.
+const JUMP: f64 = 1.0 / 128.0;
+
+/// One step of half precision.
+fn half_step(value: f64) -> f64 {
+    (value.abs() / 1024.0).max(1.0 / f64::from(1 << 24))
+}
+
+/// Nothing of noise or pattern, which the twin does not know.
+fn even(film: f32) -> BubbleLook {
+    BubbleLook {
+        film,
+        variation: 0.0,
+        drainage: 0.0,
+        albedo: [0.9, 0.8, 0.5],
+        pattern: 0.0,
+        ..BubbleLook::default()
+    }
+}
+
+fn twin(look: &BubbleLook, side: DVec3) -> Look {
+    Look {
+        film: f64::from(look.film),
+        drainage: f64::from(look.drainage),
+        core: look.core.map(f64::from),
+        albedo: DVec3::from(look.albedo.map(f64::from)),
+        roundness: f64::from(look.roundness),
+        reflection: f64::from(look.reflection),
+        walls: look.walls,
+        plug: look.plug,
+        radiance: RADIANCE,
+        side,
+    }
+}
+
+/// A renderer, and what the twin knows of it.
+struct Scene<'g> {
+    rig: Rig<'g>,
+    bubbles: BubbleConfig,
+    templates: Vec<Template>,
+    films: &'static Table,
+    /// Of the environment.
+    side: DVec3,
+}
+
+/// A pixel by the twin.
+#[derive(Clone)]
+struct Expected {
+    pixel: Pixel,
+    /// How far the picture may be off it.
+    off: [f64; 4],
+    /// How much it changes where the ray is turned as much as rounding may.
+    change: f64,
+}
+
+impl<'g> Scene<'g> {
+    /// In an environment that grows towards a side.
+    fn new(gpu: &'g Gpu, side: DVec3) -> Self {
+        let bubbles = BubbleConfig { templates: 3, bubbles: 28, ..BubbleConfig::new(64) };
+        let config = Config { bubbles: Some(bubbles), ..config(extent(112, 96)) };
+        let mut rig = Rig::with_slots(gpu, &config, 1);
+        let (width, height) = (64, 32);
+        let texel = |i: u32| {
+            let east = TAU * (f64::from(i % width) + 0.5) / f64::from(width) - PI;
+            let (above, up) = (PI * (f64::from(i / width) + 0.5) / f64::from(height)).sin_cos();
+            let direction = DVec3::new(east.sin() * above, up, -east.cos() * above);
+            (RADIANCE * (1.0 + side.dot(direction))).as_vec3().extend(1.0).to_array()
+        };
+        let texels: Vec<_> = (0..width * height).map(texel).collect();
+        rig.environment(extent(width, height), &texels);
+        let bits = gpu.limits().sub_texel_precision_bits;
+        let templates = templates(&bubbles).iter().map(|own| Template::new(own)).collect();
+        static FILMS: OnceLock<Table> = OnceLock::new();
+        let index = f64::from(bubbles.film.index);
+        let films = FILMS.get_or_init(|| Table::new((64, 256), index, bits, bound));
+        Self { rig, bubbles, templates, films, side }
+    }
+
+    /// Blobs whose bubbles are large enough to be seen, wholly before the camera.
+    fn shot(&self, lens: Lens, many: bool) -> Shot {
+        let mut shot = Shot::new(self.rig.config.extent, lens, 0.1, &[]);
+        let mut random = Random(11);
+        shot.blobs = match many {
+            false => vec![blob(&shot, [0.0, 0.0, 3.0], 1.4, 3, &mut random)],
+            true => heap(&shot, &mut random),
+        };
+        shot.settings.light.shade = shot.settings.light.irradiance;
+        shot.settings.light.color = [0.0; 3];
+        let view = shot.view(shot.size);
+        let least = self.templates.iter().map(Template::least).fold(f64::INFINITY, f64::min);
+        for blob in &shot.blobs {
+            let [x, y, z, r] = blob.ball.map(f64::from);
+            let depth = -view.view.transform_point3(DVec3::new(x, y, z)).z;
+            let pixels = r * least / ((depth + r) * view.c_x().max(view.c_y()));
+            assert!(depth - r > 0.2 && pixels > 3.0, "bubbles of {pixels} pixels at {depth}");
+        }
+        shot
+    }
+
+    /// What the pixels show by the twin. The layers are the frame's: which they are is the impostors' test.
+    fn expected(&self, shot: &Shot, found: &Soaped) -> Image<Expected> {
+        let look = twin(&shot.settings.bubbles, self.side);
+        let own = |id: u32| &self.templates[(pcg(id) % self.bubbles.templates) as usize];
+        let placed = |b: &Bubble| Placed { ball: b.ball, turn: b.turn, template: own(b.id) };
+        let blobs: Vec<_> = shot.blobs.iter().map(placed).collect();
+        let (eye, rays) = rays(shot);
+        let (films, layers) = (self.films, self.bubbles.layers as usize);
+        Image::from_fn(rays.width, rays.height, |x, y| {
+            let words = &found.layers[y * rays.width + x];
+            let (met, most) = words.split_at(layers);
+            let met: Vec<_> = met
+                .iter()
+                .take_while(|word| **word != NONE)
+                .map(|word| ((word >> 8) as usize, (word & 0xff) as usize))
+                .collect();
+            let most = f64::from(f32::from_bits(most[0]));
+            let shown =
+                |look: &Look, along: DVec3| pixel(look, films, &blobs, (eye, along), &met, most);
+            let along = rays.at(x, y).normalize();
+            let pixel = shown(&look, along);
+            let aside = along.any_orthonormal_vector();
+            let below = along.cross(aside);
+            let turned = [aside, -aside, below, -below].map(|by| shown(&look, along + TURNED * by));
+            let change = [0, 1, 2, 3].map(|c| {
+                let off = turned.iter().map(|other| (other.color[c] - pixel.color[c]).abs());
+                off.fold(0.0, f64::max)
+            });
+            // The environment, what is gathered of it, and the picture are of half precision. Sums and products are some
+            // tens a film.
+            let off = [0, 1, 2, 3].map(|c| {
+                let value = pixel.color[c];
+                let halves = if c < 3 { 3.0 } else { 1.0 };
+                pixel.off[c]
+                    + 2.0 * change[c]
+                    + halves * half_step(value)
+                    + 200.0 * U * (1.0 + value)
+            });
+            let change = change.into_iter().fold(0.0, f64::max);
+            Expected { pixel, off, change }
+        })
+    }
+}
+
+/// Blobs that lie over and in each other.
+fn heap(shot: &Shot, random: &mut Random) -> Vec<Bubble> {
+    (0..16)
+        .map(|id| {
+            let at =
+                [random.between(-1.2, 1.2), random.between(-1.2, 1.2), random.between(2.6, 4.4)];
+            let radius = random.between(0.65, 0.9);
+            blob(shot, at, radius, 5 * id + 2, random)
+        })
+        .collect()
+}
+
+/// Errors of a picture.
+#[derive(Default)]
+struct Errors {
+    sum: f64,
+    worst: f64,
+    /// Of what it may be off.
+    part: f64,
+    /// Pixels that are off by more.
+    beyond: u32,
+}
+
+impl Errors {
+    fn add(&mut self, found: [f32; 4], expected: [f64; 4], off: [f64; 4]) {
+        let mut most = 0.0_f64;
+        for c in 0..4 {
+            let error = (f64::from(found[c]) - expected[c]).abs();
+            self.sum += error / 4.0;
+            self.worst = self.worst.max(error);
+            most = most.max(error / off[c]);
+        }
+        self.part = self.part.max(most);
+        self.beyond += u32::from(most > 1.0);
+    }
+}
+
+/// How often something is to be seen, at least: two blobs, three, a wall, a plug.
+type Seen = [u32; 4];
+
+#[test]
+fn films_walls_cores_and_plugs_are_the_twins() {
+    let gpu = Gpu::shared();
+    let mut scene = Scene::new(&gpu, DVec3::ZERO);
+    let drained = BubbleLook { drainage: 0.35, ..even(380.0) };
+    let thin = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
+    let cases: [(_, _, _, Seen); 9] = [
+        ("one", false, drained, [0, 0, 3000, 0]),
+        ("one-thick", false, BubbleLook { film: 900.0, ..thin }, [0, 0, 3000, 0]),
+        ("one-no-walls", false, BubbleLook { walls: false, ..thin }, [0; 4]),
+        ("one-dull", false, BubbleLook { reflection: 0.0, ..thin }, [0, 0, 3000, 0]),
+        ("heap", true, drained, [1000, 400, 5000, 20]),
+        ("heap-thin", true, BubbleLook { drainage: 0.35, ..thin }, [3000, 2000, 5000, 20]),
+        ("heap-open", true, BubbleLook { film: 900.0, plug: false, ..thin }, [3000, 2000, 5000, 0]),
+        ("heap-no-walls", true, BubbleLook { walls: false, ..thin }, [3000, 2000, 0, 0]),
+        ("heap-bright", true, BubbleLook { reflection: 2.5, ..thin }, [3000, 2000, 5000, 10]),
+    ];
+    let shots = [Lens::Standard, Lens::LeftHanded];
+    let mut shots = shots.map(|lens| [false, true].map(|many| scene.shot(lens, many)));
+    let (mut all, mut jumps) = (0, 0);
+    for (i, (name, many, look, least)) in cases.into_iter().enumerate() {
+        let shot = &mut shots[i % 2][usize::from(many)];
+        shot.settings.bubbles = look;
+        let found = scene.rig.draw(shot).soap.expect("bubble foam");
+        let expected = scene.expected(shot, &found);
+        let mut own = Errors::default();
+        let (mut covered, mut seen) = (0, Seen::default());
+        for (color, Expected { pixel, off, change }) in found.color.data.iter().zip(&expected.data)
+        {
+            if pixel.layers == 0 {
+                assert_eq!(*color, [0.0; 4], "{name}: nothing is there");
+                continue;
+            }
+            covered += 1;
+            jumps += u32::from(*change > JUMP);
+            let shows =
+                [pixel.layers > 1, pixel.layers > 2, pixel.walls > 0, pixel.plugged > 1.0 / 64.0];
+            for (seen, shows) in seen.iter_mut().zip(shows) {
+                *seen += u32::from(shows);
+            }
+            own.add(*color, pixel.color, *off);
+        }
+        all += covered;
+        let [two, three, walls, plugs] = seen;
+        println!(
+            "{name}: mean error {:.1e}, worst {:.1e}, {:.2} of the bound; of {covered} pixels {two} show two blobs, {three} three, {walls} a wall, {plugs} a plug",
+            own.sum / f64::from(covered),
+            own.worst,
+            own.part
+        );
+        let enough = seen.iter().zip(&least).all(|(seen, least)| seen >= least);
+        assert!(enough, "{name}: {seen:?} of {least:?}");
+        let colors = expected.map(|e| e.pixel.color);
+        let off = |x: usize, y: usize| expected.data[y * expected.width + x].off;
+        compare::close_color(&format!("soap-{name}"), &found.color, &colors, off);
+    }
+    println!("{jumps} of {all} pixels may show another wall by rounding");
+    assert!(500 * jumps < all, "{jumps} of {all} pixels may show another wall by rounding");
+}
+
+/// The environment's texels are wide, and so is the cone that a pixel sees by a small bubble: only the mean is told.
+#[test]
+fn films_and_cores_show_where_the_light_comes_from() {
+    let gpu = Gpu::shared();
+    let mut scene = Scene::new(&gpu, DVec3::new(0.3, 0.4, -0.5));
+    let films = BubbleLook { albedo: [0.0; 3], core: [0.1, 0.5], ..even(380.0) };
+    let cores = BubbleLook { reflection: 0.0, roundness: 0.7, ..even(380.0) };
+    for (name, lens, many, look, part) in [
+        ("films", Lens::Standard, false, films, 64.0),
+        ("cores", Lens::LeftHanded, false, cores, 400.0),
+        ("heap-films", Lens::LeftHanded, true, films, 64.0),
+        ("heap-cores", Lens::Standard, true, cores, 400.0),
+    ] {
+        let mut shot = scene.shot(lens, many);
+        shot.settings.bubbles = look;
+        let found = scene.rig.draw(&shot).soap.expect("bubble foam");
+        let expected = scene.expected(&shot, &found);
+        let (mut errors, mut covered, mut light) = (Errors::default(), 0, 0.0);
+        for (color, Expected { pixel, off, .. }) in found.color.data.iter().zip(&expected.data) {
+            if pixel.layers > 0 {
+                covered += 1;
+                light += pixel.color.iter().sum::<f64>() / 4.0;
+                errors.add(*color, pixel.color, *off);
+            }
+        }
+        let [mean, light] = [errors.sum, light].map(|sum| sum / f64::from(covered));
+        println!("{name}: mean error {mean:.1e} of {light:.2}, worst {:.1e}", errors.worst);
+        assert!(covered > 4000 && mean < light / part, "{name}: {mean} of {light}");
+    }
+}
