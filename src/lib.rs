@@ -120,6 +120,7 @@
 //! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 88 w h | 77.3 MiB | 174.0 MiB |
 //! | bubble foam: depth, colour, three layers and lists (`bubbles`) | 30½ w h | 26.8 MiB | 60.3 MiB |
 //! | the same, blobs (`bubbles`) | 64 a blob | 0.3 MiB for 5000 | |
+//! | those that diffuse foam becomes (`bubbles.hand_over`) | 36 a blob | 2.3 MiB for 65 536 | |
 //! | the same as the sun sees them (`cast` = N with `bubbles`) | N² | 1 MiB for 1024 | |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | the same of diffuse particles (`cast` with `diffuse`) | 24 N² | 24 MiB for 1024 | |
@@ -200,6 +201,9 @@
 //!   print of their construction lost its roots and squares.
 //! - What the search along a ray finds is looked up among the bubbles beside it: edges are where they are, not where
 //!   the map's texels are, and no wall is missed.
+//! - The wall in a bubble is the one that the ray crosses first, of all sixteen neighbours; the source's is that of the
+//!   next bubble its search finds.
+//! - Diffuse foam near the eye, which Akinci et al. give up, becomes blobs ([`bubbles::HandOver`]).
 //! - A pixel goes through the blobs of its tile once and ends where nothing behind can be seen; drawn once a layer, the
 //!   source's way, they are there as [`bubbles::BubbleSort::Peel`].
 //!
