@@ -581,7 +581,8 @@ pub struct Frame<'a> {
     pub particles: Particles,
     /// Diffuse particles, with [`Config::diffuse`]; `None`: there are none.
     pub diffuse: Option<DiffuseParticles>,
-    /// Blobs of bubble foam, with [`Config::bubbles`]; `None`: there are none.
+    /// Blobs of bubble foam, with [`Config::bubbles`]; `None`: there are none but those that diffuse foam becomes
+    /// ([`BubbleConfig::hand_over`]), with which it has to be `None`.
     pub bubbles: Option<Blobs>,
     /// The view.
     pub camera: Camera,

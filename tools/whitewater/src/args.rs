@@ -92,8 +92,9 @@ pub struct RenderArgs {
     /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
     /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
     /// given several times; 'generate': made of the water's particles, by where it traps air, breaks and is fast
-    /// (table [generate] of --settings). The water's own foam and spray are drawn beside them only where --foam and --spray
-    /// ask for it
+    /// (table [generate] of --settings). Foam near the eye becomes blobs of soap bubbles where table [bubbles] has
+    /// hand_over = [NEAR, FAR], all of it up to NEAR metres. The water's own foam and spray are drawn beside them only where
+    /// --foam and --spray ask for it
     #[arg(long, value_name = "generate|[KIND=]FILES", value_parser = crate::diffuse::named)]
     pub whitewater: Vec<Whitewater>,
     /// Where the diffuse particles that are made go, a file a frame: .bgeo, .bgeo.gz, .vtu, .ply or .npz. They are

@@ -251,7 +251,8 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
                 radius + apart * y as f32,
                 apart * (z as f32 - 0.5 * (across - 1) as f32),
             );
-            let size = radius * (0.8 + 0.4 * jitter.next());
+            // Many small ones and few large: of one size they would be balls to the eye.
+            let size = radius * (0.6 + 0.7 * jitter.next().powi(2));
             blob(Vec3::new(1.0, 0.0, 0.0) + turn * (place + Vec3::from(off)), size, i)
         })
         .collect();
