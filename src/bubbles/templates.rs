@@ -186,6 +186,12 @@ impl Templates {
         dispatch(&self.film, [FILM.width, FILM.height, 1]);
         let edges = Self::edges(&self.config);
         for (i, (pipeline, size)) in self.impostors.iter().zip(edges).enumerate() {
+            if i > 0 {
+                // Each writes one of the two and is bound to both.
+                let maps = access::image(&self.distances, COMPUTE_WRITE, COMPUTE_WRITE);
+                let ids = buffer(self.ids.handle, COMPUTE_WRITE, COMPUTE_WRITE);
+                gpu.barriers(cmd, &[maps], &[ids]);
+            }
             begin(pipeline, 1 + i);
             pipeline.push(gpu, cmd, &ImpostorPush { count: self.config.bubbles, size });
             dispatch(pipeline, [size, size, 6 * self.config.templates]);

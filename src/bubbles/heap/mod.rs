@@ -380,8 +380,10 @@ impl Heap {
         };
         for part in 0..if self.count == 0 { 0 } else { step.settings.substeps } {
             let before = moved(if part == 0 { AFTER } else { both }, both);
-            let clear = [buffer(b.buckets.handle, both, CLEAR)];
-            gpu.barriers(cmd, &[], &[&before[..], &clear].concat());
+            // The first go is bound to the order too.
+            let others =
+                [buffer(b.buckets.handle, both, CLEAR), buffer(b.order.handle, both, both)];
+            gpu.barriers(cmd, &[], &[&before[..], &others].concat());
             // SAFETY: cmd is recording outside a render pass; the part before is done (barrier).
             unsafe { gpu.device.cmd_fill_buffer(cmd, b.buckets.handle, 0, vk::WHOLE_SIZE, 0) };
             gpu.barriers(cmd, &[], &[buffer(b.buckets.handle, CLEAR, both)]);
