@@ -75,7 +75,9 @@ BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
     float step = (span.y - span.x) / float(STEPS);
     uint last = NO_BUBBLE;
     uint i = 0u;
-    do {
+    // Asked at the top: one driver takes what a loop that asks at its end leaves behind from the last lane's turn.
+    bool more = true;
+    while (more) {
         float t = span.x + (float(i) + 0.5) * step;
         uint id = bubble_at(template_, origin + t * direction);
         vec2 hits;
@@ -85,7 +87,8 @@ BlobHit blob_by_ids(uint template_, vec3 origin, vec3 direction, vec2 span) {
         }
         last = id;
         ++i;
-    } while (i < STEPS && (hit.t < 0.0 || span.x + float(i) * step < hit.t));
+        more = i < STEPS && (hit.t < 0.0 || span.x + float(i) * step < hit.t);
+    }
     return hit;
 }
 
