@@ -98,6 +98,8 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
+    /// For explicit levels: without the last, whose seams SwiftShader never writes but filters over.
+    pub levels: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,
     /// What a surface gathers of it, over 2π: RGBA16F, octahedral with a border of a texel.
@@ -127,6 +129,10 @@ impl Environment {
         let array = vk::ImageViewType::TYPE_2D_ARRAY;
         let faces = gpu.view(cube.handle, cube.format, array, 6, 1, "environment/faces")?;
         let faces = gpu.own(faces, Grave::View);
+        let of_cube = vk::ImageViewType::CUBE;
+        let levels =
+            gpu.view(cube.handle, cube.format, of_cube, 6, mips - 1, "environment/levels")?;
+        let levels = gpu.own(levels, Grave::View);
         let irradiance = Image::new(
             gpu,
             &ImageDesc::new(
@@ -143,6 +149,7 @@ impl Environment {
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
             cube,
             faces,
+            levels,
             mips,
             gather: Pipeline::compute(gpu, shader::ENVIRONMENT_IRRADIANCE_COMP, &[])?,
             irradiance,

@@ -89,7 +89,7 @@ impl Soap {
             (4, Resource::buffer(peel.layers())),
             (5, linear(&templates.table)),
             (6, linear(&templates.picture)),
-            (7, linear(&environment.cube)),
+            (7, Resource::Sampled(environment.levels.handle, gpu.samplers.linear)),
             (11, linear(&environment.irradiance)),
             (12, Resource::storage(&self.image)),
             shadow,
