@@ -152,9 +152,12 @@ impl Near {
             ],
         );
         self.record_go(r, 0, particles)?;
-        // Last read by the sprites of the frame before; the first go is bound to it too.
-        let over = buffer(self.over.handle, OVER_READ, COMPUTE_WRITE);
-        gpu.barriers(cmd, &[], &[buffer(self.numbers.handle, both, COMPUTE_READ), over]);
+        // The first go is bound to all that the second writes and reads; `over` was last read by the sprites of the frame
+        // before.
+        let mut between = made.map(|own| buffer(own, COMPUTE_WRITE, COMPUTE_WRITE)).to_vec();
+        between.push(buffer(self.over.handle, OVER_READ, COMPUTE_WRITE));
+        between.push(buffer(self.numbers.handle, both, COMPUTE_READ));
+        gpu.barriers(cmd, &[], &between);
         let own = [(0, r.uniforms), (6, Resource::buffer(&self.numbers)), (11, self.over())];
         r.descriptors.bind(gpu, cmd, &self.range, &own)?;
         self.range.push(gpu, cmd, &self.room);
