@@ -37,30 +37,43 @@ const RANGE: u64 = 20;
 /// Word of the range that has the number of places taken.
 const TAKEN: u32 = 4;
 
+/// Where the host's streams begin, and their strides: 0 of one that is not there.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct Push {
+pub struct Places {
     ball_word: u32,
     ball_stride: u32,
     turn_word: u32,
     turn_stride: u32,
     id_word: u32,
     id_stride: u32,
+}
+macro_rules! assert_places {
+    ($($shader:ident),+) => {
+        $(shader::assert_layout!(
+            shader::$shader,
+            "Push",
+            Places { ball_word, ball_stride, turn_word, turn_stride, id_word, id_stride }
+        );)+
+    };
+}
+assert_places!(BUBBLES_BLOBS_COMP, BUBBLES_HEAP_SET_COMP);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    places: Places,
     most: u32,
     from_gpu: u32,
 }
-shader::assert_layout!(
-    shader::BUBBLES_BLOBS_COMP,
-    "Push",
-    Push { ball_word, ball_stride, turn_word, turn_stride, id_word, id_stride, most, from_gpu }
-);
+shader::assert_layout!(shader::BUBBLES_BLOBS_COMP, "Push", Push { most, from_gpu });
 
 /// Tiles of an extent.
 pub fn tiles(extent: vk::Extent2D) -> [u32; 2] {
     [extent.width.div_ceil(TILE), extent.height.div_ceil(TILE)]
 }
 
-/// Places of the list of an extent; as many bytes are bound at once as four times that.
+/// Places of the list of an extent, 4 bytes each.
 pub fn room(extent: vk::Extent2D, config: &BubbleConfig) -> u32 {
     let [x, y] = tiles(extent);
     PLACES * x * y + 4 * config.max_blobs
@@ -75,6 +88,25 @@ fn streams(blobs: &Blobs) -> impl Iterator<Item = (&Stream, u64)> {
 /// The host's buffers, each once.
 pub fn buffers_of(blobs: &Blobs) -> Vec<vk::Buffer> {
     each_once(streams(blobs), blobs.count, None)
+}
+
+/// Balls, turns and ids, and where they begin; none where one ends before the first blob.
+pub fn windows(gpu: &Gpu, blobs: &Blobs) -> Option<([Resource; 3], Places)> {
+    let balls = Window::new(gpu, &blobs.balls, 0)?;
+    let other = |stream: &Option<Stream>| match stream {
+        Some(stream) => Window::new(gpu, stream, 0),
+        None => Some(Window { stride: 0, ..balls }),
+    };
+    let (turns, ids) = (other(&blobs.turns)?, other(&blobs.ids)?);
+    let places = Places {
+        ball_word: balls.word,
+        ball_stride: balls.stride,
+        turn_word: turns.word,
+        turn_stride: turns.stride,
+        id_word: ids.word,
+        id_stride: ids.stride,
+    };
+    Some(([balls, turns, ids].map(|own| own.resource), places))
 }
 
 /// What depends on the frame's size.
@@ -231,28 +263,14 @@ impl Lists {
 
     /// The host's streams, and what is pushed; none where one ends before the first blob.
     fn bound(&self, gpu: &Gpu, blobs: &Blobs) -> Option<([(u32, Resource); 3], Push)> {
-        let balls = Window::new(gpu, &blobs.balls, 0)?;
-        let other = |stream: &Option<Stream>| match stream {
-            Some(stream) => Window::new(gpu, stream, 0),
-            None => Some(Window { stride: 0, ..balls }),
-        };
-        let (turns, ids) = (other(&blobs.turns)?, other(&blobs.ids)?);
+        let (bound, places) = windows(gpu, blobs)?;
         let room = streams(blobs).map(capacity).fold(self.config.max_blobs, u32::min);
         let (most, from_gpu) = match blobs.count {
             Count::Cpu(count) => (count.min(room), 0),
             Count::Gpu { .. } => (room, 1),
         };
-        let push = Push {
-            ball_word: balls.word,
-            ball_stride: balls.stride,
-            turn_word: turns.word,
-            turn_stride: turns.stride,
-            id_word: ids.word,
-            id_stride: ids.stride,
-            most,
-            from_gpu,
-        };
-        Some(([(2, balls.resource), (3, turns.resource), (4, ids.resource)], push))
+        let [balls, turns, ids] = bound;
+        Some(([(2, balls), (3, turns), (4, ids)], Push { places, most, from_gpu }))
     }
 
     pub fn memory(&self) -> u64 {

@@ -226,11 +226,11 @@ impl Water {
         let Beside { light, diffuse, bubbles } = *beside;
         let mut diffuse = diffuse.map(|(foam, particles)| (foam, particles.copied()));
         if let Some((bubbles, blobs)) = bubbles {
-            if let Some((_, particles)) = &mut diffuse
-                && bubbles.record_near(r, particles.as_ref())?
-                && let Some(particles) = particles
-            {
-                particles.before = COMPUTE_READ;
+            if let Some((_, particles)) = &mut diffuse {
+                let taken_over = bubbles.record_near(r, particles.as_ref())?;
+                if let (Some(particles), true) = (particles, taken_over) {
+                    particles.before = COMPUTE_READ;
+                }
             }
             bubbles.record_lists(r, blobs)?;
         }

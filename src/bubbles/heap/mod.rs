@@ -14,7 +14,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::lists::buffers_of;
+use super::lists::{Places, buffers_of, windows};
 use crate::check;
 use crate::contract::{Blobs, Count, Host, Slot, Stream};
 use crate::error::Error;
@@ -60,12 +60,7 @@ shader::assert_layout!(
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
 struct SetPush {
-    ball_word: u32,
-    ball_stride: u32,
-    turn_word: u32,
-    turn_stride: u32,
-    id_word: u32,
-    id_stride: u32,
+    places: Places,
     drift_word: u32,
     drift_stride: u32,
     blobs: u32,
@@ -73,17 +68,7 @@ struct SetPush {
 shader::assert_layout!(
     shader::BUBBLES_HEAP_SET_COMP,
     "Push",
-    SetPush {
-        ball_word,
-        ball_stride,
-        turn_word,
-        turn_stride,
-        id_word,
-        id_stride,
-        drift_word,
-        drift_stride,
-        blobs
-    }
+    SetPush { drift_word, drift_stride, blobs }
 );
 
 struct Pipelines {
@@ -105,6 +90,14 @@ struct Buffers {
     heaped: Buffer,
     counts: Buffer,
     field: Buffer,
+}
+
+impl Buffers {
+    /// What there is of each blob, as every shader binds it.
+    fn blobs(&self) -> [(u32, Resource); 5] {
+        let own = [&self.balls, &self.turns, &self.ids, &self.drifts, &self.spins];
+        std::array::from_fn(|i| (i as u32, Resource::buffer(own[i])))
+    }
 }
 
 struct HeapSlot {
@@ -276,15 +269,11 @@ impl Heap {
         let gpu = &*self.gpu;
         let own = &mut self.slots[slot.0 as usize];
         own.setting.reset(gpu)?;
-        let balls = Window::new(gpu, &blobs.balls, 0)
-            .ok_or_else(|| Error::bad("Blobs.balls", "ends before the first"))?;
-        let other = |stream: Option<&Stream>| {
-            stream
-                .and_then(|stream| Window::new(gpu, stream, 0))
-                .unwrap_or(Window { stride: 0, ..balls })
-        };
-        let (turns, ids) = (other(blobs.turns.as_ref()), other(blobs.ids.as_ref()));
-        let drifts = other(velocities);
+        let ended = || Error::bad("Blobs.balls", "ends before the first");
+        let ([balls, turns, ids], places) = windows(gpu, blobs).ok_or_else(ended)?;
+        let drifts = velocities.and_then(|stream| Window::new(gpu, stream, 0));
+        // Not read.
+        let drifts = drifts.unwrap_or(Window { resource: balls, word: 0, stride: 0 });
         let b = &self.buffers;
         let written = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins];
         let mut hosts = buffers_of(blobs);
@@ -292,29 +281,11 @@ impl Heap {
         let before = written.map(|b| buffer(b.handle, AFTER, COMPUTE_WRITE)).into_iter();
         let taken = hosts.iter().map(|handle| buffer(*handle, blobs.before, COMPUTE_READ));
         gpu.barriers(cmd, &[], &before.chain(taken).collect::<Vec<_>>());
-        let resources = [
-            (0, Resource::buffer(&b.balls)),
-            (1, Resource::buffer(&b.turns)),
-            (2, Resource::buffer(&b.ids)),
-            (3, Resource::buffer(&b.drifts)),
-            (4, Resource::buffer(&b.spins)),
-            (5, balls.resource),
-            (6, turns.resource),
-            (7, ids.resource),
-            (8, drifts.resource),
-        ];
+        let hosts_own = [(5, balls), (6, turns), (7, ids), (8, drifts.resource)];
+        let resources = [&b.blobs()[..], &hosts_own].concat();
         own.setting.bind(gpu, cmd, &self.pipelines.set, &resources)?;
-        let push = SetPush {
-            ball_word: balls.word,
-            ball_stride: balls.stride,
-            turn_word: turns.word,
-            turn_stride: turns.stride,
-            id_word: ids.word,
-            id_stride: ids.stride,
-            drift_word: drifts.word,
-            drift_stride: drifts.stride,
-            blobs: count,
-        };
+        let push =
+            SetPush { places, drift_word: drifts.word, drift_stride: drifts.stride, blobs: count };
         self.pipelines.set.push(gpu, cmd, &push);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, count.div_ceil(64), 1, 1) };
@@ -348,18 +319,14 @@ impl Heap {
         let solids: Vec<GpuSolid> = step.solids.iter().map(|solid| solid.on_gpu()).collect();
         let bytes: &[u8] = bytemuck::cast_slice(&solids);
         slot.solids.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
-        let resources = [
-            (0, Resource::buffer(&b.balls)),
-            (1, Resource::buffer(&b.turns)),
-            (2, Resource::buffer(&b.ids)),
-            (3, Resource::buffer(&b.drifts)),
-            (4, Resource::buffer(&b.spins)),
+        let grid = [
             (5, Resource::buffer(&b.buckets)),
             (6, Resource::buffer(&b.order)),
             (7, Resource::buffer(&b.heaped)),
             (8, Resource::buffer(&slot.solids)),
             (9, Resource::buffer(&b.field)),
         ];
+        let resources = [&b.blobs()[..], &grid].concat();
         let p = &self.pipelines;
         let set = |pipeline| slot.descriptors.set(gpu, pipeline, &resources);
         let sets = [set(&p.place[0])?, set(&p.place[1])?, set(&p.order)?, set(&p.run)?];

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use image::{Rgb, RgbImage};
 use plotters::prelude::SeriesLabelPosition;
+use whitewater::io::picture::srgb_encode;
 
 use crate::Outcome;
 use crate::curves::{Function, functions};
@@ -35,7 +36,7 @@ pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {
         let mut cast = bare;
         for (pixel, part) in cast.pixels_mut().zip(&covered) {
             let over = |c: usize| part * shine[c] + (1.0 - part) * linear(pixel[c]);
-            *pixel = Rgb([0, 1, 2].map(|c| shown(over(c))));
+            *pixel = Rgb([0, 1, 2].map(|c| (255.0 * srgb_encode(over(c))).round() as u8));
         }
         ours.push(picture);
         theirs.push(cast);
@@ -48,13 +49,6 @@ fn mean_of_dense(picture: &RgbImage, intensity: &[f32]) -> [f32; 3] {
     let dense = || picture.pixels().zip(intensity).filter(|(_, part)| **part > 0.9);
     let count = dense().count().max(1) as f32;
     [0, 1, 2].map(|c| dense().map(|(pixel, _)| linear(pixel[c])).sum::<f32>() / count)
-}
-
-/// The byte of a linear value (IEC 61966-2-1).
-fn shown(v: f32) -> u8 {
-    let v = v.clamp(0.0, 1.0);
-    let curved = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
-    (255.0 * curved).round() as u8
 }
 
 /// Figure 3: what each pass leaves.

@@ -250,10 +250,9 @@ fn run(program: &Path, arguments: &[String]) -> Outcome<()> {
     Err(format!("{} {} ended with {status}", program.display(), arguments.join(" ")))
 }
 
-/// What a screen shows of a byte (IEC 61966-2-1).
+/// What a screen shows of a byte.
 pub fn linear(byte: u8) -> f32 {
-    let v = f32::from(byte) / 255.0;
-    if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+    picture::srgb_decode(f32::from(byte) / 255.0)
 }
 
 /// Of two runs over the same frames the quicker of each frame's passes.

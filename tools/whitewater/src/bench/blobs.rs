@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::bubbles::{BubbleConfig, BubbleSort, HeapSettings, Impostor, Solid};
 use whitewater::headless::scene::Scene;
-use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
+use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::{Camera, Config, Settings};
 
 use super::heap::CpuHeap;
@@ -102,19 +102,6 @@ fn sample(
     };
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
-    let drawn = Drawn {
-        extent,
-        config,
-        particles: 0,
-        counts: Counts::default(),
-        foaming: 0,
-        covered: 0,
-        diffuse: 0,
-        goes: 0,
-        foam: 0,
-        iterations: 0,
-        most_iterations: 0,
-    };
     let count = blobs.blobs.len() as u32;
     let template = Row {
         width: extent.width,
@@ -138,7 +125,7 @@ fn sample(
         ..Row::of(headless)
     };
     let calibration = times.calibration;
-    let mut rows = times.rows(&template, &drawn);
+    let mut rows = times.rows(&template, &Drawn::nothing(config));
     // What has nothing to run against falls on the ground.
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
     let (settings, solids) = blobs.motion.unwrap_or_else(|| (HeapSettings::default(), vec![floor]));

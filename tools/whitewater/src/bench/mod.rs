@@ -217,6 +217,25 @@ pub struct Drawn {
     pub most_iterations: u32,
 }
 
+impl Drawn {
+    /// Nothing yet, in a frame of a configuration's extent.
+    fn nothing(config: Config) -> Self {
+        Self {
+            extent: config.extent,
+            config,
+            particles: 0,
+            counts: Counts::default(),
+            foaming: 0,
+            covered: 0,
+            diffuse: 0,
+            goes: 0,
+            foam: 0,
+            iterations: 0,
+            most_iterations: 0,
+        }
+    }
+}
+
 /// Runs everything asked for and prints it: what was measured, also where it ends early.
 pub fn run(args: &BenchArgs) -> Outcome<()> {
     let paths: Vec<Path> = if args.path.contains(&Path::All) {
@@ -488,17 +507,12 @@ fn drawn(headless: &mut Headless, config: Config, pool: &pool::Pool) -> Result<D
         }
     }
     Ok(Drawn {
-        extent: config.extent,
-        config,
         particles: pool.positions.len() as u32,
         counts,
-        foaming: 0,
         covered,
-        diffuse: 0,
-        goes: 0,
-        foam: 0,
         iterations: sum as u64,
         most_iterations: most as u32,
+        ..Drawn::nothing(config)
     })
 }
 

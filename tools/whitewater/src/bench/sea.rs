@@ -8,9 +8,7 @@ use glam::{Mat4, Vec3};
 use whitewater::ash::vk;
 use whitewater::foam::{DiffuseConfig, DiffuseLook, Occlusion, Reach};
 use whitewater::headless::scene::Scene;
-use whitewater::headless::{
-    Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Diffuse, Headless,
-};
+use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Diffuse, Headless};
 use whitewater::io::picture;
 use whitewater::water::Shadows;
 use whitewater::{Config, Error, Settings};
@@ -207,17 +205,10 @@ fn sample(
     let depth = headless.layer("foam")?;
     let foam = depth.map_or(0, |depth| depth.data.iter().filter(|z| **z < picture::EMPTY).count());
     let drawn = Drawn {
-        extent,
-        config,
-        particles: 0,
-        counts: Counts::default(),
-        foaming: 0,
-        covered: 0,
         diffuse: count,
         goes: if headless.device().enabled.buffer_int64_atomics { 1 } else { 2 },
         foam: foam as u64,
-        iterations: 0,
-        most_iterations: 0,
+        ..Drawn::nothing(config)
     };
     if let Some(path) = &args.picture {
         let size = (extent.width, extent.height);
