@@ -48,6 +48,24 @@ vec4 turn_of(uint index) {
     return turned_back(q);
 }
 
+// By how much of its radius one is drawn at a distance, so that no blob is smaller than is told: of those beyond only a
+// share is left, by random numbers of their own, grown so that they cover as much in the mean (Cook et al. 2007). Whoever
+// goes shrinks before; the mean of the squares knows that.
+float merged(float radius, float distance_, uint id) {
+    const float FADES = 0.5; // over this much of the share
+    float pixels = radius / max(distance_ * frame.texel.x, 1.0e-20);
+    float size = pixels / max(bubbly.sun_mirror.w, 1.0e-20);
+    float share = clamp(size * size, 1.0e-12, 1.0);
+    if (share == 1.0) {
+        return 1.0;
+    }
+    float own = float(pcg(id ^ 0x6d657267u) >> 8) / 16777216.0;
+    float left = clamp(((1.0 + FADES) * share - own) / (FADES * share), 0.0, 1.0);
+    float last = clamp(((1.0 + FADES) * share - 1.0) / (FADES * share), 0.0, 1.0);
+    float mean = share * (1.0 + FADES / 3.0 * (1.0 - last * last * last));
+    return left * inversesqrt(mean);
+}
+
 // To the eye, and which of them is drawn.
 void place(uint index) {
     uint at = push.ball_word + index * push.ball_stride;
@@ -58,12 +76,14 @@ void place(uint index) {
         atomicAdd(range.dropped, 1u);
     }
     vec3 centre = (frame.view * vec4(good ? ball.xyz : vec3(0.0), 1.0)).xyz;
+    blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
+    ball.w *= merged(ball.w, length(centre), blob.id);
+    good = good && ball.w > 0.0;
     // One that the eye is in has no bounds on the screen; the near plane cuts it away.
     blob.ball = good ? vec4(mat3(frame.world) * centre, ball.w) : blob.ball;
     if (good && in_frustum(centre, ball.w)) {
         blob.nearest = max(-centre.z - ball.w, 0.0);
         blob.turn = turn_of(index);
-        blob.id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : index;
         blob.template_ = pcg(blob.id) % bubbly.kinds.x;
         atomicAdd(range.seen, 1u);
         uint near = floatBitsToUint(blob.nearest);

@@ -86,8 +86,8 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     // Foam is soft: it is lit beyond where it is turned away.
     float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
     vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
-    // Between bubbles it is darker.
-    float crease = mix(0.72, 1.0, smoothstep(0.6, 1.0, length(past)));
+    // Between bubbles it is darker; where they are too small to be seen, as light as they are in the mean.
+    float crease = mix(0.81, mix(0.72, 1.0, smoothstep(0.6, 1.0, length(past))), fine);
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
 
@@ -150,15 +150,18 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
         float b = distance_at(which, round_ + other) - distance_at(which, round_ - other);
         normal = normalize(round_ - (a * side + b * other) / (2.0 * 0.03 * 0.03 * length(met)));
     }
-    // Bubbles too small to be seen are a rough white ball.
+    // Bubbles too small to be seen are a rough white ball, a ball too small is what of it faces the eye: their mean, not one
+    // of their points.
     float pixels = radius * look.pixels;
     float fine = smoothstep(0.7, 3.0, pixels);
-    normal = normalize(mix(round_, normal, fine));
+    vec3 ball = normalize(mix(-ray.direction, round_, smoothstep(0.7, 3.0, look.pixels)));
+    normal = normalize(mix(ball, normal, fine));
     uint number = pcg(look.blob.id * 977u + id);
     float high = dot(to_world(look, normal), vec3(0.0, 1.0, 0.0));
-    float thick = film_thickness(number, 2.5 * met / radius, high);
+    // Colours of films of many thicknesses make white, as those of a thick one.
+    float thick = mix(bubbly.film.w, film_thickness(number, 2.5 * met / radius, high), fine);
 
-    vec3 core = core_light(look, past, normal, round_, fine);
+    vec3 core = core_light(look, past, normal, ball, fine);
     body = core;
     vec3 mirrored = reflect(ray.direction, normal);
     float open = smoothstep(-0.35, 0.45, dot(mirrored, round_));

@@ -8,7 +8,7 @@ layout(set = 0, binding = 1, std140) uniform BubbleFrame {
     vec4 albedo;  // twice that of the core; how much its pattern shows
     vec4 mirror;  // factor on reflections; exponent of the highlight; 1 = walls, 1 = holes are plugged
     vec4 sun;     // its light on what faces it, over 2 pi
-    vec4 sun_mirror; // its highlight
+    vec4 sun_mirror; // its highlight; radius in pixels under which blobs merge
     uvec4 tiles;  // across, down, slices of depth, room in their lists
     uvec4 kinds;  // different blobs; 0 0 0
 } bubbly;

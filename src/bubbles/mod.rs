@@ -74,7 +74,7 @@ impl BubbleUniforms {
             albedo: [r, g, b, look.pattern],
             mirror: [look.reflection, look.shininess, flag(look.walls), flag(look.plug)],
             sun: sun_on(light),
-            sun_mirror: [sun_r, sun_g, sun_b, 0.0],
+            sun_mirror: [sun_r, sun_g, sun_b, look.merge],
             tiles: [x, y, lists::SLICES, lists::room(config.extent, bubbles)],
             kinds: [bubbles.templates, 0, 0, 0],
         }

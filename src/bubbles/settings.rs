@@ -185,6 +185,11 @@ pub struct BubbleLook {
     pub walls: bool,
     /// Whether what lies behind the last layer plugs the holes (Sec. 5); default true.
     pub plug: bool,
+    /// Blobs whose radius on the screen is less than so many pixels merge, 0 to 64, default 1; 0: none. Of them so few
+    /// are left, each grown in the same measure, that they cover as much and are as large as that (Cook, Halstead,
+    /// Planck, Ryu 2007, Stochastic Simplification of Aggregate Detail). Which ones go first, their ids decide; each shrinks
+    /// before it goes.
+    pub merge: f32,
     /// Where blobs take over from sprites of diffuse foam, with [`BubbleConfig::hand_over`].
     pub hand_over: HandOver,
 }
@@ -223,6 +228,7 @@ impl Default for BubbleLook {
             shininess: 800.0,
             walls: true,
             plug: true,
+            merge: 1.0,
             hand_over: HandOver::default(),
         }
     }
@@ -247,6 +253,7 @@ impl BubbleLook {
         range("Settings.bubbles.roundness", self.roundness, 0.0, 1.0)?;
         range("Settings.bubbles.reflection", self.reflection, 0.0, 8.0)?;
         range("Settings.bubbles.shininess", self.shininess, 1.0, 10_000.0)?;
+        range("Settings.bubbles.merge", self.merge, 0.0, 64.0)?;
         let HandOver { near, far, size } = self.hand_over;
         range("Settings.bubbles.hand_over.near", near, 0.0, 1.0e9)?;
         range("Settings.bubbles.hand_over.far", far, 1.0e-9, 1.0e9)?;

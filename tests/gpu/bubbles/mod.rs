@@ -2,6 +2,7 @@
 
 mod bad;
 mod cast;
+mod far;
 mod film;
 mod heap;
 mod impostor;

@@ -36,6 +36,8 @@ impl Cloud {
         let center = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
         shot.sun.region = Some(Region { center, radius: 4.0 });
         shot.settings.diffuse.radius = RADIUS;
+        // As they grow some are small: what merges is another test's.
+        shot.settings.bubbles.merge = 0.0;
         shot.settings.bubbles.hand_over = HandOver { near: 2.0, far: 3.0, size: 1.25 };
         let mut random = Random(6);
         let place = |i| {

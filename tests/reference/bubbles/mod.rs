@@ -3,5 +3,6 @@
 pub mod film;
 pub mod heap;
 pub mod impostor;
+pub mod merge;
 pub mod soap;
 pub mod wall;

@@ -26,6 +26,7 @@ pub struct BubbleTable {
     shininess: Option<f32>,
     walls: Option<bool>,
     plug: Option<bool>,
+    merge: Option<f32>,
     /// Near and far.
     hand_over: Option<[f32; 2]>,
     hand_over_size: Option<f32>,
@@ -128,6 +129,7 @@ impl BubbleTable {
         set(&mut look.shininess, self.shininess);
         look.walls = self.walls.unwrap_or(look.walls);
         look.plug = self.plug.unwrap_or(look.plug);
+        set(&mut look.merge, self.merge);
         if let Some([near, far]) = self.hand_over {
             look.core = self.core.unwrap_or(CLUSTER);
             (look.hand_over.near, look.hand_over.far) = (near, far);
