@@ -72,7 +72,8 @@ void place(uint index) {
     vec4 ball = vec4(balls[at], balls[at + 1u], balls[at + 2u], balls[at + 3u]);
     Blob blob = Blob(vec4(0.0, 0.0, 0.0, -1.0), vec4(0.0, 0.0, 0.0, 1.0), 0u, 0u, -1.0, 0u);
     bool good = all(lessThan(abs(ball), vec4(1.0e18))) && ball.w > 0.0;
-    if (!good) {
+    // An empty place is no fault.
+    if (!good && any(notEqual(ball, vec4(0.0)))) {
         atomicAdd(range.dropped, 1u);
     }
     vec3 centre = (frame.view * vec4(good ? ball.xyz : vec3(0.0), 1.0)).xyz;

@@ -1,10 +1,12 @@
 #version 460
 // Pass `heap`, move: what acts on a blob, and where it goes (Huszar, Szecsi, Sec. 6: neighbours pull each other when
 // near and push when nearer, gravity, solids; on the CPU there). Forces come from a potential, so that a heap left to
-// itself has less energy from step to step; they grow and end without a jump.
-// Reads: heaped, buckets, solids, field. Writes: balls, turns, drifts, spins.
+// itself has less energy from step to step; they grow and end without a jump. What has too little beside it splits in
+// two, of which one shrinks as the other grows.
+// Reads: heaped, buckets, solids, field. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "heap.glsl"
+#include "growth.glsl"
 #include "solid.glsl"
 #include "quaternion.glsl"
 
@@ -12,12 +14,14 @@ layout(local_size_x = 64) in;
 
 layout(set = 0, binding = 0, std430) writeonly buffer Balls { vec4 balls[]; };
 layout(set = 0, binding = 1, std430) buffer Turns { vec4 turns[]; };
+layout(set = 0, binding = 2, std430) writeonly buffer Ids { uint ids[]; };
 layout(set = 0, binding = 3, std430) writeonly buffer Drifts { vec4 drifts[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Spins { vec4 spins[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Buckets { uint buckets[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Heap { Heaped heaped[]; };
 layout(set = 0, binding = 8, std430) readonly buffer Solids { Solid solids[]; };
 layout(set = 0, binding = 9, std430) readonly buffer Field { float field[]; };
+layout(set = 0, binding = 10, std430) buffer Growths { Growth growths[]; };
 
 // Of a ball's moment of inertia: 1 / (2/5).
 const float ROUND = 2.5;
@@ -116,28 +120,99 @@ void touch(vec4 solid, vec4 ball, inout vec3 speed, inout vec3 spin) {
     spin += ROUND / ball.w * cross(-n, change);
 }
 
+// What a blob touches: the volumes of blobs, where they and solids lie, the way out of the last of these.
+struct Company {
+    float volume;
+    vec3 lean;
+    vec3 ground;
+};
+
+float volume_of(float radius) {
+    return radius * radius * radius;
+}
+
+void beside(inout Company company, Heaped own, Heaped other) {
+    vec3 to = other.ball.xyz - own.ball.xyz;
+    float reach = push.pair.y * (own.ball.w + other.ball.w);
+    float square = dot(to, to);
+    if (square < reach * reach) {
+        float volume = volume_of(other.ball.w);
+        company.volume += volume;
+        company.lean += volume * inversesqrt(max(square, 1.0e-20)) * to;
+    }
+}
+
+void lies_on(inout Company company, Heaped own, vec4 solid) {
+    if (solid.w < own.ball.w) {
+        company.lean -= volume_of(own.ball.w) * solid.xyz;
+        company.ground = solid.xyz;
+    }
+}
+
+// Where the other half of a blob grows: by its number, beside what it touches, so that they become a clump; not into
+// solids.
+vec3 way_apart(Heaped own, Company company) {
+    uint number = pcg(floatBitsToUint(own.drift.w) ^ 0x70617274u);
+    float up = float(number >> 8) / 8388608.0 - 1.0;
+    float round_ = float(pcg(number) >> 8) / 16777216.0 * 6.2831853;
+    vec3 any_ = vec3(sqrt(max(1.0 - up * up, 0.0)) * vec2(cos(round_), sin(round_)), up);
+    float far = length(company.lean);
+    vec3 to = far > 0.0 ? company.lean / far : vec3(0.0);
+    vec3 across = any_ - dot(any_, to) * to;
+    // At some 65 degrees from it: of three of a size each touches both others.
+    vec3 way = across / max(length(across), 0.01) + 0.45 * to;
+    way -= 2.0 * min(dot(way, company.ground), 0.0) * company.ground;
+    return way / max(length(way), 0.01);
+}
+
+// A blob with too little beside it for some time splits, as often as there is room for its halves.
+float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec3 spin) {
+    float dt = push.solid.z;
+    Growth growth = growths[index];
+    uint halved = growth.halved & 0xffu;
+    if (growth.parted < 1.0) {
+        growth.parted = min(growth.parted + dt / push.solid.w, 1.0);
+    } else if (halved < push.halvings) {
+        bool kept = company.volume >= push.water.z * volume_of(own.ball.w);
+        growth.alone = kept ? 0.0 : growth.alone + dt;
+        if (growth.alone > push.water.w) {
+            float goal = 0.79370053 * own.ball.w;
+            growth = Growth(goal, min(dt / push.solid.w, 1.0), 0.0, halved + 1u);
+            Growth other = Growth(goal, growth.parted, 0.0, (halved + 1u) | CHILD);
+            uint at = index + ((push.blobs >> push.halvings) << halved);
+            float apart = push.pair.x * (radius_of(growth) + radius_of(other));
+            balls[at] = vec4(place + apart * way_apart(own, company), radius_of(other));
+            turns[at] = turns[index];
+            ids[at] = pcg(floatBitsToUint(own.drift.w) ^ (0x68616c66u + halved));
+            drifts[at] = vec4(speed, 0.0);
+            spins[at] = vec4(spin, 0.0);
+            growths[at] = other;
+        }
+    }
+    growths[index] = growth;
+    return radius_of(growth);
+}
+
 void main() {
     uint k = gl_GlobalInvocationID.x;
-    if (k >= push.blobs) {
+    // What is no blob is not in the grid.
+    if (k >= buckets[push.buckets - 1u]) {
         return;
     }
     Heaped own = heaped[k];
-    // What is no blob stays where it is.
-    if (own.ball.w <= 0.0) {
-        return;
-    }
+    Company company = Company(0.0, vec3(0.0), vec3(0.0));
     ivec3 cell = heap_cell(own.ball.xyz);
     Pushed sum = Pushed(vec3(0.0), vec3(0.0));
     for (int c = 0; c < 27; ++c) {
-        ivec3 beside = cell + ivec3(c % 3, c / 3 % 3, c / 9) - 1;
-        uint bucket = bucket_of(beside);
+        ivec3 next = cell + ivec3(c % 3, c / 3 % 3, c / 9) - 1;
+        uint bucket = bucket_of(next);
         uint j = bucket > 0u ? buckets[bucket - 1u] : 0u;
         uint end = min(buckets[bucket], j + MOST_IN_BUCKET);
         while (j < end) {
             Heaped other = heaped[j];
             // Cells share buckets.
-            bool there = j != k && other.ball.w > 0.0 && all(equal(heap_cell(other.ball.xyz), beside));
-            if (there) {
+            if (j != k && all(equal(heap_cell(other.ball.xyz), next))) {
+                beside(company, own, other);
                 Pushed by = pushed_by(own, other);
                 sum = Pushed(sum.speed + by.speed, sum.spin + by.spin);
             }
@@ -152,10 +227,14 @@ void main() {
     speed /= 1.0 + dt * mix(push.gravity.w, 8.0, wet);
     vec3 spin = (own.spin.xyz + dt * sum.spin) / (1.0 + dt * push.gravity.w);
     for (uint i = 0u; i < push.field_size.w; ++i) {
-        touch(solid_at(solids[i], own.ball.xyz), own.ball, speed, spin);
+        vec4 solid = solid_at(solids[i], own.ball.xyz);
+        lies_on(company, own, solid);
+        touch(solid, own.ball, speed, spin);
     }
     if (push.field_size.x > 1u) {
-        touch(field_at(own.ball.xyz), own.ball, speed, spin);
+        vec4 solid = field_at(own.ball.xyz);
+        lies_on(company, own, solid);
+        touch(solid, own.ball, speed, spin);
     }
     // No farther in a step than would miss what it passes.
     float most = own.ball.w / dt;
@@ -164,7 +243,9 @@ void main() {
     vec4 turn = turns[index];
     vec3 half_ = 0.5 * dt * spin;
     turn += vec4(turn.w * half_ + cross(half_, turn.xyz), -dot(half_, turn.xyz));
-    balls[index] = vec4(own.ball.xyz + dt * speed, own.ball.w);
+    vec3 place = own.ball.xyz + dt * speed;
+    float radius = push.halvings > 0u ? grown(own, index, company, place, speed, spin) : own.ball.w;
+    balls[index] = vec4(place, radius);
     turns[index] = normalize(turn);
     drifts[index] = vec4(speed, 0.0);
     spins[index] = vec4(spin, 0.0);

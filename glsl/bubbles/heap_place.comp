@@ -15,7 +15,8 @@ layout(set = 0, binding = 6, std430) writeonly buffer Order { uint order[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= push.blobs) {
+    // What is no blob is not in the grid.
+    if (i >= push.blobs || balls[i].w <= 0.0) {
         return;
     }
     uint at = atomicAdd(buckets[bucket_of(heap_cell(balls[i].xyz))], 1u);

@@ -1,6 +1,9 @@
 #version 460
-// Pass `heap`, set: blobs as the host has them, at rest or as fast as it says. What is no blob has no radius.
-// Reads: the host's streams. Writes: balls, turns, ids, drifts, spins.
+// Pass `heap`, set: blobs as the host has them, at rest or as fast as it says. What is no blob has no radius, nor have the
+// places for halves.
+// Reads: the host's streams. Writes: balls, turns, ids, drifts, spins, growths.
+
+#include "growth.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -13,6 +16,7 @@ layout(set = 0, binding = 5, std430) readonly buffer HostBalls { float host_ball
 layout(set = 0, binding = 6, std430) readonly buffer HostTurns { float host_turns[]; };
 layout(set = 0, binding = 7, std430) readonly buffer HostIds { uint host_ids[]; };
 layout(set = 0, binding = 8, std430) readonly buffer HostDrifts { float host_drifts[]; };
+layout(set = 0, binding = 10, std430) writeonly buffer Growths { Growth growths[]; };
 
 layout(push_constant, std430) uniform Push {
     uint ball_word;
@@ -24,11 +28,20 @@ layout(push_constant, std430) uniform Push {
     uint drift_word;
     uint drift_stride; // 0: at rest
     uint blobs;
+    uint all;          // with those for halves
 } push;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.blobs) {
+        if (i < push.all) {
+            balls[i] = vec4(0.0);
+            turns[i] = vec4(0.0, 0.0, 0.0, 1.0);
+            ids[i] = 0u;
+            drifts[i] = vec4(0.0);
+            spins[i] = vec4(0.0);
+            growths[i] = Growth(0.0, 1.0, 0.0, 0u);
+        }
         return;
     }
     uint at = push.ball_word + i * push.ball_stride;
@@ -53,4 +66,5 @@ void main() {
     ids[i] = push.id_stride > 0u ? host_ids[push.id_word + i * push.id_stride] : i;
     drifts[i] = vec4(drift, 0.0);
     spins[i] = vec4(0.0);
+    growths[i] = Growth(ball.w, 1.0, 0.0, 0u);
 }

@@ -8,16 +8,22 @@ use crate::error::Error;
 
 impl Headless {
     /// Hands blobs to a [`Heap`], at rest; the next frames show them as [`heap_step`](Self::heap_step) moves them, with a
-    /// [`Config::bubbles`](crate::Config::bubbles) of as many.
+    /// [`Config::bubbles`](crate::Config::bubbles) of as many, times 2^`halvings`, as often as one may split in two.
     ///
     /// # Errors
     /// As [`Heap::new`] and [`Heap::record_set`]; then there is no heap.
-    pub fn heap(&mut self, blobs: &[Bubble], field: Option<&DistanceField>) -> Result<(), Error> {
+    pub fn heap(
+        &mut self,
+        blobs: &[Bubble],
+        field: Option<&DistanceField>,
+        halvings: u32,
+    ) -> Result<(), Error> {
         self.drop_heap();
         let count = u32::try_from(blobs.len()).unwrap_or(u32::MAX).max(1);
+        let config = HeapConfig { halvings, ..HeapConfig::new(count) };
         let host = self.device.host(1);
         // SAFETY: the device is ours and outlives the heap.
-        let mut heap = unsafe { Heap::new(&host, &HeapConfig::new(count), field) }?;
+        let mut heap = unsafe { Heap::new(&host, &config, field) }?;
         let staged = match Foamed::new(&self.gpu, blobs) {
             Ok(staged) => staged,
             Err(error) => {
@@ -68,7 +74,8 @@ impl Headless {
         heap.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
     }
 
-    /// The blobs of the heap after the last step, in the order they were handed over; none without a heap.
+    /// The blobs of the heap after the last step, in the order they were handed over, and the places of their halves; none
+    /// without a heap. What is not there is all 0.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.

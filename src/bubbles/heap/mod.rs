@@ -1,9 +1,10 @@
 //! Pass `heap`: blobs that move (Huszár, Szécsi, Sec. 6), on the GPU, where the source has the CPU.
 //!
 //! A blob is a ball: neighbours pull each other when near and push when nearer, all fall, roll and rub on what is solid.
-//! A step is cut into several, in each of which a hashed grid finds the neighbours. Those of a bucket stand in the order
-//! of their ids, so that the same blobs move the same in every run, whatever their order.
-//! Reads: the host's streams and solids. Writes: balls, turns, velocities.
+//! One that is torn off splits in two, and these again. A step is cut into several, in each of which a hashed grid finds
+//! the neighbours. Those of a bucket stand in the order of their ids, so that the same blobs move the same in every run,
+//! whatever their order.
+//! Reads: the host's streams and solids. Writes: balls, turns, ids, velocities.
 
 mod field;
 mod settings;
@@ -50,11 +51,24 @@ struct Push {
     blobs: u32,
     buckets: u32,
     cells: f32,
+    halvings: u32,
 }
 shader::assert_layout!(
     shader::BUBBLES_HEAP_MOVE_COMP,
     "Push",
-    Push { gravity, pair, damping, solid, water, field, field_size, blobs, buckets, cells }
+    Push {
+        gravity,
+        pair,
+        damping,
+        solid,
+        water,
+        field,
+        field_size,
+        blobs,
+        buckets,
+        cells,
+        halvings
+    }
 );
 
 #[repr(C)]
@@ -64,11 +78,12 @@ struct SetPush {
     drift_word: u32,
     drift_stride: u32,
     blobs: u32,
+    all: u32,
 }
 shader::assert_layout!(
     shader::BUBBLES_HEAP_SET_COMP,
     "Push",
-    SetPush { drift_word, drift_stride, blobs }
+    SetPush { drift_word, drift_stride, blobs, all }
 );
 
 struct Pipelines {
@@ -85,6 +100,7 @@ struct Buffers {
     ids: Buffer,
     drifts: Buffer,
     spins: Buffer,
+    growths: Buffer,
     buckets: Buffer,
     order: Buffer,
     heaped: Buffer,
@@ -94,9 +110,12 @@ struct Buffers {
 
 impl Buffers {
     /// What there is of each blob, as every shader binds it.
-    fn blobs(&self) -> [(u32, Resource); 5] {
+    fn blobs(&self) -> [(u32, Resource); 6] {
         let own = [&self.balls, &self.turns, &self.ids, &self.drifts, &self.spins];
-        std::array::from_fn(|i| (i as u32, Resource::buffer(own[i])))
+        std::array::from_fn(|i| match own.get(i) {
+            Some(own) => (i as u32, Resource::buffer(own)),
+            None => (10, Resource::buffer(&self.growths)),
+        })
     }
 }
 
@@ -126,8 +145,8 @@ pub struct Heap {
 }
 
 impl Heap {
-    /// Makes pipelines and memory: 124 to 128 bytes a blob, 4 a point of the field, for each slot 48 a solid. `field`:
-    /// what is solid besides the steps' own.
+    /// Makes pipelines and memory: 140 to 144 bytes a place, 4 a point of the field, for each slot 48 a solid; there are
+    /// 2^[`halvings`](HeapConfig::halvings) places a blob. `field`: what is solid besides the steps' own.
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
@@ -142,6 +161,15 @@ impl Heap {
         if config.max_blobs == 0 || config.max_blobs > 1 << 20 {
             let why = format!("expected 1 to {}, found {}", 1 << 20, config.max_blobs);
             return Err(Error::bad("HeapConfig.max_blobs", why));
+        }
+        if config.halvings > 6 || config.max_blobs << config.halvings > 1 << 20 {
+            let why = format!(
+                "{} of {} blobs: 0 to 6, and not more than {} places expected",
+                config.halvings,
+                config.max_blobs,
+                1 << 20
+            );
+            return Err(Error::bad("HeapConfig.halvings", why));
         }
         if config.max_solids > 65_536 {
             let why = format!("expected 0 to 65536, found {}", config.max_solids);
@@ -167,8 +195,9 @@ impl Heap {
         config: &HeapConfig,
         field: Option<&DistanceField>,
     ) -> Result<Self, Error> {
-        let most = u64::from(config.max_blobs);
-        let buckets = config.max_blobs.next_power_of_two();
+        let places = config.max_blobs << config.halvings;
+        let most = u64::from(places);
+        let buckets = places.next_power_of_two();
         let sized = |name, bytes: u64| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER
                 | vk::BufferUsageFlags::TRANSFER_SRC
@@ -187,7 +216,7 @@ impl Heap {
         let slot = |_| {
             let size = size_of::<GpuSolid>() as u64 * u64::from(config.max_solids);
             Ok(HeapSlot {
-                // One set, of nine bindings where two sets have room for sixteen.
+                // One set, of ten bindings where two sets have room for sixteen.
                 setting: Descriptors::new(gpu, 2)?,
                 descriptors: Descriptors::new(gpu, 4 + scan::SETS)?,
                 timer: Timer::new(gpu)?,
@@ -209,6 +238,7 @@ impl Heap {
                 ids: sized("heap/ids", 4 * most)?,
                 drifts: sized("heap/drifts", 16 * most)?,
                 spins: sized("heap/spins", 16 * most)?,
+                growths: sized("heap/growths", 16 * most)?,
                 buckets: sized("heap/buckets", 4 * u64::from(buckets))?,
                 order: sized("heap/order", 4 * most)?,
                 heaped: sized("heap/heaped", 48 * most)?,
@@ -275,7 +305,7 @@ impl Heap {
         // Not read.
         let drifts = drifts.unwrap_or(Window { resource: balls, word: 0, stride: 0 });
         let b = &self.buffers;
-        let written = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins];
+        let written = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins, &b.growths];
         let mut hosts = buffers_of(blobs);
         hosts.extend(velocities.map(|v| v.buffer).filter(|v| !hosts.contains(v)));
         let before = written.map(|b| buffer(b.handle, AFTER, COMPUTE_WRITE)).into_iter();
@@ -284,11 +314,12 @@ impl Heap {
         let hosts_own = [(5, balls), (6, turns), (7, ids), (8, drifts.resource)];
         let resources = [&b.blobs()[..], &hosts_own].concat();
         own.setting.bind(gpu, cmd, &self.pipelines.set, &resources)?;
-        let push =
-            SetPush { places, drift_word: drifts.word, drift_stride: drifts.stride, blobs: count };
+        let all = count << self.config.halvings;
+        let [drift_word, drift_stride] = [drifts.word, drifts.stride];
+        let push = SetPush { places, drift_word, drift_stride, blobs: count, all };
         self.pipelines.set.push(gpu, cmd, &push);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
-        unsafe { gpu.device.cmd_dispatch(cmd, count.div_ceil(64), 1, 1) };
+        unsafe { gpu.device.cmd_dispatch(cmd, all.div_ceil(64), 1, 1) };
         let after = written.map(|b| buffer(b.handle, COMPUTE_WRITE, AFTER)).into_iter();
         let back = hosts.iter().map(|handle| buffer(*handle, COMPUTE_READ, blobs.after));
         gpu.barriers(cmd, &[], &after.chain(back).collect::<Vec<_>>());
@@ -339,7 +370,7 @@ impl Heap {
             unsafe { gpu.device.cmd_dispatch(cmd, invocations.div_ceil(64), 1, 1) };
         };
         let both = COMPUTE_READ_WRITE;
-        let moved = [&b.balls, &b.turns, &b.drifts, &b.spins];
+        let moved = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins, &b.growths];
         let moved = |from, to| moved.map(|b| buffer(b.handle, from, to));
         let wait = |which: &[&Buffer]| {
             let barriers: Vec<_> = which.iter().map(|b| buffer(b.handle, both, both)).collect();
@@ -354,15 +385,15 @@ impl Heap {
             // SAFETY: cmd is recording outside a render pass; the part before is done (barrier).
             unsafe { gpu.device.cmd_fill_buffer(cmd, b.buckets.handle, 0, vk::WHOLE_SIZE, 0) };
             gpu.barriers(cmd, &[], &[buffer(b.buckets.handle, CLEAR, both)]);
-            dispatch(&p.place[0], 0, self.count);
+            dispatch(&p.place[0], 0, push.blobs);
             let values = (&b.buckets, self.buckets);
             self.scan.record_with((gpu, cmd, scan), &b.counts, values, None, 0);
             wait(&[&b.buckets, &b.order]);
-            dispatch(&p.place[1], 1, self.count);
+            dispatch(&p.place[1], 1, push.blobs);
             wait(&[&b.buckets, &b.order, &b.heaped]);
             dispatch(&p.order, 2, self.buckets);
-            wait(&[&b.heaped, &b.balls, &b.drifts, &b.spins]);
-            dispatch(&p.run, 3, self.count);
+            wait(&[&b.heaped, &b.balls, &b.ids, &b.drifts, &b.spins]);
+            dispatch(&p.run, 3, push.blobs);
         }
         gpu.barriers(cmd, &[], &moved(both, AFTER));
         slot.timer.end(gpu, cmd, scope);
@@ -380,13 +411,14 @@ impl Heap {
             gravity: [x, y, z, s.drag],
             pair: [s.rest, s.reach, s.stiffness, s.cohesion],
             damping: [s.damping[0], s.damping[1], s.solid_damping, s.friction],
-            solid: [s.contact, s.solidity, step.dt / s.substeps as f32, 0.0],
-            water: [s.water.unwrap_or(-1.0e30), s.density, 0.0, 0.0],
+            solid: [s.contact, s.solidity, step.dt / s.substeps as f32, s.parting],
+            water: [s.water.unwrap_or(-1.0e30), s.density, s.support, s.alone],
             field,
             field_size: [points[0], points[1], points[2], step.solids.len() as u32],
-            blobs: self.count,
+            blobs: self.count(),
             buckets: self.buckets,
             cells,
+            halvings: self.config.halvings,
         }
     }
 
@@ -395,14 +427,14 @@ impl Heap {
     pub fn blobs(&self) -> Blobs {
         let b = &self.buffers;
         let stream = |own: &Buffer, stride: u32| {
-            let size = u64::from(stride) * u64::from(self.config.max_blobs);
+            let size = u64::from(stride) * u64::from(self.places());
             Stream { buffer: own.handle, size, offset: 0, stride }
         };
         Blobs {
             balls: stream(&b.balls, 16),
             turns: Some(stream(&b.turns, 16)),
             ids: Some(stream(&b.ids, 4)),
-            count: Count::Cpu(self.count),
+            count: Count::Cpu(self.count()),
             before: COMPUTE_READ,
             after: COMPUTE_READ,
         }
@@ -410,7 +442,7 @@ impl Heap {
 
     /// Their velocities (3×f32, m/s), in the same order.
     pub fn velocities(&self) -> Stream {
-        let size = 16 * u64::from(self.config.max_blobs);
+        let size = 16 * u64::from(self.places());
         Stream { buffer: self.buffers.drifts.handle, size, offset: 0, stride: 16 }
     }
 
@@ -419,10 +451,14 @@ impl Heap {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
     }
 
-    /// How many they are.
-    #[cfg(feature = "headless")]
-    pub(crate) fn count(&self) -> u32 {
-        self.count
+    /// How many there may be with the halves of those that were set: `Config::bubbles` must have as many. Places that none
+    /// has are all 0.
+    pub fn count(&self) -> u32 {
+        self.count << self.config.halvings
+    }
+
+    fn places(&self) -> u32 {
+        self.config.max_blobs << self.config.halvings
     }
 
     /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
@@ -436,8 +472,8 @@ impl Heap {
     /// Bytes of device memory in use.
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
-        let own = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins, &b.buckets, &b.order];
-        let own = own.into_iter().chain([&b.heaped, &b.counts, &b.field]);
+        let own = [&b.balls, &b.turns, &b.ids, &b.drifts, &b.spins, &b.growths, &b.buckets];
+        let own = own.into_iter().chain([&b.order, &b.heaped, &b.counts, &b.field]);
         own.map(|b| b.size).sum::<u64>()
             + self.scan.memory()
             + self.slots.iter().map(|slot| slot.solids.size).sum::<u64>()

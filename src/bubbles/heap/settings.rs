@@ -38,6 +38,13 @@ pub struct HeapSettings {
     pub water: Option<f32>,
     /// Density of the foam over the water's, [0.01, 10], default 0.2.
     pub density: f32,
+    /// A blob splits in two where those that it touches have less than so many times its volume, [0, 100], default 2.5: one
+    /// that is torn off becomes a clump of four and more. With [`HeapConfig::halvings`].
+    pub support: f32,
+    /// For so long, seconds, [0, 10], default 0.1.
+    pub alone: f32,
+    /// In which its halves part: one shrinks as the other grows out of it. Seconds, [0.01, 10], default 0.5.
+    pub parting: f32,
     /// Parts of a step, 1 to 64, default 4: forces are stable to parts of 1/200 s.
     pub substeps: u32,
 }
@@ -58,6 +65,9 @@ impl Default for HeapSettings {
             friction: 0.35,
             water: None,
             density: 0.2,
+            support: 2.5,
+            alone: 0.1,
+            parting: 0.5,
             substeps: 4,
         }
     }
@@ -81,6 +91,9 @@ impl HeapSettings {
         range("HeapSettings.friction", self.friction, 0.0, 10.0)?;
         range("HeapSettings.water", self.water.unwrap_or(0.0), -1.0e9, 1.0e9)?;
         range("HeapSettings.density", self.density, 0.01, 10.0)?;
+        range("HeapSettings.support", self.support, 0.0, 100.0)?;
+        range("HeapSettings.alone", self.alone, 0.0, 10.0)?;
+        range("HeapSettings.parting", self.parting, 0.01, 10.0)?;
         if !(1..=MOST_SUBSTEPS).contains(&self.substeps) {
             let why = format!("expected 1 to {MOST_SUBSTEPS}, found {}", self.substeps);
             return Err(Error::bad("HeapSettings.substeps", why));
@@ -157,12 +170,15 @@ pub struct HeapConfig {
     pub max_blobs: u32,
     /// Most solids of a step, default 64.
     pub max_solids: u32,
+    /// How often a blob may split in two ([`HeapSettings::support`]), 0 to 6, default 0. There are places for 2^halvings
+    /// times `max_blobs`, 2^20 in all at most.
+    pub halvings: u32,
 }
 
 impl HeapConfig {
     /// The defaults for so many blobs.
     pub fn new(max_blobs: u32) -> Self {
-        Self { max_blobs, max_solids: 64 }
+        Self { max_blobs, max_solids: 64, halvings: 0 }
     }
 }
 

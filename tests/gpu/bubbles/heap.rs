@@ -13,9 +13,9 @@ use crate::support::rig::stream;
 use crate::support::scenes::Random;
 
 /// A heap in a host.
-struct Running {
+pub struct Running {
     stub: Stub,
-    heap: Option<Heap>,
+    pub heap: Option<Heap>,
     count: usize,
 }
 
@@ -26,7 +26,12 @@ impl Running {
         velocities: &[[f32; 3]],
         field: Option<&DistanceField>,
     ) -> Self {
-        Self::stepped(gpu, (blobs, velocities), field, None)
+        Self::stepped(gpu, (blobs, velocities), field, 0, None)
+    }
+
+    /// Whose blobs may split so often.
+    pub fn halving(gpu: &Gpu, blobs: &[Bubble], halvings: u32) -> Self {
+        Self::stepped(gpu, (blobs, &[]), None, halvings, None)
     }
 
     /// In the same command buffer a step is recorded too.
@@ -34,9 +39,10 @@ impl Running {
         gpu: &Gpu,
         (blobs, velocities): (&[Bubble], &[[f32; 3]]),
         field: Option<&DistanceField>,
+        halvings: u32,
         step: Option<&HeapStep<'_>>,
     ) -> Self {
-        let config = HeapConfig::new(blobs.len().max(1) as u32);
+        let config = HeapConfig { halvings, ..HeapConfig::new(blobs.len().max(1) as u32) };
         let stub = Stub::new(gpu, 1);
         // SAFETY: the device outlives this.
         let mut heap = unsafe { Heap::new(&gpu.host(1), &config, field) }.expect("a heap");
@@ -62,24 +68,30 @@ impl Running {
             heap.record_set(cmd, Slot(0), &set, Some(&drifts), largest).expect("set");
             step.map_or(Ok(()), |step| heap.record_step(cmd, step)).expect("a step");
         });
-        Self { stub, heap: Some(heap), count: blobs.len() }
+        let count = heap.count() as usize;
+        Self { stub, heap: Some(heap), count }
     }
 
-    fn step(&mut self, dt: f32, settings: &HeapSettings, solids: &[Solid]) -> Result<(), Error> {
+    pub fn step(
+        &mut self,
+        dt: f32,
+        settings: &HeapSettings,
+        solids: &[Solid],
+    ) -> Result<(), Error> {
         let heap = self.heap.as_mut().expect("only drop takes it");
         let step = HeapStep { slot: Slot(0), dt, settings, solids };
         // SAFETY: submitted at once.
         self.stub.run(|cmd| unsafe { heap.record_step(cmd, &step) })
     }
 
-    fn read(&self, from: vk::Buffer) -> Vec<[f32; 4]> {
+    pub fn read(&self, from: vk::Buffer) -> Vec<[f32; 4]> {
         let bytes = 16 * self.count.max(1);
         let back = self.stub.sized(bytes as u64, vk::BufferUsageFlags::TRANSFER_DST);
         self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, from, &back));
         bytemuck::cast_slice(&back.bytes()[..16 * self.count]).to_vec()
     }
 
-    fn blobs(&self) -> Vec<Blob> {
+    pub fn blobs(&self) -> Vec<Blob> {
         let heap = self.heap.as_ref().expect("only drop takes it");
         let balls = self.read(heap.blobs().balls.buffer);
         let (speeds, spins) = (self.read(heap.velocities().buffer), self.read(heap.spins().buffer));
@@ -104,7 +116,7 @@ impl Drop for Running {
 }
 
 /// Blobs in a box, some in each other.
-fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bubble> {
+pub fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bubble> {
     let mut random = Random(seed);
     (0..count)
         .map(|id| {
@@ -119,7 +131,7 @@ fn cloud(count: u32, size: [f32; 3], radius: [f32; 2], seed: u64) -> Vec<Bubble>
         .collect()
 }
 
-const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
+pub const FLOOR: Solid = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
 
 /// Against all pairs: every step from where the GPU was, so that errors don't grow. A velocity is a sum of some twenty
 /// forces, each of some fifty roundings of its largest term, of which damping's and the push's may be as large as the
@@ -358,7 +370,7 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     let step = HeapStep { slot: Slot(0), dt: 1.0 / 60.0, settings: &settings, solids: &[FLOOR] };
     let mut apart = Running::new(&gpu, &blobs, &[], None);
     apart.step(step.dt, step.settings, step.solids).expect("a step");
-    let at_once = Running::stepped(&gpu, (&blobs, &[]), None, Some(&step));
+    let at_once = Running::stepped(&gpu, (&blobs, &[]), None, 0, Some(&step));
     let balls = |running: &Running| {
         running.read(running.heap.as_ref().expect("only drop takes it").blobs().balls.buffer)
     };

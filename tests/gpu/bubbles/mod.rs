@@ -9,4 +9,5 @@ mod impostor;
 mod life;
 mod near;
 mod soap;
+mod tear;
 mod wall;

@@ -72,7 +72,8 @@ pub struct RenderArgs {
     pub inputs: Vec<String>,
     /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
     /// (five thousand), slope:N and box:N of as many, or a .json of blobs, {"blobs":[{"center":[x,y,z],"radius":r,
-    /// "turn":[x,y,z,w],"id":n},...]}, beside particles too. Table [bubbles] of --settings says how it looks
+    /// "turn":[x,y,z,w],"id":n},...]}, beside particles too; with "moves":true they fall, on what --scene shows. Table
+    /// [bubbles] of --settings says how it looks
     #[arg(long, value_name = "one|slope|box|FILE", value_parser = crate::bubbles::named)]
     pub bubbles: Option<Bubbles>,
     /// Frames of the sequence to draw, as A-B or A. Camera, radius and ground are found from the

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{Quat, Vec3};
 use serde::Deserialize;
-use whitewater::bubbles::{BubbleConfig, HeapSettings, Solid};
+use whitewater::bubbles::{BubbleConfig, DistanceField, HeapSettings, Solid};
 use whitewater::headless::Bubble;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::io::particles::{Particles, sequence};
@@ -75,6 +75,9 @@ pub fn named(text: &str) -> Result<Which, String> {
 #[serde(deny_unknown_fields)]
 struct BlobFile {
     blobs: Vec<BlobEntry>,
+    /// They fall, from frame 0 on.
+    #[serde(default)]
+    moves: bool,
 }
 
 #[derive(Deserialize)]
@@ -91,14 +94,15 @@ fn unturned() -> [f32; 4] {
     [0.0, 0.0, 0.0, 1.0]
 }
 
-/// Reads `{"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...]}`; the last two may be left out.
-pub fn read(path: &Path) -> Outcome<Vec<Bubble>> {
+/// Reads `{"blobs":[{"center":[x,y,z],"radius":r,"turn":[x,y,z,w],"id":n},...],"moves":true}`; the last three may be left
+/// out. Whether they move, too.
+pub fn read(path: &Path) -> Outcome<(Vec<Bubble>, bool)> {
     let text = std::fs::read_to_string(path).map_err(|error| Failure::reading(path, &error))?;
     let bad = |why: String| Failure::input(format!("{}: {why}", path.display()));
     let file: BlobFile = serde_json::from_str(&text).map_err(|error| {
         bad(format!(
             "{error}; expected {{\"blobs\":[{{\"center\":[x,y,z],\"radius\":r,\"turn\":[x,y,z,w],\"id\":n}},...]}}, turn and \
-             id may be left out"
+             id may be left out, and \"moves\":true added"
         ))
     })?;
     let one = |(i, entry): (usize, BlobEntry)| {
@@ -109,14 +113,65 @@ pub fn read(path: &Path) -> Outcome<Vec<Bubble>> {
         }
         Ok(Bubble { ball: [x, y, z, radius], turn, id: id.unwrap_or(i as u32) })
     };
-    file.blobs.into_iter().enumerate().map(one).collect()
+    let blobs = file.blobs.into_iter().enumerate().map(one).collect::<Outcome<_>>()?;
+    Ok((blobs, file.moves))
 }
 
 /// Blobs of a frame, and how they move.
 pub struct Blobs {
     pub blobs: Vec<Bubble>,
-    /// They move by these, against these.
-    pub motion: Option<(HeapSettings, Vec<Solid>)>,
+    pub motion: Option<Motion>,
+}
+
+/// By what blobs move, against what, and how often they may split.
+pub struct Motion {
+    pub settings: HeapSettings,
+    pub solids: Vec<Solid>,
+    pub field: Option<DistanceField>,
+    pub halvings: u32,
+}
+
+impl Motion {
+    /// On the ground and all that stands there.
+    fn on(scene: &Scene, largest: f32) -> Outcome<Self> {
+        let ground = scene.ground.as_ref().map(|ground| ground.y);
+        let floor = |distance| Solid::Plane { normal: [0.0, 1.0, 0.0], distance };
+        Ok(Self {
+            settings: HeapSettings::default(),
+            solids: ground.into_iter().map(floor).collect(),
+            field: field_of(scene, largest)?,
+            halvings: HALVINGS,
+        })
+    }
+}
+
+/// How often what is torn off splits: to clumps of eight at most, of half the radius.
+const HALVINGS: u32 = 3;
+
+/// Most points of a field of distances each way.
+const FIELD: f32 = 64.0;
+
+/// Distances from the meshes of a scene; none where there are none.
+fn field_of(scene: &Scene, largest: f32) -> Outcome<Option<DistanceField>> {
+    let triangles: Vec<[[f32; 3]; 3]> = scene
+        .meshes
+        .iter()
+        .flat_map(|mesh| {
+            let at = |i: u32| {
+                let place = Vec3::from(mesh.positions[i as usize]);
+                mesh.transform.transform_point3(place).to_array()
+            };
+            mesh.indices.chunks_exact(3).map(move |three| [0, 1, 2].map(|k| at(three[k])))
+        })
+        .collect();
+    if triangles.is_empty() {
+        return Ok(None);
+    }
+    let corners = || triangles.iter().flatten().map(|c| Vec3::from(*c));
+    let size = corners().fold(Vec3::MIN, Vec3::max) - corners().fold(Vec3::MAX, Vec3::min);
+    let edge = ((size.max_element() + 2.0 * largest) / FIELD).max(0.25 * largest);
+    let field = DistanceField::of_mesh(&triangles, edge, largest + edge);
+    field.map(Some).map_err(|error| Failure::input(format!("--scene: {error}")))
 }
 
 /// Uniform numbers (PCG, O'Neill 2014): the same in every run.
@@ -208,8 +263,12 @@ pub fn set(which: &Which) -> Outcome<Set> {
         }
         Which::Slope(count) => slope(*count, &mut blob),
         Which::File(path) => {
-            let blobs = still(read(path)?);
-            let scene = on_ground(&blobs.blobs);
+            let (all, moves) = read(path)?;
+            let scene = on_ground(&all);
+            // The sheet under it is no solid.
+            let ground = Scene { meshes: Vec::new(), ..scene.clone() };
+            let motion = moves.then(|| Motion::on(&ground, largest(&all))).transpose()?;
+            let blobs = Blobs { blobs: all, motion };
             let bounds = bounds_of(&blobs.blobs);
             let away = 1.6 * bounds.size().max_element().max(1.0e-3);
             let target = bounds.center();
@@ -268,12 +327,19 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     let mut scene = stage::ground_under(&low);
     scene.meshes.extend(meshes);
     Set {
-        blobs: Blobs { blobs, motion: Some((settings, solids)) },
+        blobs: Blobs {
+            blobs,
+            motion: Some(Motion { settings, solids, field: None, halvings: HALVINGS }),
+        },
         scene,
         lit: low,
         eye: [2.7, 1.7, 2.9],
         target: [0.35, 0.35, 0.0],
     }
+}
+
+fn largest(blobs: &[Bubble]) -> f32 {
+    blobs.iter().map(|b| b.ball[3]).fold(f32::MIN_POSITIVE, f32::max)
 }
 
 fn bounds_of(blobs: &[Bubble]) -> Bounds {
@@ -298,7 +364,7 @@ fn on_ground(blobs: &[Bubble]) -> Scene {
 /// `render --bubbles` without particles.
 pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let Set { blobs, mut scene, lit, eye, target } = set(which)?;
+    let Set { mut blobs, mut scene, lit, eye, target } = set(which)?;
     let (first, last) = match (range, &blobs.motion) {
         (Some(range), _) => (*range.start(), *range.end()),
         // Under way.
@@ -325,6 +391,10 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     }
     if let Some(path) = args.scene.as_ref().filter(|path| path.as_os_str() != "ground") {
         scene = stage::read(path)?;
+        // What blobs of a file run against is what is seen; the slope's own ramp goes with it.
+        if blobs.motion.is_some() {
+            blobs.motion = Some(Motion::on(&scene, largest(&blobs.blobs))?);
+        }
     }
     scene.sun = environment.sun_light();
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
@@ -398,8 +468,7 @@ mod tests {
         }
         let set = set(&Which::Slope(300)).unwrap();
         assert_eq!(set.blobs.blobs.len(), 300);
-        let (_, solids) = set.blobs.motion.unwrap();
-        assert_eq!(solids.len(), 4);
+        assert_eq!(set.blobs.motion.unwrap().solids.len(), 4);
     }
 
     #[test]
@@ -413,9 +482,11 @@ mod tests {
         let good = read(
             r#"{"blobs":[{"center":[1,2,3],"radius":0.5},{"center":[0,0,0],"radius":1,"turn":[1,0,0,0],"id":9}]}"#,
         );
-        let good = good.unwrap();
+        let (good, moves) = good.unwrap();
+        assert!(!moves);
         assert_eq!(good[0], Bubble { ball: [1.0, 2.0, 3.0, 0.5], turn: unturned(), id: 0 });
         assert_eq!((good[1].turn, good[1].id), ([1.0, 0.0, 0.0, 0.0], 9));
+        assert!(read(r#"{"blobs":[],"moves":true}"#).unwrap().1);
         for bad in [
             "",
             "[]",

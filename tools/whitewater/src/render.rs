@@ -26,7 +26,14 @@ use crate::stage;
 pub fn run(args: &RenderArgs) -> Outcome<()> {
     let foam = match &args.bubbles {
         Some(which) if args.inputs.is_empty() => return bubbles::run(args, which),
-        Some(bubbles::Which::File(path)) => Some(bubbles::read(path)?),
+        Some(bubbles::Which::File(path)) => {
+            let (blobs, moves) = bubbles::read(path)?;
+            if moves {
+                let why = "blobs that move are drawn without particles";
+                return Err(Failure::input(format!("{}: {why}", path.display())));
+            }
+            Some(blobs)
+        }
         Some(_) => {
             let why = "--bubbles: one, slope and box are scenes of their own: a file expected beside particles";
             return Err(Failure::usage(why));

@@ -281,7 +281,8 @@ impl<'a> Session<'a> {
             DiffuseConfig { max_stride, occlusion, splat, ..DiffuseConfig::new(most) }
         });
         config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
-            let own = (blobs.blobs.len() as u32).max(1);
+            let halvings = blobs.motion.as_ref().map_or(0, |motion| motion.halvings);
+            let own = (blobs.blobs.len() as u32).max(1) << halvings;
             let max_blobs = if bubbles.hand_over { bubbles.max_blobs } else { own };
             BubbleConfig { max_blobs, ..*bubbles }
         });
@@ -312,7 +313,7 @@ impl<'a> Session<'a> {
         }
         if let Some((blobs, _)) = self.look.bubbles.as_ref().filter(|(_, own)| !own.hand_over) {
             times.step("upload", number, || match &blobs.motion {
-                Some(_) => headless.heap(&blobs.blobs, None),
+                Some(own) => headless.heap(&blobs.blobs, own.field.as_ref(), own.halvings),
                 None => headless.bubbles(&blobs.blobs),
             })?;
         }
@@ -458,11 +459,11 @@ impl<'a> Session<'a> {
             // Without velocities none are made, and those of the frame before are not this one's.
             headless.hide_generated();
         }
-        if let Some((Blobs { motion: Some((settings, solids)), .. }, _)) = &self.look.bubbles {
+        if let Some((Blobs { motion: Some(motion), .. }, _)) = &self.look.bubbles {
             let dt = 1.0 / self.look.fps.unwrap_or(bubbles::FPS);
             times.step("heap", number, || {
                 (self.memory.heaped..number)
-                    .try_for_each(|_| headless.heap_step(dt, settings, solids))
+                    .try_for_each(|_| headless.heap_step(dt, &motion.settings, &motion.solids))
             })?;
             self.memory.heaped = self.memory.heaped.max(number);
         }

@@ -128,8 +128,10 @@ fn sample(
     let mut rows = times.rows(&template, &Drawn::nothing(config));
     // What has nothing to run against falls on the ground.
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
-    let (settings, solids) = blobs.motion.unwrap_or_else(|| (HeapSettings::default(), vec![floor]));
-    headless.heap(&blobs.blobs, None)?;
+    let moved = blobs.motion.map(|motion| (motion.settings, motion.solids));
+    let (settings, solids) = moved.unwrap_or_else(|| (HeapSettings::default(), vec![floor]));
+    // Whole: the CPU's do not split.
+    headless.heap(&blobs.blobs, None, 0)?;
     let gpu = steps(args, || {
         headless.heap_step(1.0 / FPS, &settings, &solids)?;
         Ok(headless.heap_time().unwrap_or(f64::NAN) * 1.0e-6)

@@ -247,19 +247,19 @@ mod tests {
     use whitewater::{Config, Error};
 
     use super::*;
-    use crate::bubbles::{Which, set};
+    use crate::bubbles::{Motion, Which, set};
 
     /// What is timed beside the GPU does the same: a tenth of a second of blobs that slide, in which errors grow with each
     /// push, to a hundredth of a radius; and they have moved by far more.
     #[test]
     fn it_is_the_heap_of_the_gpu() -> Result<(), Error> {
         let blobs = set(&Which::Slope(200)).unwrap().blobs;
-        let (settings, solids) = blobs.motion.unwrap();
+        let Motion { settings, solids, .. } = blobs.motion.unwrap();
         let extent = vk::Extent2D { width: 16, height: 16 };
         let own = BubbleConfig { templates: 1, bubbles: 8, ..BubbleConfig::new(200) };
         let config = Config { bubbles: Some(own), ..Config::new(extent, COLOR_FORMAT, 64) };
         let mut headless = Headless::new(Device::new(&DeviceOptions::default())?, &config)?;
-        headless.heap(&blobs.blobs, None)?;
+        headless.heap(&blobs.blobs, None, 0)?;
         let mut heap = CpuHeap::new(&blobs.blobs, &settings, &solids);
         for _ in 0..6 {
             headless.heap_step(1.0 / 60.0, &settings, &solids)?;

@@ -66,3 +66,36 @@ fn parts_and_the_camera_move_by_the_number_of_the_frame() {
         .run("render f_*.ply -o x.png --camera c.json")
         .fails(3, &["frame 1", "different places"]);
 }
+
+/// Blobs of a file fall on what is seen, and what is torn off splits on the way.
+#[test]
+fn blobs_fall_on_the_scene() {
+    let folder = Folder::new();
+    folder.text(
+        "s.json",
+        r#"{"boxes":[{"name":"table","material":"timber","centre":[0,0.2,0],"half":[0.5,0.2,0.5]}],
+            "ground":{"y":0,"material":"sand"}}"#,
+    );
+    folder.text(
+        "b.json",
+        r#"{"blobs":[{"center":[0,0.6,0],"radius":0.1},{"center":[1.2,0.6,0],"radius":0.1}],"moves":true}"#,
+    );
+    folder.text("few.toml", "[bubbles]\ntemplates = 1\nbubbles = 8\nmap = 16\n");
+    let view = "--eye 0.6,0.3,3 --target 0.6,0.3,0 --fov 40 --supersample 1";
+    let look = format!("{view} {SMALL} --settings few.toml --scene s.json --validate");
+    folder.run(&format!("render --bubbles b.json --frames 45-45 -o b_%d.exr {look}")).ok();
+    let picture = folder.picture("b_45.exr");
+    let z = picture.channel("bubbles.Z").unwrap();
+    // Lowest row of blobs on the left, over the table, and on the right: 64 rows are 2.18 m at a distance of 3.
+    let lowest = |columns: std::ops::Range<usize>| {
+        let row = (0..64).rfind(|y| columns.clone().any(|x| z[96 * y + x] < 1.0e9));
+        let row = row.expect("a blob") as f32;
+        0.3 + (32.0 - row - 1.0) / 64.0 * 2.184
+    };
+    let (table, ground) = (lowest(0..48), lowest(48..96));
+    assert!((0.3..0.45).contains(&table), "{table}");
+    assert!((-0.1..0.08).contains(&ground), "{ground}");
+    let text = "blobs that move are drawn without particles";
+    folder.particles("a.ply", block(2));
+    folder.run(&format!("render a.ply --bubbles b.json -o n.png {look}")).fails(3, &[text]);
+}

@@ -1,0 +1,212 @@
+//! Blobs that split where they are torn off.
+
+use std::collections::HashMap;
+
+use whitewater::Error;
+use whitewater::bubbles::{Heap, HeapConfig, HeapSettings};
+use whitewater::headless::Bubble;
+
+use super::heap::{FLOOR, Running, cloud};
+use crate::reference::bubbles::heap::Blob;
+use crate::support::device::Gpu;
+use crate::support::scenes::Random;
+
+const DT: f32 = 1.0 / 60.0;
+const FREE: HeapSettings = HeapSettings { gravity: [0.0; 3], ..DEFAULT };
+const DEFAULT: HeapSettings = HeapSettings {
+    gravity: [0.0, -9.81, 0.0],
+    drag: 0.8,
+    rest: 0.75,
+    reach: 0.95,
+    stiffness: 4000.0,
+    cohesion: 12.0,
+    damping: [12.0, 6.0],
+    contact: 0.85,
+    solidity: 20_000.0,
+    solid_damping: 60.0,
+    friction: 0.35,
+    water: None,
+    density: 0.2,
+    support: 2.5,
+    alone: 0.1,
+    parting: 0.5,
+    substeps: 4,
+};
+
+fn one(radius: f32) -> Bubble {
+    Bubble { ball: [0.0, 1.0, 0.0, radius], turn: [0.0, 0.0, 0.0, 1.0], id: 7 }
+}
+
+fn there(blobs: &[Blob]) -> Vec<Blob> {
+    blobs.iter().copied().filter(|b| b.radius > 0.0).collect()
+}
+
+fn volume(blobs: &[Blob]) -> f64 {
+    blobs.iter().map(|b| b.radius.powi(3)).sum()
+}
+
+/// What is beside one that it touches, in its own volume.
+fn beside(blobs: &[Blob], own: &Blob, settings: &HeapSettings) -> f64 {
+    let touches = |other: &&Blob| {
+        let reach = f64::from(settings.reach) * (own.radius + other.radius);
+        let far = own.place.distance(other.place);
+        far > 0.0 && far < reach
+    };
+    volume(&blobs.iter().filter(touches).copied().collect::<Vec<_>>()) / own.radius.powi(3)
+}
+
+/// It becomes a clump that hangs together, of the same volume at every time, without a jump.
+#[test]
+fn a_lone_blob_becomes_a_clump() {
+    let gpu = Gpu::shared();
+    let radius = 0.1;
+    let mut running = Running::halving(&gpu, &[one(radius)], 4);
+    let whole = f64::from(radius).powi(3);
+    let mut last: Vec<Blob> = running.blobs();
+    assert_eq!((last.len(), there(&last).len()), (16, 1), "places, blobs");
+    let mut counts = vec![1];
+    for step in 0..300 {
+        running.step(DT, &FREE, &[]).expect("a step");
+        let now = running.blobs();
+        // A cube root by powers of two is off by 2^-20; halves of halves are rounded at most four times.
+        let volume = volume(&now);
+        assert!((volume / whole - 1.0).abs() < 1.0e-5, "{volume} of {whole} at {step}");
+        for (now, last) in now.iter().zip(&last) {
+            // A half grows to 0.79 of the radius in half a second; its whole shrinks by three quarters of that at its
+            // fastest: the volume goes by 3 p².
+            let change = (now.radius - last.radius).abs();
+            let fastest = f64::from(DT / FREE.parting) * f64::from(radius);
+            assert!(change <= fastest, "{} to {} at {step}", last.radius, now.radius);
+        }
+        let count = there(&now).len();
+        if counts.last() != Some(&count) {
+            counts.push(count);
+        }
+        last = now;
+    }
+    let clump = there(&last);
+    println!("{counts:?} blobs: {:?}", clump.iter().map(|b| b.radius).collect::<Vec<_>>());
+    assert!((4..=16).contains(&clump.len()), "{} blobs", clump.len());
+    let middle = clump.iter().map(|b| b.place * b.radius.powi(3)).sum::<glam::DVec3>() / whole;
+    for blob in &clump {
+        assert!(
+            blob.place.distance(middle) < 3.0 * f64::from(radius),
+            "it has flown off: {blob:?}"
+        );
+        let level = (f64::from(radius) / blob.radius).log2() * 3.0;
+        assert!((level - level.round()).abs() < 1.0e-4, "a radius of no half: {}", blob.radius);
+        let company = beside(&clump, blob, &FREE);
+        assert!(company >= 2.5 || level > 3.5, "one could still split: {blob:?}");
+    }
+}
+
+/// In a heap those split that the rule says, and no others.
+#[test]
+fn what_has_enough_beside_it_stays_whole() {
+    let gpu = Gpu::shared();
+    let settings = HeapSettings { alone: 0.0, parting: 0.05, ..DEFAULT };
+    let mut random = Random(3);
+    let mut blobs = cloud(300, [0.9, 0.8, 0.9], [0.07, 0.11], 9);
+    // Some are thrown out.
+    for blob in &mut blobs[..20] {
+        blob.ball[0] += random.between(1.2, 6.0);
+    }
+    let halvings = 3;
+    let mut running = Running::halving(&gpu, &blobs, halvings);
+    let step = HeapSettings { substeps: 1, ..settings };
+    let (mut split, mut whole) = (0, 0);
+    // Since its last split; what parts does not split.
+    let mut parting: HashMap<usize, u32> = HashMap::new();
+    let mut halved = vec![0_u32; blobs.len() << halvings];
+    for i in 0..240 {
+        let before = running.blobs();
+        running.step(1.0 / 240.0, &step, &[FLOOR]).expect("a step");
+        let after = running.blobs();
+        let live = there(&before);
+        for k in 0..before.len() {
+            if before[k].radius == 0.0 || halved[k] >= halvings {
+                continue;
+            }
+            let parts = parting.get(&k).is_some_and(|since| i - since < 12);
+            let ends = parting.get(&k).is_some_and(|since| i - since == 12);
+            let child = k + (blobs.len() << halved[k]);
+            let splits = before[child].radius == 0.0 && after[child].radius > 0.0;
+            assert!(!(splits && parts), "{k} splits as it parts");
+            let company = beside(&live, &before[k], &settings);
+            // Where a sum of volumes, or whether one is touched, is a matter of rounding, either may be.
+            let near = live.iter().any(|other| {
+                let reach = f64::from(settings.reach) * (before[k].radius + other.radius);
+                let far = before[k].place.distance(other.place);
+                far > 0.0 && (far / reach - 1.0).abs() < 1.0e-5
+            });
+            if !near && (company - 2.5).abs() > 1.0e-4 && !parts && !ends {
+                assert_eq!(splits, company < 2.5, "{k} at {i} with {company}");
+                split += u32::from(splits);
+                whole += u32::from(!splits);
+            }
+            if splits {
+                halved[k] += 1;
+                halved[child] = halved[k];
+                parting.insert(k, i);
+                parting.insert(child, i);
+            }
+        }
+        assert!(after.iter().all(|b| b.place.is_finite() && b.speed.length() < 30.0), "{i}");
+    }
+    println!("{split} splits, {whole} stays");
+    assert!(split > 60 && whole > 10_000, "{split} splits, {whole} stays");
+}
+
+#[test]
+fn the_order_of_blobs_is_no_matter_to_their_halves() {
+    let gpu = Gpu::shared();
+    let blobs = cloud(60, [3.0, 1.0, 3.0], [0.05, 0.1], 6);
+    let order = Random(2).order(blobs.len());
+    let turned: Vec<Bubble> = order.iter().map(|i| blobs[*i]).collect();
+    let end = |blobs: &[Bubble]| {
+        let mut running = Running::halving(&gpu, blobs, 2);
+        for _ in 0..60 {
+            running.step(DT, &DEFAULT, &[FLOOR]).expect("a step");
+        }
+        running.blobs()
+    };
+    let [one, other] = [end(&blobs), end(&turned)];
+    assert!(there(&one).len() > 100, "{} blobs", there(&one).len());
+    for half in 0..4 {
+        for (i, from) in order.iter().enumerate() {
+            let first = half * blobs.len();
+            assert_eq!(one[first + from], other[first + i], "blob {from}, half {half}");
+        }
+    }
+}
+
+#[test]
+fn bad_halvings_are_errors() {
+    let gpu = Gpu::shared();
+    for config in [
+        HeapConfig { halvings: 7, ..HeapConfig::new(4) },
+        HeapConfig { halvings: 3, ..HeapConfig::new(1 << 18) },
+    ] {
+        // SAFETY: the device outlives it; it is refused.
+        let result = unsafe { Heap::new(&gpu.host(1), &config, None) };
+        let field = result.err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(field.contains("HeapConfig.halvings"), "{field}");
+    }
+    assert_eq!(DEFAULT, HeapSettings::default());
+    type Spoil = fn(&mut HeapSettings);
+    let spoils: [(&str, Spoil); 3] = [
+        ("HeapSettings.support", |s| s.support = -1.0),
+        ("HeapSettings.alone", |s| s.alone = f32::NAN),
+        ("HeapSettings.parting", |s| s.parting = 0.0),
+    ];
+    let mut running = Running::halving(&gpu, &[one(0.1)], 1);
+    for (field, spoil) in spoils {
+        let mut settings = HeapSettings::default();
+        spoil(&mut settings);
+        let result = running.step(DT, &settings, &[]);
+        assert!(
+            matches!(result, Err(Error::BadInput { field: found, .. }) if found == field),
+            "{field}"
+        );
+    }
+}
