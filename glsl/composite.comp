@@ -16,6 +16,7 @@
 #include "intensity.glsl"
 #include "sunlight.glsl"
 #include "surface_noise.glsl"
+#include "scene_color.glsl"
 #include "shade.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -13,6 +13,7 @@
 #include "intensity.glsl"
 #include "sunlight.glsl"
 #include "surface_noise.glsl"
+#include "scene_color.glsl"
 #include "shade.glsl"
 
 layout(location = 0) out vec4 color;

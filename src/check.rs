@@ -3,12 +3,13 @@
 use ash::vk;
 
 use crate::contract::{
-    Blobs, Config, Count, DiffuseParticles, Frame, Packets, Particles, Slot, Stream,
+    Blobs, Config, Count, DiffuseParticles, Frame, HostImage, Packets, Particles, Shore, Shoreline,
+    Slot, Stream, Surface,
 };
 use crate::error::Error;
 use crate::frame::{Lens, check_settings};
 use crate::water::MOST_COARSENING;
-use crate::water::settings::Shadows;
+use crate::water::settings::{Shadows, range};
 
 /// A frame for a renderer of a configuration; what its camera is taken apart into.
 pub fn frame(
@@ -23,6 +24,7 @@ pub fn frame(
     frame.settings.noise.check()?;
     frame.settings.diffuse.check()?;
     frame.settings.bubbles.check()?;
+    frame.settings.shore.check()?;
     let (part, most) = (frame.output.rect.extent, config.extent);
     if part.width > most.width || part.height > most.height {
         return Err(Error::bad(
@@ -47,36 +49,13 @@ pub fn frame(
     ];
     let fluid = frame.diffuse.as_ref().and_then(|diffuse| diffuse.fluid_depth.as_ref());
     let fluid = fluid.map(|image| ("Frame.diffuse.fluid_depth.before", image));
-    for (field, image) in images.into_iter().chain(shadow).chain(fluid) {
-        if image.before.layout == vk::ImageLayout::UNDEFINED {
-            return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
-        }
-        if matches!(
-            image.after.layout,
-            vk::ImageLayout::UNDEFINED | vk::ImageLayout::PREINITIALIZED
-        ) {
-            return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
-        }
-        let vk::Rect2D { offset, extent } = image.rect;
-        let fits = |at: i32, size: u32, whole: u32| {
-            at >= 0 && size > 0 && u64::from(at.unsigned_abs()) + u64::from(size) <= whole.into()
-        };
-        if !fits(offset.x, extent.width, image.extent.width)
-            || !fits(offset.y, extent.height, image.extent.height)
-        {
-            return Err(Error::bad(
-                "HostImage.rect",
-                format!(
-                    "{}x{} at ({}, {}) is no part of an image of {}x{}",
-                    extent.width,
-                    extent.height,
-                    offset.x,
-                    offset.y,
-                    image.extent.width,
-                    image.extent.height
-                ),
-            ));
-        }
+    let own = frame.shore.as_ref();
+    let surface = own.and_then(crate::shore::surface_of);
+    let mask = own.and_then(|shore| shore.mask.as_ref());
+    let shore = [("Frame.shore.surface.before", surface), ("Frame.shore.mask.before", mask)];
+    let shore = shore.into_iter().filter_map(|(field, image)| Some((field, image?)));
+    for (field, image) in images.into_iter().chain(shadow).chain(fluid).chain(shore) {
+        self::image(field, image)?;
     }
     if frame.in_place() && !config.in_place {
         return Err(Error::bad(
@@ -91,9 +70,82 @@ pub fn frame(
     if let Some(blobs) = &frame.bubbles {
         bubbles(blobs, config, limits)?;
     }
+    if let Some(own) = &frame.shore {
+        self::shore(frame, own, config, limits)?;
+    }
     sun(frame, config)?;
     previous(frame, config)?;
     Lens::new(&frame.camera)
+}
+
+/// An image of the host's. `field`: its state before.
+pub fn image(field: &'static str, image: &HostImage) -> Result<(), Error> {
+    if image.before.layout == vk::ImageLayout::UNDEFINED {
+        return Err(Error::bad(field, "UNDEFINED: its contents would be lost"));
+    }
+    if matches!(image.after.layout, vk::ImageLayout::UNDEFINED | vk::ImageLayout::PREINITIALIZED) {
+        return Err(Error::bad("HostImage.after", "no image can be left UNDEFINED"));
+    }
+    let vk::Rect2D { offset, extent } = image.rect;
+    let fits = |at: i32, size: u32, whole: u32| {
+        at >= 0 && size > 0 && u64::from(at.unsigned_abs()) + u64::from(size) <= whole.into()
+    };
+    if fits(offset.x, extent.width, image.extent.width)
+        && fits(offset.y, extent.height, image.extent.height)
+    {
+        return Ok(());
+    }
+    Err(Error::bad(
+        "HostImage.rect",
+        format!(
+            "{}x{} at ({}, {}) is no part of an image of {}x{}",
+            extent.width,
+            extent.height,
+            offset.x,
+            offset.y,
+            image.extent.width,
+            image.extent.height
+        ),
+    ))
+}
+
+fn shore(
+    frame: &Frame<'_>,
+    shore: &Shore,
+    config: &Config,
+    limits: &vk::PhysicalDeviceLimits,
+) -> Result<(), Error> {
+    let bad = |field, why: &str| Err(Error::bad(field, why));
+    if config.shore.is_none() {
+        return bad("Frame.shore", "given, but Config.shore is None");
+    }
+    let up = glam::Vec3::from(shore.up);
+    if !up.is_finite() || (up.length() - 1.0).abs() > 1.0e-3 {
+        return bad("Frame.shore.up", "a direction of unit length expected");
+    }
+    range("Frame.shore.bias", shore.bias, 0.0, 1000.0)?;
+    let surface = crate::shore::surface_of(shore);
+    if surface.is_some_and(|image| image.image == frame.scene_depth.image) {
+        return bad("Frame.shore.surface", "is the scene's depth: another image expected");
+    }
+    if let Some(Surface::Level(level)) = shore.surface {
+        range("Frame.shore.surface", level, -1.0e9, 1.0e9)?;
+    }
+    match &shore.shoreline {
+        Some(Shoreline::Strip(strip)) => {
+            let positions = "Frame.shore.shoreline.triangles.positions";
+            let indices = "Frame.shore.shoreline.triangles.indices";
+            let fields = [positions, indices, "Frame.shore.shoreline.triangles"];
+            strip.triangles.check(fields, limits)?;
+            let vertices = strip.triangles.vertices;
+            let most = ("what the device binds", limits.max_storage_buffer_range / vertices.max(1));
+            strip.v.check("Frame.shore.shoreline.v", 4, vertices, most)
+        }
+        Some(_) if shore.surface.is_none() => {
+            bad("Frame.shore.surface", "none, but Frame.shore.shoreline is no strip: it needs one")
+        }
+        _ => Ok(()),
+    }
 }
 
 fn particles(
@@ -339,6 +391,9 @@ pub fn config(config: &Config) -> Result<(), Error> {
         if bubbles.hand_over && config.diffuse.is_none() {
             return bad("Config.bubbles.hand_over", "set, but Config.diffuse is None".into());
         }
+    }
+    if let Some(shore) = &config.shore {
+        shore.check()?;
     }
     if let Some(level) = config.noise
         && level > 3

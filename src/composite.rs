@@ -18,6 +18,7 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
+use crate::shore::{DRAW, Shore};
 use crate::water::coarsening;
 use crate::water::settings::Shading;
 use crate::water::split::{DISPATCHES, KINDS};
@@ -49,8 +50,8 @@ pub struct Surroundings {
 type Pipelines = [Option<Pipeline>; KINDS as usize];
 
 enum Path {
-    Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines },
-    Compute { pipelines: Pipelines },
+    Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines, coat: Option<Pipeline> },
+    Compute { pipelines: Pipelines, coat: Option<Pipeline> },
 }
 
 /// The pass.
@@ -72,6 +73,7 @@ fn pipelines(
         (14, u32::from(config.noise.is_some())),
         (20, u32::from(config.diffuse.is_some())),
         (22, u32::from(config.bubbles.is_some())),
+        (24, u32::from(config.shore.is_some())),
     ];
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();
@@ -105,9 +107,27 @@ impl Composite {
                         },
                     )
                 })?;
-                Path::Raster { pass, pipelines }
+                let coat = |_| {
+                    Pipeline::graphics(
+                        gpu,
+                        &Graphics {
+                            vertex: shader::SHORE_COAT_VERT,
+                            fragment: shader::SHORE_COAT_FRAG,
+                            topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                            pass: pass.handle,
+                            blend: &[no_blend()],
+                            constants: &[(24, 1)],
+                        },
+                    )
+                };
+                let coat = config.shore.map(coat).transpose()?;
+                Path::Raster { pass, pipelines, coat }
             }
             Shading::Compute => Path::Compute {
+                coat: config
+                    .shore
+                    .map(|_| Pipeline::compute(gpu, shader::SHORE_COAT_COMP, &[(24, 1)]))
+                    .transpose()?,
                 pipelines: pipelines(config, |constants| {
                     Pipeline::compute(gpu, shader::COMPOSITE_COMP, constants)
                 })?,
@@ -156,6 +176,7 @@ impl Composite {
         layers: &WaterLayers<'_>,
         diffuse: Option<&Foam>,
         bubbles: Option<&Bubbles>,
+        shore: Option<&Shore>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"composite");
         let (gpu, cmd) = (r.gpu, r.cmd);
@@ -168,6 +189,8 @@ impl Composite {
             diffuse.map(|image| Resource::Sampled(image.view, nearest));
         let soap = bubbles.map_or([layers.thickness; 2], |own| [own.depth(), own.image()]);
         let soap = soap.map(|image| Resource::Sampled(image.view, nearest));
+        let coat = shore.map_or(layers.thickness, Shore::image);
+        let coat = Resource::Sampled(coat.view, gpu.samplers.linear);
         let [shadow, light_thickness, basis, span, light_diffuse, light_soap] =
             r.sunlight.resources();
         let resources = [
@@ -199,12 +222,21 @@ impl Composite {
             light_soap,
             (25, soap[0]),
             (26, soap[1]),
+            (31, coat),
         ];
         let arguments = layers.split.arguments.handle;
         let first = |i: u32| layers.split.most * i;
         match &self.path {
-            Path::Raster { pass, pipelines } => {
+            Path::Raster { pass, pipelines, coat } => {
                 gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);
+                if let (Some(pipeline), Some(shore)) = (coat, shore) {
+                    let (list, arguments, across) = shore.tiles(r.extent);
+                    let resources = [&resources[..], &[(32, Resource::buffer(list))]].concat();
+                    r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+                    pipeline.push(gpu, cmd, &across);
+                    // SAFETY: inside the render pass; the arguments are visible since `shoreline`.
+                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments.handle, DRAW, 1, 16) };
+                }
                 for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
@@ -215,7 +247,7 @@ impl Composite {
                 }
                 gpu.end_pass(cmd);
             }
-            Path::Compute { pipelines } => {
+            Path::Compute { pipelines, coat } => {
                 let images = [layers.smoothed, layers.depth, layers.thickness];
                 let foam = layers.foam.into_iter().flatten();
                 let images: Vec<_> = images
@@ -235,6 +267,10 @@ impl Composite {
                     .dst_stage_mask(COMPUTE_WRITE.stage)
                     .dst_access_mask(COMPUTE_WRITE.access)];
                 let written = vk::DependencyInfo::default().memory_barriers(&written);
+                if let Some(pipeline) = coat {
+                    r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+                    r.dispatch_over(r.extent, pipeline.local_size);
+                }
                 for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
@@ -242,7 +278,7 @@ impl Composite {
                     let dispatch = DISPATCHES + 16 * u64::from(i);
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
-                        if i > 0 {
+                        if i > 0 || coat.is_some() {
                             // All may write the output for all that a validation layer knows.
                             gpu.device.cmd_pipeline_barrier2(cmd, &written);
                         }

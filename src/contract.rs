@@ -18,6 +18,7 @@ use crate::error::Error;
 use crate::foam::generate::settings::GenerateSettings;
 use crate::foam::settings::{DiffuseConfig, DiffuseLook};
 pub use crate::gpu::access::Access;
+use crate::shore::settings::{ShoreConfig, ShoreLook};
 use crate::water::settings::{
     FoamLook, FoamSettings, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing,
     Splat, SprayLook, WaterSettings,
@@ -124,6 +125,9 @@ pub struct Config {
     /// diffuse foam's ([`BubbleConfig::hand_over`]). `None` (default): they
     /// are not. 14½ bytes a pixel more, 4 for each layer and one besides, 64 a blob.
     pub bubbles: Option<BubbleConfig>,
+    /// Shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. `None` (default): they
+    /// are not. 4 bytes a pixel more, and 6 to 8 MiB of textures.
+    pub shore: Option<ShoreConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
     /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4
     /// a texel.
@@ -172,6 +176,7 @@ impl Config {
             spray: false,
             diffuse: None,
             bubbles: None,
+            shore: None,
             noise: None,
             shadow: None,
             cast: None,
@@ -425,6 +430,122 @@ impl Blobs {
     }
 }
 
+/// Shoreline and contact foam of one frame, a coat on water. Only read.
+///
+/// The scene's depth is that of what is in and under the water; where the surface itself is in it,
+/// [`bias`](Self::bias) says so.
+#[derive(Clone, Copy, Debug)]
+pub struct Shore {
+    /// The host's water surface, which its scene shows. `None`: there is none but the strip and the particles' water.
+    pub surface: Option<Surface>,
+    /// Where shores are; `None`: no shoreline foam. What is no [`Shoreline::Strip`] needs a surface.
+    pub shoreline: Option<Shoreline>,
+    /// What takes contact foam away, over the view: one channel, 0 all to 1 nothing, any size (the source's mask); only
+    /// sampled. `None`: the web, by places in the world.
+    pub mask: Option<HostImage>,
+    /// World direction up, unit length, default +y.
+    pub up: [f32; 3],
+    /// Metres, [0, 1000], by which what the scene's depth has may stand before the surface and count as behind it, default
+    /// 0: more where the surface is in that depth.
+    pub bias: f32,
+}
+
+impl Shore {
+    /// Contact foam on a level surface of the host's.
+    pub fn new(level: f32) -> Self {
+        Self {
+            surface: Some(Surface::Level(level)),
+            shoreline: None,
+            mask: None,
+            up: [0.0, 1.0, 0.0],
+            bias: 0.0,
+        }
+    }
+}
+
+/// A water surface of the host's.
+#[derive(Clone, Copy, Debug)]
+pub enum Surface {
+    /// Level, at this height along [`Shore::up`].
+    Level(f32),
+    /// Of any shape: its depth in the camera's convention, any size, another image than the scene's depth, only sampled.
+    /// Foam lies on it as if it were level about each point.
+    Depth(HostImage),
+}
+
+/// What tells shoreline foam how far from the shore a place is, as v: 0 at the sea's edge, 1 at the shore, 2 inland.
+#[derive(Clone, Copy, Debug)]
+pub enum Shoreline {
+    /// A mesh of the host's.
+    Strip(Strip),
+    /// Distances in the world, for islands that move or change.
+    Map(Coast),
+    /// The scene's depth alone: how deep the water is, over the slope of what is below. Shores that are hidden or not on the
+    /// screen are missing.
+    Screen,
+}
+
+/// Triangles of the host's, three vertices each.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangles {
+    /// Vertices (3×f32).
+    pub positions: Stream,
+    /// How many there are.
+    pub vertices: u32,
+    /// Which of them are the triangles' (u32), and how many these are, a multiple of three; `None`: all, in their order.
+    pub indices: Option<(Stream, u32)>,
+}
+
+impl Triangles {
+    /// Corners that are drawn.
+    pub(crate) fn drawn(&self) -> u32 {
+        self.indices.map_or(self.vertices, |(_, count)| count)
+    }
+
+    /// What is wrong with them, by the names of their vertices, indices and counts.
+    pub(crate) fn check(
+        &self,
+        [positions, indices, count]: [&'static str; 3],
+        limits: &vk::PhysicalDeviceLimits,
+    ) -> Result<(), Error> {
+        // Bound in one piece.
+        let most =
+            |count: u32| ("what the device binds", limits.max_storage_buffer_range / count.max(1));
+        self.positions.check(positions, 12, self.vertices, most(self.vertices))?;
+        if let Some((stream, n)) = &self.indices {
+            stream.check(indices, 4, *n, most(*n))?;
+        }
+        if !self.drawn().is_multiple_of(3) {
+            let why = format!("{}: three for each triangle expected", self.drawn());
+            return Err(Error::bad(count, why));
+        }
+        Ok(())
+    }
+}
+
+/// A mesh round islands that foam is drawn on (*Semi-procedural foam shader*, Sec. IV).
+#[derive(Clone, Copy, Debug)]
+pub struct Strip {
+    /// World space.
+    pub triangles: Triangles,
+    /// Of each vertex (f32).
+    pub v: Stream,
+    /// Last use of these buffers before `record` (layout ignored).
+    pub before: Access,
+    /// First use of them after it (layout ignored).
+    pub after: Access,
+}
+
+/// Distances to the shore, as [`ShoreMap::coast`](crate::shore::ShoreMap::coast) hands them out.
+#[derive(Clone, Copy, Debug)]
+pub struct Coast {
+    pub(crate) view: vk::ImageView,
+    /// Corner, edge in metres, texels each way.
+    pub(crate) corner: [f32; 2],
+    pub(crate) edge: f32,
+    pub(crate) size: u32,
+}
+
 /// One step of the simulation, for [`State::record_step`](crate::State::record_step): the particles
 /// as they are after it, in any order. Only read.
 #[derive(Clone, Copy, Debug)]
@@ -584,6 +705,8 @@ pub struct Frame<'a> {
     /// Blobs of bubble foam, with [`Config::bubbles`]; `None`: there are none but those that diffuse foam becomes
     /// ([`BubbleConfig::hand_over`]), with which it has to be `None`.
     pub bubbles: Option<Blobs>,
+    /// Shoreline and contact foam, with [`Config::shore`]; `None`: there is none.
+    pub shore: Option<Shore>,
     /// The view.
     pub camera: Camera,
     /// The sun's way, with [`Config::shadow`] and [`Config::cast`].
@@ -614,6 +737,8 @@ pub struct Settings {
     pub diffuse: DiffuseLook,
     /// Bubble foam.
     pub bubbles: BubbleLook,
+    /// Shoreline and contact foam.
+    pub shore: ShoreLook,
     /// Filter of the host's shadow map, with [`Shadows::Convolution`].
     pub shadow: ShadowFilter,
     /// Noise on its surface.

@@ -82,6 +82,8 @@ pub struct FrameUniforms {
     pub diffuse_shadow: [f32; 4],
     pub diffuse_color: [f32; 4],
     pub diffuse_sun: [f32; 4],
+    pub shore_color: [f32; 4],
+    pub contact_color: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -149,6 +151,8 @@ shader::assert_layout!(
         diffuse_shadow,
         diffuse_color,
         diffuse_sun,
+        shore_color,
+        contact_color,
     }
 );
 
@@ -270,6 +274,8 @@ impl FrameUniforms {
         let thick = reduced(full, config.thickness_level);
         let water = &frame.settings.water;
         let light = &frame.settings.light;
+        let [shore_color, contact_color] =
+            crate::shore::colors(frame.settings).map(|c| c.to_array());
         let radius = water.radius();
         let axis = THICKNESS_SCALE * radius;
         let amplitude = match water.amplitude {
@@ -447,6 +453,8 @@ impl FrameUniforms {
             ),
             diffuse_color: light_vector(diffuse.albedo.map(|c| 2.0 * c)),
             diffuse_sun: sun_on(light),
+            shore_color,
+            contact_color,
         }
     }
 }

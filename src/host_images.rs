@@ -71,6 +71,15 @@ fn fluid<'a>(frame: &'a Frame<'_>) -> Option<(&'a HostImage, Access)> {
     Some((image, Access { layout: depth_layout(image), ..access::COMPUTE_SAMPLED }))
 }
 
+/// The host's water surface and the mask of its contact foam.
+fn shore<'a>(frame: &'a Frame<'_>) -> impl Iterator<Item = (&'a HostImage, Access)> {
+    let own = frame.shore.as_ref();
+    let images = own.map(|shore| [crate::shore::surface_of(shore), shore.mask.as_ref()]);
+    let sampled = FRAGMENT_SAMPLED.and(access::COMPUTE_SAMPLED);
+    let used = move |image| (image, Access { layout: depth_layout(image), ..sampled });
+    images.into_iter().flatten().flatten().map(used)
+}
+
 /// The host's shadow map or mask.
 pub fn shadow_map(shadow: &Shadow, gpu: &Gpu) -> Resource {
     let layout = depth_layout(&shadow.image);
@@ -106,7 +115,9 @@ pub fn acquire(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     }
     let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
     all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
-    all.extend(fluid(frame).map(|(image, used)| barrier(image, used)));
+    all.extend(
+        fluid(frame).into_iter().chain(shore(frame)).map(|(image, used)| barrier(image, used)),
+    );
     all
 }
 
@@ -121,6 +132,8 @@ pub fn release(frame: &Frame<'_>, uses: &Uses) -> Vec<vk::ImageMemoryBarrier2<'s
     }
     let shadow = frame.sun.shadow.iter().map(|shadow| &shadow.image);
     all.extend(shadow.map(|image| barrier(image, shadow_use(image, uses.convolved))));
-    all.extend(fluid(frame).map(|(image, used)| barrier(image, used)));
+    all.extend(
+        fluid(frame).into_iter().chain(shore(frame)).map(|(image, used)| barrier(image, used)),
+    );
     all
 }

@@ -244,7 +244,9 @@ mod host_images;
 #[cfg(feature = "io")]
 pub mod io;
 mod light;
+mod random;
 mod renderer;
+pub mod shore;
 mod state;
 pub mod water;
 

@@ -27,6 +27,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
 use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
+use crate::shore::{Given, Shore, ShoreUniforms};
 use crate::water::{Beside, Recording, Water, buffers_of};
 
 /// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
@@ -34,6 +35,9 @@ const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
 
 /// Where the numbers of bubble foam do.
 const BUBBLES: usize = (LEVELS + size_of::<SmoothingLevels>()).next_multiple_of(256);
+
+/// And those of shoreline and contact foam.
+const SHORE: usize = (BUBBLES + size_of::<BubbleUniforms>()).next_multiple_of(256);
 
 /// What one frame in flight owns.
 struct SlotState {
@@ -63,6 +67,7 @@ pub struct Renderer {
     convolving: Option<Convolving>,
     foam: Option<Foam>,
     bubbles: Option<Bubbles>,
+    shore: Option<Shore>,
     environment: Environment,
     /// Copy of the scene's colour, when it is the output itself.
     scene_copy: Option<Image>,
@@ -81,7 +86,7 @@ impl Renderer {
         check::config(config)?;
         Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
         let gpu = Gpu::new(host)?;
-        let made = Parts::new(&gpu, config, None).and_then(|parts| {
+        let made = Parts::new(&gpu, config, (None, None)).and_then(|parts| {
             let environment = Environment::new(&gpu, config)?;
             let slots = (0..gpu.slots).map(|_| SlotState::new(&gpu, config));
             Ok((parts, environment, slots.collect::<Result<Vec<_>, _>>()?))
@@ -108,6 +113,7 @@ impl Renderer {
             convolving: parts.convolving,
             foam: parts.foam,
             bubbles: parts.bubbles,
+            shore: parts.shore,
             environment,
             scene_copy: parts.scene_copy,
         })
@@ -123,6 +129,35 @@ impl Renderer {
         if let Some(bubbles) = &self.bubbles {
             bubbles.record_setup(&self.gpu, cmd);
         }
+        if let Some(shore) = &self.shore {
+            shore.record_setup(&self.gpu, cmd);
+        }
+    }
+
+    /// Records the web of shoreline and contact foam from an image of the host's, in place of the built-in one until the
+    /// next [`record_setup`](Self::record_setup): one channel, 1 where foam is first and 0 where it is last, that closes on
+    /// itself; any size, its `rect` is what is taken ([`shore::texture::from_pattern`](crate::shore::texture::from_pattern)
+    /// makes it of a pattern).
+    ///
+    /// # Errors
+    /// No [`Config::shore`], a bad image or slot; what Vulkan reports.
+    ///
+    /// # Safety
+    /// As [`record_environment`](Self::record_environment), among whose four it counts.
+    pub unsafe fn record_web(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        slot: Slot,
+        image: &HostImage,
+    ) -> Result<(), Error> {
+        let index = self.slot_index(slot)?;
+        check::image("web.before", image)?;
+        let Some(shore) = &self.shore else {
+            return Err(Error::bad("Config.shore", "None, but a web is given"));
+        };
+        self.retired.recorded(slot.0);
+        self.slots[index].begin_environment(&self.gpu)?;
+        shore.record_web(&self.gpu, cmd, &self.slots[index].descriptors, image)
     }
 
     /// Records the environment that the water reflects, once per environment.
@@ -199,6 +234,12 @@ impl Renderer {
                 .copy_from_slice(bytemuck::bytes_of(&numbers));
         }
 
+        if let Some(shore) = &self.shore {
+            let numbers = ShoreUniforms::new(frame, &lens, shore.edges());
+            mapped[SHORE..][..size_of::<ShoreUniforms>()]
+                .copy_from_slice(bytemuck::bytes_of(&numbers));
+        }
+
         gpu.begin_label(cmd, c"whitewater");
         slot.timer.reset(gpu, cmd);
         let depth_layout = depth_layout(&frame.scene_depth);
@@ -234,6 +275,11 @@ impl Renderer {
                 BUBBLES as u64,
                 size_of::<BubbleUniforms>() as u64,
             ),
+            shore: Resource::Buffer(
+                slot.uniforms.handle,
+                SHORE as u64,
+                size_of::<ShoreUniforms>() as u64,
+            ),
             hand_over: handed_over.map(|(_, over)| over),
             scene_depth,
             sunlight: sunlight(
@@ -254,6 +300,13 @@ impl Renderer {
         let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, blobs.as_ref()));
         let beside = Beside { light: self.light.as_ref(), diffuse, bubbles };
         self.water.record(&mut r, &frame.particles, &beside)?;
+        let given = Given::new(frame.shore.as_ref(), gpu);
+        if let Some(shore) = &self.shore {
+            shore.record_shoreline(&mut r, &given)?;
+            if given.shore.is_some() && frame.settings.shore.contact.particle_opacity > 0.0 {
+                shore.record_contact(&mut r, &given, &self.water.layers())?;
+            }
+        }
         if let Some(foam) = &self.foam {
             foam.record_radiance(&mut r, &self.environment, &self.water.layers())?;
         }
@@ -292,6 +345,7 @@ impl Renderer {
             &self.water.layers(),
             self.foam.as_ref(),
             self.bubbles.as_ref(),
+            self.shore.as_ref(),
         )?;
 
         let cmd = r.cmd;
@@ -312,7 +366,7 @@ impl Renderer {
             layers: kept(
                 &self.config,
                 &self.water,
-                (self.foam.as_ref(), self.bubbles.as_ref()),
+                (self.foam.as_ref(), self.bubbles.as_ref(), self.shore.as_ref()),
                 from,
                 frame.output.rect.extent,
             ),
@@ -390,6 +444,9 @@ impl Renderer {
         if let Some(bubbles) = &mut self.bubbles {
             bubbles.resize(&self.gpu, config, &mut self.retired)?;
         }
+        if let Some(shore) = &mut self.shore {
+            shore.resize(&self.gpu, config, &mut self.retired)?;
+        }
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
@@ -407,7 +464,9 @@ impl Renderer {
         let (parts, environment, descriptors) = new?;
         let bubbles = parts.bubbles.as_ref();
         let same_bubbles = bubbles.is_none_or(|own| own.is_set_up_as(self.bubbles.as_ref()));
-        let due = environment.is_some() || !same_bubbles;
+        let shore = parts.shore.as_ref();
+        let same_shore = shore.is_none_or(|own| own.is_set_up_as(self.shore.as_ref()));
+        let due = environment.is_some() || !same_bubbles || !same_shore;
         self.config = *config;
         self.whole = true;
         let retired = &mut self.retired;
@@ -417,6 +476,7 @@ impl Renderer {
         retired.replace(&mut self.convolving, parts.convolving);
         retired.replace(&mut self.foam, parts.foam);
         retired.replace(&mut self.bubbles, parts.bubbles);
+        retired.replace(&mut self.shore, parts.shore);
         retired.replace(&mut self.scene_copy, parts.scene_copy);
         if let Some(new) = environment {
             retired.replace(&mut self.environment, new);
@@ -434,7 +494,7 @@ impl Renderer {
         config: &Config,
     ) -> Result<(Parts, Option<Environment>, Vec<Descriptors>), Error> {
         let gpu = &*self.gpu;
-        let parts = Parts::new(gpu, config, self.bubbles.as_ref())?;
+        let parts = Parts::new(gpu, config, (self.bubbles.as_ref(), self.shore.as_ref()))?;
         let same_environment = config.environment_size == self.config.environment_size;
         let environment = (!same_environment).then(|| Environment::new(gpu, config)).transpose()?;
         let descriptors =
@@ -454,7 +514,9 @@ impl Renderer {
         let convolving = self.convolving.as_ref().map(Convolving::memory);
         let foam = self.foam.as_ref().map(Foam::memory);
         let bubbles = self.bubbles.as_ref().map(Bubbles::memory);
-        for (images, buffers) in light.into_iter().chain(convolving).chain(foam).chain(bubbles) {
+        let shore = self.shore.as_ref().map(Shore::memory);
+        let all = light.into_iter().chain(convolving).chain(foam).chain(bubbles).chain(shore);
+        for (images, buffers) in all {
             memory.images += images;
             memory.buffers += buffers;
         }
@@ -514,13 +576,19 @@ struct Parts {
     convolving: Option<Convolving>,
     foam: Option<Foam>,
     bubbles: Option<Bubbles>,
+    shore: Option<Shore>,
     scene_copy: Option<Image>,
 }
 
 impl Parts {
-    /// `before`: bubbles until now, of which what still fits is kept.
-    fn new(gpu: &Gpu, config: &Config, before: Option<&Bubbles>) -> Result<Self, Error> {
-        let bubbles = config.bubbles.map(|own| Bubbles::new(gpu, config, &own, before));
+    /// `before`: what there was until now, of which what still fits is kept.
+    fn new(
+        gpu: &Gpu,
+        config: &Config,
+        before: (Option<&Bubbles>, Option<&Shore>),
+    ) -> Result<Self, Error> {
+        let bubbles = config.bubbles.map(|own| Bubbles::new(gpu, config, &own, before.0));
+        let shore = config.shore.map(|own| Shore::new(gpu, config, &own, before.1));
         Ok(Self {
             water: Water::new(gpu, config)?,
             composite: Composite::new(gpu, config)?,
@@ -528,6 +596,7 @@ impl Parts {
             convolving: Self::convolving(gpu, config)?,
             foam: config.diffuse.map(|diffuse| Foam::new(gpu, config, &diffuse)).transpose()?,
             bubbles: bubbles.transpose()?,
+            shore: shore.transpose()?,
             scene_copy: Self::scene_copy(gpu, config)?,
         })
     }
@@ -559,7 +628,7 @@ impl SlotState {
             uniforms: Buffer::new(
                 gpu,
                 "slot/uniforms",
-                (BUBBLES + size_of::<BubbleUniforms>()) as u64,
+                (SHORE + size_of::<ShoreUniforms>()) as u64,
                 vk::BufferUsageFlags::UNIFORM_BUFFER,
                 MemoryLocation::CpuToGpu,
             )?,
@@ -574,7 +643,7 @@ impl SlotState {
         let water = crate::water::chunks(&gpu.limits, config).1;
         let near = config.diffuse.filter(|_| config.bubbles.is_some_and(|own| own.hand_over));
         let near = near.map_or(0, |diffuse| near_sets(&gpu.limits, &diffuse));
-        137 + 27 * water + 4 * diffuse + near + diffuse_sets(&gpu.limits, config)
+        145 + 27 * water + 4 * diffuse + near + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.
@@ -601,7 +670,7 @@ impl SlotState {
 fn kept(
     config: &Config,
     water: &Water,
-    (foam, bubbles): (Option<&Foam>, Option<&Bubbles>),
+    (foam, bubbles, shore): (Option<&Foam>, Option<&Bubbles>, Option<&Shore>),
     (light, convolving): (Option<&Light>, Option<&Convolving>),
     size: vk::Extent2D,
 ) -> Vec<Layer> {
@@ -612,6 +681,7 @@ fn kept(
         layers.extend(convolving.map(Convolving::layer));
         layers.extend(foam.into_iter().flat_map(|foam| foam.kept(size)));
         layers.extend(bubbles.into_iter().flat_map(|bubbles| bubbles.kept(size)));
+        layers.extend(shore.map(|shore| shore.kept(size)));
     }
     layers.extend(water.motion(size));
     layers

@@ -66,6 +66,8 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 diffuse_shadow; // what of a shadow takes light; its offset
     vec4 diffuse_color; // albedo, twice
     vec4 diffuse_sun;   // the sun's light on what faces it, over 2 pi
+    vec4 shore_color;   // radiance of shoreline foam; its opacity
+    vec4 contact_color; // of contact foam; what of it is light on it
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

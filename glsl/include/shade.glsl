@@ -6,7 +6,7 @@
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
 // light of diffuse particles, bubble foam.
 // Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
-// surface_noise.glsl, intensity.glsl.
+// surface_noise.glsl, intensity.glsl, scene_color.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -15,7 +15,6 @@ layout(constant_id = 2) const uint NEAR = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
-layout(set = 0, binding = 4) uniform sampler2D scene_color;
 layout(set = 0, binding = 5) uniform sampler2D scene_depth;
 layout(set = 0, binding = 6) uniform samplerCube environment;
 layout(set = 0, binding = 12) uniform sampler2D sheets;
@@ -142,13 +141,6 @@ vec2 bent(vec2 offset) {
     return offset * inversesqrt(1.0 + dot(share, share));
 }
 
-// Colour of the scene at a place, filtered.
-vec3 scene_at(vec2 pixel) {
-    vec2 texel = clamp(pixel * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
-    texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
-    return textureLod(scene_color, texel, 0.0).rgb;
-}
-
 // Scene colour behind the water at an offset in pixels; never scene that stands in front of it.
 // The look-up goes half the way to where that begins or the view ends, and no farther: dropping
 // the offset there would leave a seam, going all the way would smear what lies at the edge.
@@ -184,11 +176,6 @@ float fresnel(float cosine) {
     float x2 = x * x;
     float power = frame.fresnel.z == 5.0 ? x2 * x2 * x : pow(x, frame.fresnel.z);
     return clamp(frame.fresnel.x + frame.fresnel.y * power, 0.0, 1.0);
-}
-
-// What of the light in the sun there is where so much of the sun's comes.
-vec3 under(vec3 sun) {
-    return mix(frame.shade.rgb, vec3(1.0), sun);
 }
 
 // What a sheet of water does to the light from behind it.
@@ -581,6 +568,10 @@ vec3 with_soap(vec3 c, vec2 pixel) {
 // All layers at a pixel where water, foam or spray is: spray lies over the others.
 vec3 shade(vec2 pixel, float front) {
     vec3 c = layers_at(pixel, front);
+    if (SHORE == 1u && frame.target.z >= FOAM_TOO) {
+        vec4 coat = texelFetch(shore_foam, ivec2(pixel), 0);
+        c = with_contact(c, coat.w, coat.z);
+    }
     if (DIFFUSE == 1u && frame.target.z >= FOAM_TOO) {
         float over = intensity_of(texelFetch(diffuse_thickness, ivec2(pixel), 0).x);
         c = mix(c, diffuse_color(texelFetch(diffuse_light, ivec2(pixel), 0)), over);

@@ -195,7 +195,6 @@ impl Gpu {
 }
 
 /// The clear value of a depth attachment.
-#[cfg(feature = "headless")]
 pub fn clear_depth(depth: f32) -> vk::ClearValue {
     vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } }
 }

@@ -151,6 +151,7 @@ impl Headless {
             particles,
             diffuse,
             bubbles,
+            shore: self.shores.shore(),
             camera: *camera,
             sun,
             previous: self.previous,
@@ -214,7 +215,7 @@ impl Headless {
 }
 
 /// All of an image of ours as a host hands it in.
-fn host_image(image: &Image, rest: Access) -> HostImage {
+pub(super) fn host_image(image: &Image, rest: Access) -> HostImage {
     HostImage {
         image: image.handle,
         view: image.view,

@@ -295,7 +295,7 @@ pub(super) const HOST_WRITE: Access = Access::new(
 );
 
 /// A buffer for shaders to read, with its contents.
-fn input(gpu: &Arc<Gpu>, name: &str, bytes: &[u8]) -> Result<Buffer, Error> {
+pub(super) fn input(gpu: &Arc<Gpu>, name: &str, bytes: &[u8]) -> Result<Buffer, Error> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
     let size = bytes.len().max(16) as u64;
     let mut buffer = Buffer::new(gpu, name, size, usage, MemoryLocation::CpuToGpu)?;

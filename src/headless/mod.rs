@@ -16,6 +16,7 @@ mod inputs;
 mod levels;
 mod readback;
 pub mod scene;
+mod shore;
 mod stage;
 mod submit;
 mod transfer;
@@ -31,6 +32,8 @@ use generate::Generating;
 pub use inputs::{Bubble, Diffuse, DiffuseParts};
 use inputs::{Diffusing, Foamed, Foaming};
 pub use readback::Picture;
+pub use shore::ShoreMesh;
+use shore::Shores;
 use stage::Stage;
 use submit::{Commands, begin, submit};
 
@@ -88,6 +91,7 @@ pub struct Headless {
     diffuse: Option<Diffusing>,
     bubbles: Option<Foamed>,
     heap: Option<Heap>,
+    shores: Shores,
     generating: Option<Generating>,
     foam: Option<Foaming>,
     region: Option<Region>,
@@ -138,6 +142,7 @@ impl Headless {
             diffuse: None,
             bubbles: None,
             heap: None,
+            shores: Shores::default(),
             generating: None,
             foam: None,
             region: None,
@@ -241,8 +246,9 @@ impl Headless {
     ///
     /// # Errors
     /// Device loss.
-    pub fn finish(self) -> Result<Device, Error> {
+    pub fn finish(mut self) -> Result<Device, Error> {
         let idle = self.device.wait_idle();
+        self.drop_shores();
         let Self { gpu, renderer, device, foam, generating, heap, .. } = self;
         if let Some(heap) = heap {
             // SAFETY: the device is idle, or lost.
@@ -259,7 +265,7 @@ impl Headless {
         // Freed with the shared objects.
         drop((self.commands, self.color, self.depth, self.scene));
         drop((self.positions, self.densities, self.velocities, self.ids, self.diffuse));
-        drop(self.bubbles);
+        drop((self.bubbles, self.shores));
         // SAFETY: the device is idle, or lost.
         unsafe { renderer.destroy() };
         gpu.destroy();

@@ -190,7 +190,8 @@ impl Headless {
     /// `motion.X` and `motion.Y` of `motion`; of diffuse particles there are `foam` (depth), `foam.intensity`,
     /// `foam.thickness`, `foam.submerged` (what of the thickness is behind the water's surface), `foam.normal.X`,
     /// `.Y`, `.Z`, `foam.radius` (of the search), `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`; of bubble foam
-    /// `bubbles` (depth) and `bubbles.layers` (how many blobs are drawn one behind the other).
+    /// `bubbles` (depth) and `bubbles.layers` (how many blobs are drawn one behind the other); `shore.amount` and
+    /// `contact.amount` are of shoreline and contact foam.
     ///
     /// # Errors
     /// No memory, and what Vulkan reports.
@@ -209,6 +210,7 @@ impl Headless {
             "foam.irradiance.R" | "foam.irradiance.G" | "foam.irradiance.B" | "foam.shadow" => {
                 "foam.irradiance"
             }
+            "shore.amount" | "contact.amount" => "shore",
             name => name,
         };
         let Some(layer) = self.layers.iter().find(|layer| layer.name == image).copied() else {
@@ -225,6 +227,13 @@ impl Headless {
             "foam.radius" | "foam.shadow" => 3,
             _ => 0,
         };
+        if layer.format == vk::Format::R8G8B8A8_UNORM {
+            let all: Picture<[u8; 4]> = self.read(layer.image, layer.format, area, layer.access)?;
+            // On the host's surface, or on the particles' water before it.
+            let contact = name == "contact.amount";
+            let part = |all: &[u8; 4]| if contact { all[1].max(all[3]) } else { all[0] };
+            return Ok(Some(all.map(|all| f32::from(part(all)) / 255.0)));
+        }
         if layer.format == vk::Format::R32G32B32A32_SFLOAT {
             let all: Picture<[f32; 4]> =
                 self.read(layer.image, layer.format, area, layer.access)?;

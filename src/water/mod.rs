@@ -66,6 +66,8 @@ pub(crate) struct Recording<'a> {
     pub levels: Resource,
     /// The numbers of bubble foam.
     pub bubbles: Resource,
+    /// Those of shoreline and contact foam.
+    pub shore: Resource,
     /// Where that takes over from sprites of diffuse particles, if it does.
     pub hand_over: Option<Resource>,
     /// The scene's depth, sampled.

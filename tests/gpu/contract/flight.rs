@@ -171,6 +171,7 @@ fn two_renderers_share_a_device_and_a_command_buffer() {
             camera: shots[i].camera,
             diffuse: None,
             bubbles: None,
+            shore: None,
             sun: Default::default(),
             previous: None,
             settings: &shots[i].settings,

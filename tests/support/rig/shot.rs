@@ -77,6 +77,7 @@ impl Shot {
             camera: self.camera,
             diffuse: None,
             bubbles: None,
+            shore: None,
             sun: self.sun,
             previous: self.previous,
             settings: &self.settings,

@@ -169,6 +169,7 @@ pub fn draw(
             camera: Camera { view, projection },
             diffuse: None,
             bubbles: None,
+            shore: None,
             sun: Sun::default(),
             previous: None,
             settings: &settings,

@@ -1,0 +1,37 @@
+// Colour of the scene, with the foam that lies on its water as a coat. Needs frame.glsl.
+// Reads: scene colour, shoreline and contact foam.
+
+// 1: there may be some; else it is not read.
+layout(constant_id = 24) const uint SHORE = 0;
+
+layout(set = 0, binding = 4) uniform sampler2D scene_color;
+layout(set = 0, binding = 31) uniform sampler2D shore_foam;
+
+// What of the light in the sun there is where so much of the sun's comes.
+vec3 under(vec3 sun) {
+    return mix(frame.shade.rgb, vec3(1.0), sun);
+}
+
+// Along shores, at contacts on the host's surface, the sun's share of their light, on the particles' water.
+vec4 coat_at(vec2 pixel) {
+    vec2 place = clamp(pixel, vec2(0.5), frame.extent.xy - 0.5) / vec2(textureSize(shore_foam, 0));
+    return textureLod(shore_foam, place, 0.0);
+}
+
+vec3 with_contact(vec3 c, float amount, float sun) {
+    vec3 light = mix(vec3(1.0), under(vec3(sun)), frame.contact_color.w);
+    return mix(c, frame.contact_color.rgb * light, amount);
+}
+
+vec3 coated(vec3 c, vec4 coat) {
+    c = mix(c, frame.shore_color.rgb * under(vec3(coat.z)), coat.x * frame.shore_color.w);
+    return with_contact(c, coat.y, coat.z);
+}
+
+// At a place, filtered.
+vec3 scene_at(vec2 pixel) {
+    vec2 texel = clamp(pixel * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
+    texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
+    vec3 c = textureLod(scene_color, texel, 0.0).rgb;
+    return SHORE == 1u ? coated(c, coat_at(pixel)) : c;
+}

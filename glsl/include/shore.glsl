@@ -1,0 +1,62 @@
+// What the passes of shoreline and contact foam share: where the water's surface is, the numbers of the block.
+// Horizontal places p are metres along two axes of the world's that are level. Needs frame.glsl.
+// Reads: the block of shoreline and contact foam.
+
+layout(set = 0, binding = 1, std140) uniform ShoreFrame {
+    vec4 east;          // eye space -> first level axis
+    vec4 north;         // the second
+    vec4 height;        // height over the water's level
+    vec4 surface;       // texels of the host's surface a pixel, its size
+    vec4 surface_part;  // its first texel; 1 = there is a level, 2 = a depth, 0 neither; metres of solids before it that count as behind
+    vec4 map;           // corner of the map in p, texels a metre, texels each way
+    vec4 reach;         // 1 over metres of foam to sea, inland; v in which it ends; 0 no shoreline, 1 strip, 2 map, 3 screen
+    vec4 waves;         // frequency, phase, a, b
+    vec4 mixed;         // floor, ratio of waves, of the web, threshold
+    vec4 web;           // a', b'; texels of the web, of the noise
+    vec4 web_warp;      // metres, repetitions a metre, how far it has moved
+    vec4 warp;          // metres, repetitions a metre; layers of the web; different scales of noise
+    vec4 noise_scale;   // repetitions a metre of each
+    vec4 noise[4];      // at each: of the frequency, of the phase, of what is affine, of the threshold
+    vec4 layer[4];      // web at p: (x p.x - y p.y, y p.x + x p.y) + zw
+    vec4 layer_weight;
+    vec4 contact;       // 1 over metres on the host's surface, on the particles'; how much the mask takes; 0 distance, 1 view, 2 vertical
+    vec4 contact_mask;  // repetitions of the web a metre, how far it has moved; 1 = the host has one
+    vec4 mask;          // texels of it a pixel, its size
+    vec4 mask_part;     // its first texel; opacity on the host's surface, on the particles'
+} shore;
+
+// A point of the water's surface in a pixel, and how far it goes from pixel to pixel.
+struct Water {
+    float z;     // eye depth; no surface: 0 or less
+    vec3 ray;    // eye space, at depth 1
+    vec2 p;
+    mat2 across; // metres of p a pixel to the right, and down
+};
+
+// The point of a ray at a depth, on a level surface.
+Water water_point(vec3 ray, float z) {
+    Water w;
+    w.z = z;
+    w.ray = ray;
+    w.p = vec2(dot(shore.east.xyz, ray), dot(shore.north.xyz, ray)) * z + vec2(shore.east.w, shore.north.w);
+    // Where the surface is level its depth changes with the ray.
+    float fall = dot(shore.height.xyz, ray);
+    fall = abs(fall) < 1.0e-6 ? 1.0e-6 : fall;
+    vec3 right = vec3(frame.slope.x, 0.0, 0.0);
+    vec3 down = vec3(0.0, frame.slope.y, 0.0);
+    right -= dot(shore.height.xyz, right) / fall * ray;
+    down -= dot(shore.height.xyz, down) / fall * ray;
+    w.across = z * mat2(dot(shore.east.xyz, right), dot(shore.north.xyz, right),
+                        dot(shore.east.xyz, down), dot(shore.north.xyz, down));
+    return w;
+}
+
+// Metres a pixel is wide, of a square of the same area.
+float width_of(Water w) {
+    return sqrt(abs(determinant(w.across)));
+}
+
+// Whether solids at a depth (0 and less: none) leave the surface to be seen.
+bool seen_before(float z, float scene) {
+    return z > 0.0 && z < EMPTY && !(scene > 0.0 && scene + shore.surface_part.w < z);
+}

@@ -1,0 +1,46 @@
+#version 460
+// Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam), whose surface is the smoothed one.
+// Reads: depth, smoothed, levels, scene depth, web, mask, what sunlight.glsl reads. Writes: contact foam, and the sun's
+// share of its light, of the pixels that have some.
+
+#include "frame.glsl"
+#include "level.glsl"
+#include "smoothed_depth.glsl"
+#include "shore.glsl"
+#include "shoreline.glsl"
+#include "contact.glsl"
+#include "convolution.glsl"
+#include "intensity.glsl"
+#include "sunlight.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 3) uniform sampler2D depth;
+layout(set = 0, binding = 8, rgba8) uniform image2D foam;
+
+#include "shore_light.glsl"
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, ivec2(frame.extent.xy)))) {
+        return;
+    }
+    float front = texelFetch(depth, texel, 0).x;
+    vec2 pixel = vec2(texel) + 0.5;
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
+    // The smoothed surface is off by less than the border's threshold.
+    float near = contact_distance(ray, front + frame.surface.w, scene) * shore.contact.y;
+    bool go = front < EMPTY && scene > 0.0 && near < 1.0;
+    for (; go; go = false) {
+        float z = smoothed_at(pixel, front);
+        float far = contact_distance(ray, z, scene) * shore.contact.y;
+        Water w = water_point(ray, z);
+        float amount = far < 1.0 ? eased(clamp(1.0 - far, 0.0, 1.0) * masked(pixel, w.p, width_of(w))) : 0.0;
+        amount *= shore.mask_part.w;
+        if (amount > 0.0) {
+            vec4 there = imageLoad(foam, texel);
+            imageStore(foam, texel, vec4(there.xy, sun_share(ray * z, pixel), amount));
+        }
+    }
+}

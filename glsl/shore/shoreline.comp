@@ -1,0 +1,88 @@
+#version 460
+// Pass `shoreline`: foam on the host's water surface: along shores by the map of distances or the bottom's slope (blog),
+// and round what stands in it (Lettier, Foam).
+// Not in the sources: no mesh; what a pixel covers of the foam, where they clip.
+// Reads: list of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
+// foam, contact foam, the sun's share of their light.
+
+#include "frame.glsl"
+#include "shore.glsl"
+#include "shoreline.glsl"
+#include "contact.glsl"
+#include "convolution.glsl"
+#include "intensity.glsl"
+#include "sunlight.glsl"
+
+layout(local_size_x = 16, local_size_y = 16) in;
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+layout(set = 0, binding = 8, rgba8) uniform image2D foam;
+layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
+layout(set = 0, binding = 10, std430) readonly buffer Arguments { uint arguments[8]; };
+layout(push_constant, std430) uniform Push { uint across; } push; // tiles
+
+#include "shore_light.glsl"
+#include "shore_place.glsl"
+
+// Where the depth alone is known: as far from the shore as the bottom's slope would have it.
+float v_by_depth(vec2 pixel, vec3 ray, float scene) {
+    vec3 places[3];
+    places[0] = ray * scene;
+    for (int i = 1; i < 3; ++i) {
+        // Of the two beside a pixel the one whose depth is nearer to its own.
+        vec2 to = i == 1 ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+        float best = EMPTY;
+        for (int k = -1; k < 2; k += 2) {
+            vec2 beside = clamp(pixel + float(k) * to, vec2(0.5), frame.extent.xy - 0.5);
+            float z = eye_depth(texelFetch(scene_depth, scene_texel(beside), 0).x);
+            if (z > 0.0 && abs(z - scene) < abs(best - scene) && beside != pixel) {
+                best = z;
+                places[i] = vec3(ray_slope(beside, frame.slope), -1.0) * z;
+            }
+        }
+        places[i] = best < EMPTY ? places[i] : places[0];
+    }
+    vec3 normal = cross(places[1] - places[0], places[2] - places[0]);
+    float up = abs(dot(shore.height.xyz, normal));
+    float level = sqrt(max(dot(normal, normal) - up * up, 0.0));
+    float below = -dot(shore.height.xyz, places[0]) - shore.height.w;
+    return v_of(-max(below, 0.0) * up / max(level, 1.0e-3 * up + 1.0e-20));
+}
+
+void main() {
+    uint i = gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x;
+    uint tile = i < arguments[3] ? list[i] : 0xffffffffu;
+    uvec2 texel = 16u * uvec2(tile % push.across, tile / push.across) + gl_LocalInvocationID.xy;
+    vec2 pixel = vec2(texel) + 0.5;
+    bool inside = tile != 0xffffffffu && all(lessThan(pixel, frame.extent.xy));
+    pixel = min(pixel, frame.extent.xy - 0.5);
+    vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    float z = surface_at(pixel, ray);
+    bool own = inside && seen_before(z, scene);
+    for (bool go = own; go; go = false) {
+        Water w = water_point(ray, z);
+        vec2 dv = vec2(0.0);
+        float way = shore.reach.w;
+        float v = 0.0;
+        for (bool go = way == 2.0; go; go = false) {
+            v = mapped(w, dv);
+        }
+        for (bool go = way > 2.5 && scene > 0.0; go; go = false) {
+            v = v_by_depth(pixel, ray, scene);
+        }
+        float line = 0.0;
+        for (bool go = v > 0.0 && v < 2.0; go; go = false) {
+            line = covered(shoreline_at(w.p, v, w.across, dv), pixel);
+        }
+        float far = contact_distance(ray, z, scene) * shore.contact.x;
+        float amount = 0.0;
+        for (bool go = far >= 0.0 && far < 1.0; go; go = false) {
+            amount = eased((1.0 - far) * masked(pixel, w.p, width_of(w))) * shore.mask_part.z;
+        }
+        for (bool go = line + amount > 0.0; go; go = false) {
+            // Where there is a strip its foam is here.
+            vec4 there = way == 1.0 ? imageLoad(foam, ivec2(texel)) : vec4(0.0);
+            imageStore(foam, ivec2(texel), vec4(max(line, there.x), amount, sun_share(ray * z, pixel), 0.0));
+        }
+    }
+}

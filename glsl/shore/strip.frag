@@ -1,0 +1,34 @@
+#version 460
+// Pass `shoreline`: foam of the host's strip, by its own v (blog, Sec. IV to VIII).
+// Reads: scene depth, noise, web, what sunlight.glsl reads. Writes: shoreline foam, the sun's share of its light.
+
+#include "frame.glsl"
+#include "shore.glsl"
+#include "shoreline.glsl"
+#include "convolution.glsl"
+#include "intensity.glsl"
+#include "sunlight.glsl"
+
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+
+layout(location = 0) in vec3 eye;
+layout(location = 1) in float v;
+
+layout(location = 0) out vec4 foam;
+
+#include "shore_light.glsl"
+
+void main() {
+    vec2 pixel = gl_FragCoord.xy;
+    float z = -eye.z;
+    Water w = water_point(eye / z, z);
+    vec2 dv = vec2(dFdxFine(v), dFdyFine(v));
+    float line = covered(shoreline_at(w.p, v, w.across, dv), pixel);
+    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    line *= seen_before(z, scene) && v > 0.0 && v < 2.0 ? 1.0 : 0.0;
+    float sun = 1.0;
+    for (bool go = line > 0.0; go; go = false) {
+        sun = sun_share(eye, pixel);
+    }
+    foam = vec4(line, 0.0, sun, 0.0);
+}

@@ -1,0 +1,77 @@
+#version 460
+// Pass `web`: a level of the web or the noise as half floats, for a copy to its image. Of the web the mean and the mean of
+// the square, by which what a pixel cannot show is known as a variance. Not in the source.
+// Reads: texels as the host has them, or 32-bit floats, or the level before. Writes: the level.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+// 0: web, 1: noise.
+layout(constant_id = 0) const uint NOISE = 0;
+// 0: the level before, 1: floats, 2: the host's image.
+layout(constant_id = 1) const uint FROM = 0;
+
+layout(set = 0, binding = 0, std430) readonly buffer Floats { float floats[]; };
+layout(set = 0, binding = 1, std430) buffer Halves { uint halves[]; };
+layout(set = 0, binding = 2) uniform sampler2D image;
+
+layout(push_constant, std430) uniform Push {
+    vec4 part;   // of the host's image: first texel and size
+    uint size;   // of this level
+    uint first;  // word of the level
+    uint before; // of the one before
+} push;
+
+const uint WORDS = NOISE + 1u;
+
+vec4 before_at(uvec2 at) {
+    uint word = push.before + WORDS * (at.y * 2u * push.size + at.x);
+    vec2 low = unpackHalf2x16(halves[word]);
+    return NOISE == 1u ? vec4(low, unpackHalf2x16(halves[word + 1u])) : vec4(low, 0.0, 0.0);
+}
+
+// Bilinear, or the mean of what a texel covers where there are more of them; the image closes on itself.
+float host_at(uvec2 at) {
+    vec2 step = push.part.zw / float(push.size);
+    ivec2 taps = max(ivec2(ceil(step)), ivec2(1));
+    float sum = 0.0;
+    for (int y = 0; y < taps.y; ++y) {
+        for (int x = 0; x < taps.x; ++x) {
+            vec2 place = (vec2(at) + (vec2(x, y) + 0.5) / vec2(taps)) * step - 0.5;
+            ivec2 base = ivec2(floor(place));
+            vec2 f = place - vec2(base);
+            ivec2 size = ivec2(push.part.zw);
+            for (int i = 0; i < 4; ++i) {
+                ivec2 texel = base + ivec2(i & 1, i >> 1);
+                texel += size * ivec2(lessThan(texel, ivec2(0))) - size * ivec2(greaterThanEqual(texel, size));
+                float weight = ((i & 1) == 0 ? 1.0 - f.x : f.x) * (i < 2 ? 1.0 - f.y : f.y);
+                float value = texelFetch(image, texel + ivec2(push.part.xy), 0).x;
+                // What is no number is no foam.
+                sum += weight * (value > 0.0 ? min(value, 1.0) : 0.0);
+            }
+        }
+    }
+    return sum / float(taps.x * taps.y);
+}
+
+void main() {
+    uvec2 at = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(at, uvec2(push.size)))) {
+        return;
+    }
+    uint texel = at.y * push.size + at.x;
+    vec4 value;
+    if (FROM == 0u) {
+        value = 0.25 * (before_at(2u * at) + before_at(2u * at + uvec2(1, 0)) + before_at(2u * at + uvec2(0, 1))
+                        + before_at(2u * at + 1u));
+    } else if (NOISE == 1u) {
+        value = vec4(floats[4u * texel], floats[4u * texel + 1u], floats[4u * texel + 2u], floats[4u * texel + 3u]);
+    } else {
+        float web = FROM == 1u ? floats[texel] : host_at(at);
+        value = vec4(web, web * web, 0.0, 0.0);
+    }
+    uint word = push.first + WORDS * texel;
+    halves[word] = packHalf2x16(value.xy);
+    if (NOISE == 1u) {
+        halves[word + 1u] = packHalf2x16(value.zw);
+    }
+}

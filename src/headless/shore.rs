@@ -1,0 +1,186 @@
+//! Shoreline and contact foam: what the stand-in host's water is and where its shores are.
+
+use std::sync::Arc;
+
+use ash::vk;
+use glam::Mat4;
+
+use super::Headless;
+use super::inputs::{HOST_WRITE, input, stream};
+use crate::contract::{Shore, Shoreline, Slot, Strip, Triangles};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{COMPUTE_SAMPLED, NOTHING};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::shore::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
+
+/// Triangles of a mesh: vertices, three of which each triangle has.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ShoreMesh<'a> {
+    /// Places.
+    pub positions: &'a [[f32; 3]],
+    /// Three for each triangle.
+    pub indices: &'a [u32],
+}
+
+/// The same on the device.
+struct Meshed {
+    positions: Buffer,
+    indices: Buffer,
+    counts: [u32; 2],
+}
+
+impl Meshed {
+    fn new(gpu: &Arc<Gpu>, mesh: &ShoreMesh<'_>) -> Result<Self, Error> {
+        Ok(Self {
+            positions: input(gpu, "headless/shore", bytemuck::cast_slice(mesh.positions))?,
+            indices: input(gpu, "headless/shore", bytemuck::cast_slice(mesh.indices))?,
+            counts: [mesh.positions.len() as u32, mesh.indices.len() as u32],
+        })
+    }
+
+    fn triangles(&self) -> Triangles {
+        let [vertices, indices] = self.counts;
+        Triangles {
+            positions: stream(&self.positions, 12),
+            vertices,
+            indices: Some((stream(&self.indices, 4), indices)),
+        }
+    }
+}
+
+/// What there is of them.
+#[derive(Default)]
+pub(super) struct Shores {
+    /// Of the frames; a strip or a map of ours takes the place of its shoreline.
+    shore: Option<Shore>,
+    strip: Option<(Meshed, Buffer)>,
+    map: Option<(ShoreMap, Vec<Meshed>)>,
+}
+
+impl Shores {
+    /// As a frame takes it.
+    pub fn shore(&self) -> Option<Shore> {
+        let strip = self.strip.as_ref().map(|(mesh, v)| {
+            let v = stream(v, 4);
+            let strip =
+                Strip { triangles: mesh.triangles(), v, before: HOST_WRITE, after: HOST_WRITE };
+            Shoreline::Strip(strip)
+        });
+        let map = self.map.as_ref().and_then(|(map, _)| map.coast()).map(Shoreline::Map);
+        self.shore.map(|shore| Shore { shoreline: strip.or(map).or(shore.shoreline), ..shore })
+    }
+}
+
+impl Headless {
+    /// The next frames' shoreline and contact foam, with [`Config::shore`](crate::Config::shore): its surface, mask and up.
+    /// Where there is a [`shore_strip`](Self::shore_strip) or a [`shore_map`](Self::shore_map) these are its shoreline.
+    pub fn shore(&mut self, shore: Option<Shore>) {
+        self.shores.shore = shore;
+    }
+
+    /// A strip of foam with the v of each vertex, in place of what there was.
+    ///
+    /// # Errors
+    /// No memory; of other numbers of them; what Vulkan reports.
+    pub fn shore_strip(&mut self, mesh: &ShoreMesh<'_>, v: &[f32]) -> Result<(), Error> {
+        self.shores.strip = None;
+        self.gpu.bury();
+        if v.len() != mesh.positions.len() {
+            let why = format!("{} of {} vertices", v.len(), mesh.positions.len());
+            return Err(Error::bad("v", why));
+        }
+        let own = Meshed::new(&self.gpu, mesh)?;
+        let v = input(&self.gpu, "headless/shore/v", bytemuck::cast_slice(v))?;
+        self.shores.strip = Some((own, v));
+        Ok(())
+    }
+
+    /// A map of distances to the shores of meshes, `size` texels each way, in place of what there was; filled by
+    /// [`shore_map_step`](Self::shore_map_step).
+    ///
+    /// # Errors
+    /// As [`ShoreMap::new`].
+    pub fn shore_map(&mut self, size: u32, meshes: &[ShoreMesh<'_>]) -> Result<(), Error> {
+        self.drop_shores();
+        let own = meshes.iter().map(|mesh| Meshed::new(&self.gpu, mesh));
+        let own = own.collect::<Result<Vec<_>, _>>()?;
+        let config = ShoreMapConfig { size, max_meshes: meshes.len().max(1) as u32 };
+        // SAFETY: the device is ours and outlives the map.
+        let map = unsafe { ShoreMap::new(&self.device.host(1), &config) }?;
+        self.shores.map = Some((map, own));
+        Ok(())
+    }
+
+    /// The land has changed: where each of its meshes is now. `changed`: as [`ShoreMapStep::changed`].
+    ///
+    /// # Errors
+    /// No map, other numbers of meshes, and as [`ShoreMap::record_step`].
+    pub fn shore_map_step(
+        &mut self,
+        area: &Area,
+        transforms: &[Mat4],
+        changed: Option<[[f32; 2]; 2]>,
+    ) -> Result<(), Error> {
+        let Some((mut map, meshes)) = self.shores.map.take() else {
+            return Err(Error::bad("shore_map", "none: call shore_map first"));
+        };
+        let result = if transforms.len() == meshes.len() {
+            let all: Vec<_> = meshes
+                .iter()
+                .zip(transforms)
+                .map(|(mesh, &transform)| MapMesh { triangles: mesh.triangles(), transform })
+                .collect();
+            let heights = Heights::Meshes(&all);
+            let (before, after) = (HOST_WRITE, HOST_WRITE);
+            let step = ShoreMapStep { slot: Slot(0), area: *area, heights, changed, before, after };
+            // SAFETY: submitted at once, and waited for.
+            self.run(|_, cmd| unsafe { map.record_step(cmd, &step) })
+        } else {
+            let why = format!("{} of {} meshes", transforms.len(), meshes.len());
+            Err(Error::bad("transforms", why))
+        };
+        self.shores.map = Some((map, meshes));
+        result
+    }
+
+    /// Nanoseconds of the last step of the map; `None` before there is one.
+    pub fn shore_map_time(&mut self) -> Option<f64> {
+        let (map, _) = self.shores.map.as_mut()?;
+        map.timings(Slot(0)).first().map(|timing| timing.nanoseconds)
+    }
+
+    /// The web of the next frames, of so many texels each way: 1 where foam is first, 0 where it is last; in place of the
+    /// built-in one.
+    ///
+    /// # Errors
+    /// Of other numbers of texels; no [`Config::shore`](crate::Config::shore), no memory, what Vulkan reports.
+    pub fn shore_web(&mut self, [width, height]: [u32; 2], texels: &[f32]) -> Result<(), Error> {
+        if width == 0 || height == 0 || texels.len() as u64 != u64::from(width) * u64::from(height)
+        {
+            let why = format!("{} texels of {width}x{height}", texels.len());
+            return Err(Error::bad("web", why));
+        }
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let extent = vk::Extent2D { width, height };
+        let desc = ImageDesc::new("headless/web", extent, vk::Format::R32_SFLOAT, usage);
+        let image = Image::new(&self.gpu, &desc)?;
+        let staged = super::transfer::staging(&self.gpu, bytemuck::cast_slice(texels))?;
+        self.renderer.collect(Slot(0));
+        self.run(|this, cmd| {
+            this.upload(cmd, &staged, &image, NOTHING, COMPUTE_SAMPLED);
+            let host = super::draw::host_image(&image, COMPUTE_SAMPLED);
+            // SAFETY: submitted at once, and waited for.
+            unsafe { this.renderer.record_web(cmd, Slot(0), &host) }
+        })
+    }
+
+    pub(super) fn drop_shores(&mut self) {
+        if let Some((map, _)) = self.shores.map.take() {
+            // SAFETY: every run waits for its end.
+            unsafe { map.destroy() };
+        }
+        self.gpu.bury();
+    }
+}

@@ -1,0 +1,71 @@
+//! Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam). Its surface is the smoothed one,
+//! so it comes when that is there; `shoreline` has what lies on the host's surface.
+//!
+//! Reads: depth, smoothed, scene depth, web, mask. Writes: foam, of the pixels that have some.
+
+use super::Given;
+use super::settings::ShoreConfig;
+use super::shoreline::{AFTER, Shore, edge_constant};
+use super::textures::Textures;
+use crate::contract::Config;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, FRAGMENT_SAMPLED};
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::shader;
+use crate::water::{Recording, WaterLayers};
+
+/// The pass.
+pub struct Contact {
+    pipeline: Pipeline,
+}
+
+impl Contact {
+    pub fn new(gpu: &Gpu, config: &Config, shore: &ShoreConfig) -> Result<Self, Error> {
+        let constants = [&[edge_constant(shore)][..], &crate::light::constants(config)].concat();
+        Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
+    }
+
+    /// The water's layers come and go as sampled by fragments.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        (shore, given): (&Shore, &Given<'_>),
+        textures: &Textures,
+        water: &WaterLayers<'_>,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let foam = shore.image();
+        let layers = [water.depth, water.smoothed];
+        let hand = |from, to| layers.map(|image| access::image(image, from, to));
+        let to = [
+            &hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED)[..],
+            &[access::image(foam, AFTER, COMPUTE_READ_WRITE)],
+        ];
+        gpu.barriers(cmd, &to.concat(), &[]);
+        let sampled =
+            |image: &crate::gpu::image::Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        let own = [
+            (0, r.uniforms),
+            (1, r.shore),
+            (2, r.scene_depth),
+            (3, sampled(water.depth)),
+            (28, textures.noise()),
+            (5, sampled(water.smoothed)),
+            (29, textures.web()),
+            (30, given.mask.unwrap_or(r.scene_depth)),
+            (8, Resource::storage(foam)),
+            (7, r.levels),
+        ];
+        let resources = [&own[..], &r.sunlight.resources()].concat();
+        r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
+        r.dispatch_over(r.extent, self.pipeline.local_size);
+        let back = [
+            &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED)[..],
+            &[access::image(foam, COMPUTE_READ_WRITE, AFTER)],
+        ];
+        gpu.barriers(cmd, &back.concat(), &[]);
+        Ok(())
+    }
+}

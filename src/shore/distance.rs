@@ -1,0 +1,652 @@
+//! Pass `map`: how far the shore is, at the points of a grid that lies still in the world, for shores without a mesh of
+//! their own. Not in the source, whose author asks for it (*Semi-procedural foam shader*, Sec. II).
+//!
+//! Heights from above, of the host's meshes or image; where they cross the water's level are seeds, whose nearest each
+//! texel finds by jump flooding (Rong, Tan, *Jump Flooding in GPU with Applications to Voronoi Diagram and Distance
+//! Transform*, 2006), with one more jump of a texel at the end. Where something has changed alone a window is made anew.
+//! Reads: the host's vertices or image. Writes: heights, seeds, distances (R32F, metres, below 0 in the water).
+
+use std::sync::Arc;
+
+use ash::vk;
+use bytemuck::NoUninit;
+use glam::{Mat4, Vec2, Vec3, Vec4};
+use gpu_allocator::MemoryLocation;
+
+use super::level_axes;
+use crate::check;
+use crate::contract::{Access, Coast, Host, HostImage, Slot, Triangles};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, DEPTH_ATTACHMENT,
+    FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::graveyard::Owned;
+use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::pass::{Attachment, Attachments, clear_depth};
+use crate::gpu::pipeline::{Graphics, Pipeline};
+use crate::gpu::shader;
+use crate::gpu::timing::{Timer, Timing};
+use crate::host_images::depth_layout;
+use crate::water::Window;
+use crate::water::settings::range;
+
+/// How the distances are read, by frames and by the host.
+const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
+/// Most jumps, and one more.
+const MOST_JUMPS: u32 = 14;
+
+/// What fixes a map's memory: 16 bytes a texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShoreMapConfig {
+    /// Texels each way, a multiple of 16 from 16 to 4096, default 1024.
+    pub size: u32,
+    /// Most meshes of a step, default 64.
+    pub max_meshes: u32,
+}
+
+impl Default for ShoreMapConfig {
+    fn default() -> Self {
+        Self { size: 1024, max_meshes: 64 }
+    }
+}
+
+/// What a map covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    /// World direction up, unit length.
+    pub up: [f32; 3],
+    /// Its middle along the two level axes: x and z where y is up. It is moved to whole texels, so that a map that follows
+    /// a camera shows the same.
+    pub center: [f32; 2],
+    /// Metres each way, (0, 1e6].
+    pub edge: f32,
+    /// Height of the water along `up`.
+    pub level: f32,
+    /// Metres from the shore up to which distances are found, (0, edge]: what the foam reaches, to sea or inland.
+    pub reach: f32,
+}
+
+/// Where the land's heights come from.
+#[derive(Clone, Copy, Debug)]
+pub enum Heights<'a> {
+    /// Meshes, drawn from above: what is over the water in any of them is land, what hangs over it too.
+    Meshes(&'a [MapMesh]),
+    /// Heights along [`Area::up`] at the middles of an image's texels, whose columns go along the first axis and rows along
+    /// the second, over all of the area as it was moved ([`Area::corner`]); any size; only sampled.
+    Image(HostImage),
+}
+
+/// A mesh of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct MapMesh {
+    /// Its triangles.
+    pub triangles: Triangles,
+    /// To world space.
+    pub transform: Mat4,
+}
+
+/// A step of the map, [`ShoreMap::record_step`]: only where something has changed.
+#[derive(Clone, Copy, Debug)]
+pub struct ShoreMapStep<'a> {
+    /// The slot; its earlier work is complete.
+    pub slot: Slot,
+    /// What is covered.
+    pub area: Area,
+    /// The land: all of it, whatever has changed.
+    pub heights: Heights<'a>,
+    /// What has changed since the last step, in metres along the level axes: its least and its greatest corner, where it was
+    /// and where it is. `None`: all of it, as where the area is another.
+    pub changed: Option<[[f32; 2]; 2]>,
+    /// Last use of the meshes' buffers before the step (layout ignored).
+    pub before: Access,
+    /// First use of them after it (layout ignored).
+    pub after: Access,
+}
+
+impl Area {
+    fn texel(&self, size: u32) -> f32 {
+        self.edge / size as f32
+    }
+
+    /// The corner of a map of so many texels each way, at the least of both axes.
+    pub fn corner(&self, size: u32) -> [f32; 2] {
+        let texel = f64::from(self.edge) / f64::from(size);
+        self.center.map(|c| {
+            let least = f64::from(c) - 0.5 * f64::from(self.edge);
+            ((least / texel).round() * texel) as f32
+        })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let up = Vec3::from(self.up);
+        if !up.is_finite() || (up.length() - 1.0).abs() > 1.0e-3 {
+            return Err(Error::bad("Area.up", "a direction of unit length expected"));
+        }
+        range("Area.center[0]", self.center[0], -1.0e9, 1.0e9)?;
+        range("Area.center[1]", self.center[1], -1.0e9, 1.0e9)?;
+        range("Area.edge", self.edge, 1.0e-6, 1.0e6)?;
+        range("Area.level", self.level, -1.0e9, 1.0e9)?;
+        range("Area.reach", self.reach, 1.0e-9, self.edge)
+    }
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct HeightPush {
+    east: [f32; 4],
+    north: [f32; 4],
+    height: [f32; 4],
+    position_word: u32,
+    position_stride: u32,
+    index_word: u32,
+    index_stride: u32,
+    vertices: u32,
+}
+shader::assert_layout!(
+    shader::SHORE_MAP_HEIGHT_VERT,
+    "Push",
+    HeightPush {
+        east,
+        north,
+        height,
+        position_word,
+        position_stride,
+        index_word,
+        index_stride,
+        vertices
+    }
+);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    window: [i32; 4],
+    size: i32,
+    jump: i32,
+    texel: f32,
+    level: f32,
+    part: [f32; 4],
+}
+shader::assert_layout!(
+    shader::SHORE_MAP_DISTANCE_COMP,
+    "Push",
+    Push { window, size, jump, texel, level, part }
+);
+
+struct Pipelines {
+    height: Pipeline,
+    /// Of our own heights, of the host's.
+    seed: [Pipeline; 2],
+    jump: Pipeline,
+    distance: [Pipeline; 2],
+}
+
+struct MapSlot {
+    descriptors: Descriptors,
+    timer: Timer,
+}
+
+/// The images, and what makes them.
+struct Grid {
+    pass: Owned<vk::RenderPass>,
+    framebuffer: Owned<vk::Framebuffer>,
+    pipelines: Pipelines,
+    heights: Image,
+    seeds: [Buffer; 2],
+    distances: Image,
+}
+
+/// Distances to the shore over an area of the world. Views share it.
+pub struct ShoreMap {
+    gpu: Arc<Gpu>,
+    config: ShoreMapConfig,
+    grid: Grid,
+    slots: Vec<MapSlot>,
+    /// Of the last step.
+    area: Option<Area>,
+    /// Whose heights were meshes'.
+    drawn: bool,
+}
+
+/// A part of the map in texels: first, and one past the last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Part {
+    first: [i32; 2],
+    end: [i32; 2],
+}
+
+impl Part {
+    fn whole(size: u32) -> Self {
+        Self { first: [0; 2], end: [size as i32; 2] }
+    }
+
+    fn grown(self, by: i32, size: u32) -> Self {
+        Self {
+            first: self.first.map(|v| v.saturating_sub(by).clamp(0, size as i32)),
+            end: self.end.map(|v| v.saturating_add(by).clamp(0, size as i32)),
+        }
+    }
+
+    fn size(self) -> [i32; 2] {
+        std::array::from_fn(|i| (self.end[i] - self.first[i]).max(0))
+    }
+
+    fn window(self) -> [i32; 4] {
+        let ([x, y], [w, h]) = (self.first, self.size());
+        [x, y, w, h]
+    }
+
+    fn is_empty(self) -> bool {
+        self.size().contains(&0)
+    }
+}
+
+impl ShoreMap {
+    /// Makes pipelines and memory.
+    ///
+    /// # Errors
+    /// Bad configuration, no memory, and what Vulkan reports.
+    ///
+    /// # Safety
+    /// As [`Renderer::new`](crate::Renderer::new).
+    pub unsafe fn new(host: &Host<'_>, config: &ShoreMapConfig) -> Result<Self, Error> {
+        let size = config.size;
+        if !size.is_multiple_of(16) || !(16..=4096).contains(&size) {
+            let why = format!("{size}: a multiple of 16 from 16 to 4096 expected");
+            return Err(Error::bad("ShoreMapConfig.size", why));
+        }
+        if config.max_meshes > 65_536 {
+            let why = format!("expected 0 to 65536, found {}", config.max_meshes);
+            return Err(Error::bad("ShoreMapConfig.max_meshes", why));
+        }
+        let gpu = Gpu::new(host)?;
+        match Self::made(&gpu, config) {
+            Ok(map) => Ok(map),
+            Err(error) => {
+                // Nothing was submitted with what was made before the failure.
+                gpu.destroy();
+                Err(error)
+            }
+        }
+    }
+
+    fn made(gpu: &Arc<Gpu>, config: &ShoreMapConfig) -> Result<Self, Error> {
+        use vk::{AttachmentLoadOp as Load, AttachmentStoreOp as Store, ImageUsageFlags as Usage};
+        let extent = vk::Extent2D { width: config.size, height: config.size };
+        let format = vk::Format::D32_SFLOAT;
+        let usage = Usage::DEPTH_STENCIL_ATTACHMENT | Usage::SAMPLED;
+        let heights = Image::new(gpu, &ImageDesc::new("shore/heights", extent, format, usage))?;
+        let samples = vk::SampleCountFlags::TYPE_1;
+        let depth = Attachment { format, samples, load: Load::CLEAR, store: Store::STORE };
+        let attachments = Attachments { depth: Some(depth), ..Attachments::default() };
+        let pass = gpu.render_pass("shore/heights", &attachments)?;
+        let framebuffer = gpu.framebuffer("shore/heights", pass.handle, heights.view, extent)?;
+        let height = Pipeline::tested(
+            gpu,
+            &Graphics {
+                vertex: shader::SHORE_MAP_HEIGHT_VERT,
+                fragment: shader::SHORE_MAP_HEIGHT_FRAG,
+                topology: vk::PrimitiveTopology::TRIANGLE_LIST,
+                pass: pass.handle,
+                blend: &[],
+                constants: &[],
+            },
+            Some(vk::CompareOp::GREATER_OR_EQUAL),
+        )?;
+        let both = |shader| -> Result<_, Error> {
+            Ok([
+                Pipeline::compute(gpu, shader, &[(0, 0)])?,
+                Pipeline::compute(gpu, shader, &[(0, 1)])?,
+            ])
+        };
+        let seeds = |name| {
+            let bytes = 4 * u64::from(config.size).pow(2);
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+            Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
+        };
+        let usage = Usage::STORAGE | Usage::SAMPLED | Usage::TRANSFER_SRC;
+        let format = vk::Format::R32_SFLOAT;
+        let slot = |_| {
+            Ok(MapSlot {
+                descriptors: Descriptors::new(gpu, config.max_meshes + MOST_JUMPS + 3)?,
+                timer: Timer::new(gpu)?,
+            })
+        };
+        let grid = Grid {
+            pass,
+            framebuffer,
+            pipelines: Pipelines {
+                height,
+                seed: both(shader::SHORE_MAP_SEED_COMP)?,
+                jump: Pipeline::compute(gpu, shader::SHORE_MAP_JUMP_COMP, &[])?,
+                distance: both(shader::SHORE_MAP_DISTANCE_COMP)?,
+            },
+            heights,
+            seeds: [seeds("shore/seeds/a")?, seeds("shore/seeds/b")?],
+            distances: Image::new(gpu, &ImageDesc::new("shore/distances", extent, format, usage))?,
+        };
+        Ok(Self {
+            gpu: gpu.clone(),
+            config: *config,
+            grid,
+            slots: (0..gpu.slots).map(slot).collect::<Result<_, Error>>()?,
+            area: None,
+            drawn: false,
+        })
+    }
+
+    /// Records that land or water have changed. Never submits, waits or allocates device memory.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] with the field, before the first command; after any other error discard the command buffer, and
+    /// let the next step be of all.
+    ///
+    /// # Safety
+    /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were recorded, before the
+    /// frames that show them.
+    pub unsafe fn record_step(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &ShoreMapStep<'_>,
+    ) -> Result<(), Error> {
+        self.check(step)?;
+        let size = self.config.size;
+        let area = step.area;
+        let corner = area.corner(size);
+        let texel = area.texel(size);
+        let reach = (area.reach / texel).ceil() as i32 + 2;
+        // The middle may move within a texel.
+        let same = |before: Area| Area { center: area.center, ..before } == area;
+        let known = self.area.is_some_and(|before| same(before) && before.corner(size) == corner);
+        let drawn = matches!(step.heights, Heights::Image(_)) || self.drawn;
+        let changed = match step.changed.filter(|_| known && drawn) {
+            Some([least, most]) => {
+                let at =
+                    |place: [f32; 2], i: usize| ((place[i] - corner[i]) / texel).floor() as i32;
+                let first = std::array::from_fn(|i| at(least, i));
+                let end = std::array::from_fn(|i| at(most, i).saturating_add(1));
+                Part { first, end }.grown(1, size)
+            }
+            None => Part::whole(size),
+        };
+        // A texel may be told of another height; what is that far may have another nearest, which may be as far again.
+        let told = changed.grown(reach, size);
+        let asked = told.grown(reach, size);
+        let first_time = self.area.is_none();
+        // Not known where a failure leaves it.
+        self.area = None;
+        let drawn = std::mem::take(&mut self.drawn);
+
+        let (gpu, grid) = (&*self.gpu, &self.grid);
+        let slot = &mut self.slots[step.slot.0 as usize];
+        slot.descriptors.reset(gpu)?;
+        slot.timer.reset(gpu, cmd);
+        gpu.begin_label(cmd, c"whitewater/map");
+        let scope = slot.timer.begin(gpu, cmd, c"map");
+        let descriptors = &slot.descriptors;
+        let (own, part, heights) = match &step.heights {
+            Heights::Meshes(meshes) => {
+                let own = Drawn { area: &area, corner, changed, meshes, before: drawn, size };
+                grid.record_heights(gpu, cmd, descriptors, step, &own)?;
+                let part = [2.0 * area.edge, -area.edge, 0.0, 0.0];
+                let nearest = gpu.samplers.nearest;
+                (0, part, Resource::Sampled(grid.heights.view, nearest))
+            }
+            Heights::Image(image) => {
+                let used = Access { layout: depth_layout(image), ..COMPUTE_SAMPLED };
+                let to = access::raw_image(image.image, image.aspect, image.before, used);
+                gpu.barriers(cmd, &[to], &[]);
+                let vk::Rect2D { offset, extent } = image.rect;
+                let part =
+                    [offset.x as f32, offset.y as f32, extent.width as f32, extent.height as f32];
+                (1, part, Resource::SampledIn(image.view, gpu.samplers.nearest, used.layout))
+            }
+        };
+        let push = |window: Part, jump| Push {
+            window: window.window(),
+            size: size as i32,
+            jump,
+            texel,
+            level: area.level,
+            part,
+        };
+        let dispatch = |window: Part| {
+            let [w, h] = window.size().map(|v| (v as u32).div_ceil(16));
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+            unsafe { gpu.device.cmd_dispatch(cmd, w, h, 1) };
+        };
+        let both = COMPUTE_READ_WRITE;
+        let [a, b] = &grid.seeds;
+        let wait = |which: &Buffer| gpu.barriers(cmd, &[], &[buffer(which.handle, both, both)]);
+        gpu.barriers(cmd, &[], &[a, b].map(|seeds| buffer(seeds.handle, both, both)));
+        if !asked.is_empty() {
+            let pipeline = &grid.pipelines.seed[own];
+            descriptors.bind(gpu, cmd, pipeline, &[(0, heights), (1, Resource::buffer(a))])?;
+            pipeline.push(gpu, cmd, &push(asked, 0));
+            dispatch(asked);
+        }
+        // The last of twice as far as is asked for, and one more of a texel.
+        let farthest = (reach as u32 + 1).next_power_of_two() as i32 / 2;
+        let jumps = std::iter::successors(Some(farthest.min(size as i32)), |jump| Some(jump / 2));
+        let jumps: Vec<_> = jumps.take_while(|jump| *jump > 0).chain([1]).collect();
+        let (mut from, mut to) = (a, b);
+        for jump in jumps.into_iter().filter(|_| !asked.is_empty()) {
+            wait(from);
+            let resources = [(0, Resource::buffer(from)), (1, Resource::buffer(to))];
+            descriptors.bind(gpu, cmd, &grid.pipelines.jump, &resources)?;
+            grid.pipelines.jump.push(gpu, cmd, &push(asked, jump));
+            dispatch(asked);
+            std::mem::swap(&mut from, &mut to);
+            wait(to);
+        }
+        wait(from);
+        let before = AFTER.and(COPY_READ);
+        let before = if first_time { before.discarded() } else { before };
+        gpu.barriers(cmd, &[access::image(&grid.distances, before, COMPUTE_WRITE)], &[]);
+        if !told.is_empty() {
+            let pipeline = &grid.pipelines.distance[own];
+            let target = Resource::storage(&grid.distances);
+            let resources = [(0, heights), (1, Resource::buffer(from)), (2, target)];
+            descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            pipeline.push(gpu, cmd, &push(told, 0));
+            dispatch(told);
+        }
+        let mut back = vec![access::image(&grid.distances, COMPUTE_WRITE, AFTER)];
+        if let Heights::Image(image) = &step.heights {
+            let used = Access { layout: depth_layout(image), ..COMPUTE_SAMPLED };
+            back.push(access::raw_image(image.image, image.aspect, used, image.after));
+        }
+        gpu.barriers(cmd, &back, &[]);
+        slot.timer.end(gpu, cmd, scope);
+        gpu.end_label(cmd);
+        self.area = Some(area);
+        self.drawn = own == 0;
+        Ok(())
+    }
+
+    fn check(&self, step: &ShoreMapStep<'_>) -> Result<(), Error> {
+        let fields = ["ShoreMapStep.slot", "ShoreMapStep.dt"];
+        check::step(fields, step.slot, self.slots.len(), 0.0)?;
+        step.area.check()?;
+        if let Some([least, most]) = step.changed
+            && !least.iter().zip(&most).all(|(a, b)| a.is_finite() && b.is_finite() && a <= b)
+        {
+            let why = format!("{least:?} to {most:?}: the least and the greatest corner expected");
+            return Err(Error::bad("ShoreMapStep.changed", why));
+        }
+        match &step.heights {
+            Heights::Image(image) => check::image("ShoreMapStep.heights.before", image),
+            Heights::Meshes(meshes) => {
+                if meshes.len() > self.config.max_meshes as usize {
+                    let most = self.config.max_meshes;
+                    let why =
+                        format!("{} meshes, ShoreMapConfig.max_meshes is {most}", meshes.len());
+                    return Err(Error::bad("ShoreMapStep.heights", why));
+                }
+                let fields = [
+                    "MapMesh.triangles.positions",
+                    "MapMesh.triangles.indices",
+                    "MapMesh.triangles",
+                ];
+                meshes.iter().try_for_each(|mesh| {
+                    mesh.triangles.check(fields, &self.gpu.limits)?;
+                    if mesh.transform.is_finite() {
+                        return Ok(());
+                    }
+                    Err(Error::bad("MapMesh.transform", "not finite"))
+                })
+            }
+        }
+    }
+
+    /// The map as frames take it, of the last step; none before the first.
+    pub fn coast(&self) -> Option<Coast> {
+        let area = self.area?;
+        let size = self.config.size;
+        Some(Coast {
+            view: self.grid.distances.view,
+            corner: area.corner(size),
+            edge: area.edge,
+            size,
+        })
+    }
+
+    /// Metres to the shore at the middle of each texel, below 0 in the water, R32F; farther than the reach only that it is
+    /// so. Transfer source; sampled by fragment and compute shaders after a step.
+    pub fn distances(&self) -> vk::Image {
+        self.grid.distances.handle
+    }
+
+    /// Times of the slot's last finished step, as [`Renderer::timings`](crate::Renderer::timings).
+    pub fn timings(&mut self, slot: Slot) -> &[Timing] {
+        match self.slots.get_mut(slot.0 as usize) {
+            Some(state) => state.timer.timings(&self.gpu),
+            None => &[],
+        }
+    }
+
+    /// Bytes of device memory in use.
+    pub fn memory(&self) -> u64 {
+        let grid = &self.grid;
+        grid.heights.size + grid.distances.size + grid.seeds.iter().map(|b| b.size).sum::<u64>()
+    }
+
+    /// Frees everything. A plain drop leaks it, safely.
+    ///
+    /// # Safety
+    /// The GPU is done with all recorded work, or it will never be submitted.
+    pub unsafe fn destroy(self) {
+        let gpu = self.gpu.clone();
+        drop(self);
+        gpu.destroy();
+    }
+}
+
+impl Grid {
+    /// The meshes from above, over what has changed.
+    fn record_heights(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        step: &ShoreMapStep<'_>,
+        drawn: &Drawn<'_>,
+    ) -> Result<(), Error> {
+        let Drawn { area, corner, changed, meshes, before, size } = *drawn;
+        let used: Vec<_> = meshes.iter().flat_map(buffers_of).collect();
+        let hosts = |from, to| -> Vec<_> {
+            let mut used = used.clone();
+            used.sort_by_key(|handle| vk::Handle::as_raw(*handle));
+            used.dedup();
+            used.into_iter().map(|handle| buffer(handle, from, to)).collect()
+        };
+        let sampled = COMPUTE_SAMPLED;
+        // Where it was not drawn before all of it is cleared.
+        let before = if before { sampled } else { sampled.discarded() };
+        gpu.barriers(
+            cmd,
+            &[access::image(&self.heights, before, DEPTH_ATTACHMENT)],
+            &hosts(step.before, VERTEX_READ),
+        );
+        if !changed.is_empty() {
+            let ([x, y], [w, h]) = (changed.first, changed.size());
+            let rect = vk::Rect2D {
+                offset: vk::Offset2D { x, y },
+                extent: vk::Extent2D { width: w as u32, height: h as u32 },
+            };
+            let (pass, target) = (self.pass.handle, self.framebuffer.handle);
+            gpu.begin_pass_with(cmd, pass, target, rect, &[clear_depth(0.0)]);
+            let size = size as f32;
+            let viewport = vk::Viewport {
+                x: 0.0,
+                y: 0.0,
+                width: size,
+                height: size,
+                min_depth: 0.0,
+                max_depth: 1.0,
+            };
+            // SAFETY: cmd is recording.
+            unsafe { gpu.device.cmd_set_viewport(cmd, 0, &[viewport]) };
+            let up = Vec3::from(area.up);
+            let [east, north] = level_axes(up);
+            let scale = 2.0 / area.edge;
+            let corner = Vec2::from(corner);
+            // The highest and the lowest that is told apart are as far from the water as the area is wide.
+            let rows = [
+                (east * scale).extend(-corner.x * scale - 1.0),
+                (north * scale).extend(-corner.y * scale - 1.0),
+                (up * 0.5 / area.edge).extend(0.5 - 0.5 * area.level / area.edge),
+            ];
+            for mesh in meshes {
+                let Triangles { positions, vertices, indices } = mesh.triangles;
+                let stream = indices.map(|(stream, _)| stream);
+                let windows = Window::all(gpu, &positions, [&stream], 0);
+                let Some((positions, [indices])) = windows else { continue };
+                let row = |row: Vec4| (mesh.transform.transpose() * row).to_array();
+                let resources = [(0, positions.resource), (1, indices.resource)];
+                descriptors.bind(gpu, cmd, &self.pipelines.height, &resources)?;
+                let push = HeightPush {
+                    east: row(rows[0]),
+                    north: row(rows[1]),
+                    height: row(rows[2]),
+                    position_word: positions.word,
+                    position_stride: positions.stride,
+                    index_word: indices.word,
+                    index_stride: indices.stride,
+                    vertices,
+                };
+                self.pipelines.height.push(gpu, cmd, &push);
+                // SAFETY: inside the render pass; the shader reads no vertex that is not there.
+                unsafe { gpu.device.cmd_draw(cmd, mesh.triangles.drawn(), 1, 0, 0) };
+            }
+            gpu.end_pass(cmd);
+        }
+        gpu.barriers(
+            cmd,
+            &[access::image(&self.heights, DEPTH_ATTACHMENT, sampled)],
+            &hosts(VERTEX_READ, step.after),
+        );
+        Ok(())
+    }
+}
+
+/// What of the meshes is drawn.
+struct Drawn<'a> {
+    area: &'a Area,
+    corner: [f32; 2],
+    changed: Part,
+    meshes: &'a [MapMesh],
+    /// The step before has drawn them too.
+    before: bool,
+    /// Texels of the map each way.
+    size: u32,
+}
+
+fn buffers_of(mesh: &MapMesh) -> impl Iterator<Item = vk::Buffer> {
+    let indices = mesh.triangles.indices.map(|(stream, _)| stream.buffer);
+    [mesh.triangles.positions.buffer].into_iter().chain(indices)
+}

@@ -1,0 +1,386 @@
+//! Foam that lies on water as a coat: along shores (*Semi-procedural foam shader*, an indie developer's blog) and round what
+//! stands in it (D. Lettier, *3D Game Shaders For Beginners*, Foam). A pass a file.
+
+mod contact;
+mod distance;
+pub mod settings;
+mod shoreline;
+pub mod texture;
+mod textures;
+
+use std::sync::Arc;
+
+use ash::vk;
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec2, Mat3, Vec3, Vec4};
+
+use crate::contract::{
+    Coast, Config, Frame, HostImage, Layer, Settings, Shoreline, Strip, Surface,
+};
+use crate::error::Error;
+use crate::frame::Lens;
+use crate::gpu::Gpu;
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::{Descriptors, Resource};
+use crate::gpu::image::Image;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::host_images::depth_layout;
+use crate::water::{Recording, WaterLayers};
+pub use distance::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
+pub use settings::{
+    ContactLook, Edge, Measure, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
+};
+pub(crate) use shoreline::DRAW;
+use textures::Textures;
+
+/// The block `ShoreFrame` of `glsl/include/shore.glsl`; its comments say what each member holds.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub(crate) struct ShoreUniforms {
+    east: [f32; 4],
+    north: [f32; 4],
+    height: [f32; 4],
+    surface: [f32; 4],
+    surface_part: [f32; 4],
+    map: [f32; 4],
+    reach: [f32; 4],
+    waves: [f32; 4],
+    mixed: [f32; 4],
+    web: [f32; 4],
+    web_warp: [f32; 4],
+    warp: [f32; 4],
+    noise_scale: [f32; 4],
+    noise: [[f32; 4]; 4],
+    layer: [[f32; 4]; 4],
+    layer_weight: [f32; 4],
+    contact: [f32; 4],
+    contact_mask: [f32; 4],
+    mask: [f32; 4],
+    mask_part: [f32; 4],
+}
+shader::assert_layout!(
+    shader::SHORE_CONTACT_COMP,
+    "ShoreFrame",
+    ShoreUniforms {
+        east,
+        north,
+        height,
+        surface,
+        surface_part,
+        map,
+        reach,
+        waves,
+        mixed,
+        web,
+        web_warp,
+        warp,
+        noise_scale,
+        noise,
+        layer,
+        layer_weight,
+        contact,
+        contact_mask,
+        mask,
+        mask_part
+    }
+);
+
+/// Two level axes where this is up: x and z where that is y.
+pub(crate) fn level_axes(up: Vec3) -> [Vec3; 2] {
+    let first = if up.x.abs() < 0.9 { Vec3::X } else { Vec3::Y };
+    let east = (first - up * up.dot(first)).normalize();
+    [east, east.cross(up)]
+}
+
+/// The texel of a host's image for a pixel: scale; size; first texel.
+fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
+    let vk::Rect2D { offset, extent } = image.rect;
+    let [w, h] = [extent.width as f32, extent.height as f32];
+    let scale = [w / frame.width as f32, h / frame.height as f32, w, h];
+    (scale, [offset.x as f32, offset.y as f32])
+}
+
+/// How far a pattern that repeats so often a metre has moved, in its repetitions.
+fn moved(look: &ShoreLook, scale: f32, speed: [f32; 2]) -> [f32; 2] {
+    speed.map(|speed| look.turned(f64::from(scale) * f64::from(speed)) as f32)
+}
+
+impl ShoreUniforms {
+    /// `edges`: of web and noise, in texels. Without a [`Frame::shore`] nothing is drawn by it.
+    pub fn new(frame: &Frame<'_>, lens: &Lens, edges: [f32; 2]) -> Self {
+        let Settings { shore: look, water, .. } = frame.settings;
+        let own = frame.shore.unwrap_or(crate::contract::Shore::new(0.0));
+        let extent = frame.output.rect.extent;
+        let (s, c) = (&look.shoreline, &look.contact);
+
+        // A row of the eye's space for what is a row of the world's.
+        let world = lens.view.inverse();
+        let turn = Mat3::from_mat4(world);
+        let eye = world.transform_point3(Vec3::ZERO);
+        let row = |axis: Vec3, less: f32| {
+            (turn.transpose() * axis).extend(axis.dot(eye) - less).to_array()
+        };
+        let up = Vec3::from(own.up).normalize_or(Vec3::Y);
+        let [east, north] = level_axes(up);
+        let (kind, level, depth) = match &own.surface {
+            Some(Surface::Level(level)) => (1.0, *level, None),
+            Some(Surface::Depth(image)) => (2.0, 0.0, Some(image)),
+            None => (0.0, 0.0, None),
+        };
+        let (surface, [x, y]) = depth.map_or_else(Default::default, |image| texels(image, extent));
+        let (way, map) = match &own.shoreline {
+            None => (0.0, [0.0; 4]),
+            Some(Shoreline::Strip(_)) => (1.0, [0.0; 4]),
+            Some(Shoreline::Map(Coast { corner, edge, size, .. })) => {
+                (2.0, [corner[0], corner[1], *size as f32 / edge, *size as f32])
+            }
+            Some(Shoreline::Screen) => (3.0, [0.0; 4]),
+        };
+
+        let [phase, local] = look.phases();
+        // Noises of one scale are one look-up.
+        let noises = [
+            (s.frequency_noise, 1.0),
+            (s.speed_noise, local),
+            (s.rise_noise, 1.0),
+            (s.threshold_noise, 1.0),
+        ];
+        let (mut scales, mut noise, mut count) = ([0.0; 4], [[0.0; 4]; 4], 0);
+        for (channel, (own, factor)) in noises.iter().enumerate() {
+            if own.amplitude == 0.0 {
+                continue;
+            }
+            let known = scales[..count].iter().position(|scale| *scale == own.scale);
+            let at = known.unwrap_or(count);
+            count = count.max(at + 1);
+            scales[at] = own.scale;
+            noise[at][channel] = own.amplitude * factor;
+        }
+        let (mut layer, mut weight, mut layers) = ([[0.0; 4]; 4], [0.0; 4], 0);
+        for own in s.layers.iter().filter(|own| own.weight > 0.0) {
+            let turn = DVec2::from_angle(f64::from(own.angle).to_radians());
+            let [x, y] = (turn * f64::from(own.scale)).as_vec2().to_array();
+            // Turned as the place is.
+            let speed = turn.as_vec2().rotate(own.speed.into());
+            let [u, v] = moved(look, own.scale, speed.to_array());
+            layer[layers] = [x, y, u, v];
+            weight[layers] = own.weight;
+            layers += 1;
+        }
+        let web_warp = moved(look, s.web_warp.scale, s.web_warp_speed);
+        // Metres, which the shader adds to the place.
+        let [u, v] = web_warp.map(|part| part / s.web_warp.scale.max(1.0e-9));
+        let [mask_u, mask_v] = moved(look, c.mask_scale, c.mask_speed);
+        let (mask, [mask_x, mask_y]) =
+            own.mask.as_ref().map_or_else(Default::default, |image| texels(image, extent));
+        let spacing = water.spacing;
+        Self {
+            east: row(east, 0.0),
+            north: row(north, 0.0),
+            height: row(up, level),
+            surface,
+            surface_part: [x, y, kind, own.bias],
+            map,
+            reach: [1.0 / s.reach[0], 1.0 / s.reach[1], s.fade, way],
+            waves: [s.frequency, phase, s.wave_rise[0], s.wave_rise[1]],
+            mixed: [s.floor.unwrap_or(-1.0e9), s.wave_ratio, s.web_ratio, s.threshold],
+            web: [s.web_rise[0], s.web_rise[1], edges[0], edges[1]],
+            web_warp: [s.web_warp.amplitude, s.web_warp.scale, u, v],
+            warp: [s.warp.amplitude, s.warp.scale, layers as f32, count as f32],
+            noise_scale: scales,
+            noise,
+            layer,
+            layer_weight: weight,
+            contact: [
+                1.0 / c.depth,
+                1.0 / c.particle_depth.unwrap_or(4.0 * spacing),
+                c.mask,
+                match c.measure {
+                    Measure::Distance => 0.0,
+                    Measure::View => 1.0,
+                    Measure::Vertical => 2.0,
+                },
+            ],
+            contact_mask: [c.mask_scale, mask_u, mask_v, f32::from(u8::from(own.mask.is_some()))],
+            mask,
+            mask_part: [mask_x, mask_y, c.opacity, c.particle_opacity],
+        }
+    }
+}
+
+/// Radiance of both kinds of foam in full light, for `composite`: RGB, then what of it is lit; opacity of shoreline foam.
+pub(crate) fn colors(settings: &Settings) -> [Vec4; 2] {
+    let (s, c) = (&settings.shore.shoreline, &settings.shore.contact);
+    let light = Vec3::from(settings.light.irradiance) / std::f32::consts::PI;
+    let shoreline = Vec3::from(s.color) * light;
+    let contact = Vec3::from(c.color) * Vec3::ONE.lerp(light, c.lit);
+    [shoreline.extend(s.opacity), contact.extend(c.lit)]
+}
+
+/// What a frame brings.
+pub(crate) struct Given<'a> {
+    pub shore: Option<&'a crate::contract::Shore>,
+    /// The host's images, as they are sampled.
+    pub surface: Option<Resource>,
+    pub mask: Option<Resource>,
+}
+
+impl<'a> Given<'a> {
+    pub fn new(shore: Option<&'a crate::contract::Shore>, gpu: &Gpu) -> Self {
+        let sampled = |image: &HostImage| {
+            Resource::SampledIn(image.view, gpu.samplers.nearest, depth_layout(image))
+        };
+        Self {
+            shore,
+            surface: shore.and_then(surface_of).map(sampled),
+            mask: shore.and_then(|shore| shore.mask.as_ref()).map(sampled),
+        }
+    }
+
+    /// The host's strip.
+    pub fn strip(&self) -> Option<&'a Strip> {
+        match &self.shore?.shoreline {
+            Some(Shoreline::Strip(strip)) => Some(strip),
+            _ => None,
+        }
+    }
+
+    /// The map of distances.
+    pub fn map(&self, gpu: &Gpu) -> Option<Resource> {
+        match &self.shore?.shoreline {
+            Some(Shoreline::Map(map)) => Some(Resource::Sampled(map.view, gpu.samplers.nearest)),
+            _ => None,
+        }
+    }
+}
+
+/// The host's buffers, each once.
+fn buffers_of(strip: &Strip) -> impl Iterator<Item = vk::Buffer> + use<> {
+    let indices = strip.triangles.indices.map(|(stream, _)| stream.buffer);
+    let own = [strip.triangles.positions.buffer, strip.v.buffer];
+    let mut all: Vec<_> = own.into_iter().chain(indices).collect();
+    all.sort_by_key(|handle| vk::Handle::as_raw(*handle));
+    all.dedup();
+    all.into_iter()
+}
+
+/// The depth of the host's surface, where it has one.
+pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
+    match &shore.surface {
+        Some(Surface::Depth(image)) => Some(image),
+        _ => None,
+    }
+}
+
+/// The technique: its passes in the order of the frame.
+pub(crate) struct Shore {
+    /// Those of the renderer before a `reconfigure`, where they fit.
+    textures: Arc<Textures>,
+    shoreline: shoreline::Shore,
+    contact: contact::Contact,
+}
+
+impl Shore {
+    /// `before`: what there was until now.
+    pub fn new(
+        gpu: &Gpu,
+        config: &Config,
+        shore: &ShoreConfig,
+        before: Option<&Self>,
+    ) -> Result<Self, Error> {
+        let kept = before.map(|before| &before.textures).filter(|kept| kept.fits(shore));
+        Ok(Self {
+            textures: match kept {
+                Some(kept) => kept.clone(),
+                None => Arc::new(Textures::new(gpu, shore)?),
+            },
+            shoreline: shoreline::Shore::new(gpu, config, shore)?,
+            contact: contact::Contact::new(gpu, config, shore)?,
+        })
+    }
+
+    /// Replaces what depends on the extent.
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        self.shoreline.resize(gpu, config, retired)
+    }
+
+    /// What `record_setup` makes is that of another.
+    pub fn is_set_up_as(&self, other: Option<&Self>) -> bool {
+        other.is_some_and(|other| Arc::ptr_eq(&self.textures, &other.textures))
+    }
+
+    pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        self.textures.record_setup(gpu, cmd);
+    }
+
+    pub fn record_web(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        image: &HostImage,
+    ) -> Result<(), Error> {
+        self.textures.record_web(gpu, cmd, descriptors, image)
+    }
+
+    /// Edges of web and noise, in texels.
+    pub fn edges(&self) -> [f32; 2] {
+        self.textures.edges()
+    }
+
+    /// Where foam lies on the host's surface: before the tiles that are drawn are known.
+    pub fn record_shoreline(&self, r: &mut Recording<'_>, given: &Given<'_>) -> Result<(), Error> {
+        let scope = r.begin(c"shoreline");
+        self.shoreline.record(r, given, &self.textures)?;
+        r.end(scope);
+        Ok(())
+    }
+
+    /// Where it lies on the particles' water.
+    pub fn record_contact(
+        &self,
+        r: &mut Recording<'_>,
+        given: &Given<'_>,
+        water: &WaterLayers<'_>,
+    ) -> Result<(), Error> {
+        let scope = r.begin(c"contact");
+        self.contact.record(r, (&self.shoreline, given), &self.textures, water)?;
+        r.end(scope);
+        Ok(())
+    }
+
+    /// The foam: along shores, at contacts on the host's surface, the sun's share of their light, on the particles' water.
+    pub fn image(&self) -> &Image {
+        self.shoreline.image()
+    }
+
+    /// Which tiles may have foam on the host's surface, the draw of their quads, and how many there are in a row of a frame.
+    pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, u32) {
+        self.shoreline.tiles(extent)
+    }
+
+    /// The layer of a frame of a size for the host.
+    pub fn kept(&self, extent: vk::Extent2D) -> Layer {
+        let image = self.image();
+        Layer {
+            name: "shore",
+            image: image.handle,
+            view: image.view,
+            format: image.format,
+            extent,
+            access: shoreline::AFTER,
+        }
+    }
+
+    /// Bytes of images and of buffers.
+    pub fn memory(&self) -> (u64, u64) {
+        let (textures, shoreline) = (self.textures.memory(), self.shoreline.memory());
+        (textures.0 + shoreline.0, textures.1 + shoreline.1)
+    }
+}
