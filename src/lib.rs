@@ -244,6 +244,7 @@ mod host_images;
 #[cfg(feature = "io")]
 pub mod io;
 mod light;
+mod random;
 mod renderer;
 mod state;
 pub mod water;
