@@ -246,6 +246,7 @@ pub mod io;
 mod light;
 mod random;
 mod renderer;
+pub mod shore;
 mod state;
 pub mod water;
 

@@ -1,0 +1,3 @@
+//! Shoreline foam.
+
+pub mod texture;
