@@ -8,6 +8,8 @@
 
 use glam::DVec3;
 
+use crate::random::Random;
+
 /// Fewest and most bubbles of a blob: the impostor's maps have eight bits for one.
 pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 
@@ -29,32 +31,13 @@ pub struct Blob {
     pub bubbles: Vec<[f32; 4]>,
 }
 
-/// Uniform numbers in [0, 1) (PCG, O'Neill 2014, as a hash of a counter).
-struct Random {
-    seed: u32,
-    counter: u32,
-}
-
-/// The hash of `glsl/include/random.glsl`.
-pub(super) fn pcg(value: u32) -> u32 {
-    let state = value.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
-    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (word >> 22) ^ word
-}
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.counter += 1;
-        f64::from(pcg(self.seed.wrapping_add(pcg(self.counter))) >> 8) / f64::from(1 << 24)
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let v = DVec3::from([self.next(), self.next(), self.next()].map(|x| 2.0 * x - 1.0));
-            let square = v.length_squared();
-            if (0.01..1.0).contains(&square) {
-                return v / square.sqrt();
-            }
+/// Evenly over all.
+fn direction(random: &mut Random) -> DVec3 {
+    loop {
+        let v = DVec3::from([random.next(), random.next(), random.next()].map(|x| 2.0 * x - 1.0));
+        let square = v.length_squared();
+        if (0.01..1.0).contains(&square) {
+            return v / square.sqrt();
         }
     }
 }
@@ -68,7 +51,7 @@ impl Blob {
     /// So many bubbles, 8 to 256; fewer and more are as many as the nearer of the two.
     pub fn new(seed: u32, count: u32) -> Self {
         let count = count.clamp(*BUBBLES.start(), *BUBBLES.end());
-        let mut random = Random { seed: pcg(seed), counter: 0 };
+        let mut random = Random::new(seed);
         // Two draws: more of middling size than of the largest and smallest.
         let radii: Vec<f64> =
             (0..count).map(|_| 1.0 + SPREAD * (random.next() + random.next() - 1.0)).collect();
@@ -80,7 +63,7 @@ impl Blob {
             let nearest = |to: &DVec3| {
                 places.iter().map(|p| p.distance_squared(*to)).fold(f64::INFINITY, f64::min)
             };
-            let far = (0..CANDIDATES).map(|_| random.direction());
+            let far = (0..CANDIDATES).map(|_| direction(&mut random));
             let best = far.max_by(|a, b| nearest(a).total_cmp(&nearest(b)));
             places.extend(best);
         }

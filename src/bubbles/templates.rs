@@ -7,7 +7,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::blob::{Blob, pcg};
+use super::blob::Blob;
 use super::settings::{BubbleConfig, FilmFresnel, Impostor, MOST_FILM, Spectrum};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -20,6 +20,7 @@ use crate::gpu::descriptors::{Descriptors, Resource, bind_set};
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
+use crate::random::pcg;
 
 /// Cosines and thicknesses of the film's table.
 const FILM: vk::Extent2D = vk::Extent2D { width: 64, height: 256 };

@@ -203,6 +203,15 @@ pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Res
     png::write(layers, exposure, to)
 }
 
+/// Writes numbers from 0 to 1 that are no colours, a texture of distances say, as a 16-bit PNG: `Y` grey, else `R G B A`.
+/// As they are, without a curve or dither; what is beyond is clamped.
+///
+/// # Errors
+/// What the writer says; a picture without those channels.
+pub fn write_png_values(layers: &Layers, to: impl Write) -> std::io::Result<()> {
+    png::write_values(layers, to)
+}
+
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test may
 mod tests {
@@ -264,5 +273,39 @@ mod tests {
         for (e, f) in expected.iter().flatten().zip(found.iter().flatten()) {
             assert!((e - f).abs() <= 1.0 / 255.0, "{e} {f}");
         }
+    }
+
+    #[test]
+    fn numbers_come_back_from_a_png_within_half_a_step() {
+        let values: Vec<f32> = (0..35).map(|i| i as f32 / 34.0).collect();
+        let mut layers = Layers::new(7, 5);
+        let read = |layers: &Layers| {
+            let mut bytes = Vec::new();
+            write_png_values(layers, &mut bytes).unwrap();
+            png::read_png(&bytes).unwrap()
+        };
+        let same = |found: &[f32], expected: &[f32]| {
+            let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(found.len() == 35 && off <= 0.51 / 65535.0, "{off}");
+        };
+        assert!(write_png_values(&layers, &mut Vec::new()).is_err());
+        let names = ["R", "G", "B", "A"];
+        for (power, name) in (1..).zip(names) {
+            layers.push(name, 7, 5, values.iter().map(|v| v.powi(power)).collect()).unwrap();
+        }
+        let back = read(&layers);
+        for name in names {
+            same(back.channel(name).unwrap(), layers.channel(name).unwrap());
+        }
+        layers.push("Y", 7, 5, values.clone()).unwrap();
+        let back = read(&layers);
+        for name in ["R", "G", "B"] {
+            same(back.channel(name).unwrap(), &values);
+        }
+        let beyond = [-1.0, 2.0, f32::NAN, f32::INFINITY];
+        layers
+            .push("Y", 7, 5, beyond.into_iter().chain(values.clone()).take(35).collect())
+            .unwrap();
+        assert_eq!(read(&layers).channel("R").unwrap()[..4], [0.0, 1.0, 0.0, 1.0]);
     }
 }

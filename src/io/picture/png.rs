@@ -18,13 +18,41 @@ pub fn write(layers: &Layers, exposure: f32, to: impl Write) -> io::Result<()> {
             bytes.push((value * 255.0 + dither(x, y, c)) as u8);
         }
     }
+    encode(layers, &bytes, ExtendedColorType::Rgb8, to)
+}
+
+fn encode(
+    layers: &Layers,
+    bytes: &[u8],
+    kind: ExtendedColorType,
+    to: impl Write,
+) -> io::Result<()> {
     let wide = |n: usize| u32::try_from(n).map_err(|_| io::Error::other("too large for a PNG"));
     PngEncoder::new_with_quality(to, CompressionType::Default, FilterType::Adaptive)
-        .write_image(&bytes, wide(layers.width)?, wide(layers.height)?, ExtendedColorType::Rgb8)
+        .write_image(bytes, wide(layers.width)?, wide(layers.height)?, kind)
         .map_err(|error| match error {
             ImageError::IoError(error) => error,
             other => io::Error::other(other.to_string()),
         })
+}
+
+pub fn write_values(layers: &Layers, to: impl Write) -> io::Result<()> {
+    let all = |names: &[&str]| names.iter().map(|name| layers.channel(name)).collect();
+    let grey: Option<Vec<_>> = all(&["Y"]);
+    let (channels, kind) = match grey.or_else(|| all(&["R", "G", "B", "A"])) {
+        Some(channels) if channels.len() == 1 => (channels, ExtendedColorType::L16),
+        Some(channels) => (channels, ExtendedColorType::Rgba16),
+        None => return Err(io::Error::other("the picture has no channel Y, nor R, G, B and A")),
+    };
+    let mut bytes = Vec::with_capacity(2 * channels.len() * layers.width * layers.height);
+    for i in 0..layers.width * layers.height {
+        for channel in &channels {
+            // NaN to 0.
+            let step = (channel[i] * 65535.0).round() as u16;
+            bytes.extend(step.to_ne_bytes());
+        }
+    }
+    encode(layers, &bytes, kind, to)
 }
 
 /// Interleaved gradient noise (Jimenez 2014) in [0, 1), shifted for each channel so that the noise is not grey.

@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
+use crate::pattern::Source;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::water::settings::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
@@ -61,6 +62,9 @@ pub enum Command {
     /// Compare two pictures
     #[command(after_help = EXIT_CODES)]
     Compare(CompareArgs),
+    /// Turn a black and white pattern into the distance from it that shoreline foam's web is
+    #[command(after_help = EXIT_CODES)]
+    Pattern(PatternArgs),
     /// Time every pass over particle counts, sizes and ways to draw
     Bench(crate::bench::BenchArgs),
 }
@@ -292,6 +296,30 @@ pub struct CompareArgs {
     /// Largest RMSE of any channel (or mean FLIP) that still counts as equal
     #[arg(long, default_value_t = 0.0, value_parser = finite)]
     pub tolerance: f32,
+}
+
+#[derive(Args, Debug)]
+pub struct PatternArgs {
+    /// A picture whose white is foam's lines: .png, .exr or .hdr, by its luminance; what is transparent is none. It wraps
+    /// round, as it will on the water. 'web:SEED' and 'noise:SEED': the textures that foam has of its own
+    #[arg(value_name = "IN|web:SEED|noise:SEED", value_parser = crate::pattern::named)]
+    pub input: Source,
+    /// Texture to write: .png (grey, 16 bits, without a curve) or .exr (32-bit float, channel Y). 1 on the lines, 0 far from
+    /// them. Of noise R G B A: from -1 to 1, in a .png from 0 to 1
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// How far from the lines it is 0, in texels [default: the largest distance there is]
+    #[arg(long, value_name = "TEXELS", value_parser = positive)]
+    pub reach: Option<f32>,
+    /// Black is foam's lines
+    #[arg(long)]
+    pub invert: bool,
+    /// From which luminance on it is white [default: 0.5]
+    #[arg(long, value_name = "T", value_parser = finite, allow_hyphen_values = true)]
+    pub threshold: Option<f32>,
+    /// Texels a side of 'web' and 'noise' [default: 512]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
+    pub size: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -17,6 +17,7 @@ mod info;
 mod layers;
 mod out;
 mod output;
+mod pattern;
 mod progress;
 mod reader;
 mod render;
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(args),
         Command::Info(args) => info::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Pattern(args) => pattern::run(args),
         Command::Bench(args) => bench::run(args),
     };
     match outcome {

@@ -12,6 +12,8 @@ mod diffuse;
 mod failures;
 #[path = "tool/info_compare.rs"]
 mod info_compare;
+#[path = "tool/pattern.rs"]
+mod pattern;
 #[path = "tool/pictures.rs"]
 mod pictures;
 #[path = "tool/scenes.rs"]

@@ -1,0 +1,756 @@
+//! Textures of shoreline foam: the distance from a pattern, a web of foam, noise. All wrap round.
+//!
+//! Shoreline foam cuts a picture off at a threshold; where the picture says how far it is to the nearest line of a
+//! pattern, the lines thin and swell as the threshold moves (*Semi-procedural foam shader*, Sec. V). Filters of picture
+//! editors stop at the border there; here nothing does.
+//!
+//! Nothing here is a transcendental function: a seed gives the same texture on every machine.
+
+use crate::random::{Random, pcg};
+
+/// What has no texel of the pattern to be near to.
+const NOWHERE: i64 = i64::MAX;
+
+/// Distance from each texel's centre to that of the nearest texel of the pattern, in texels; the picture wraps round
+/// both ways. Infinite everywhere where there is no pattern.
+///
+/// Exact but for the rounding of the root, in a time that grows as the number of texels: along the columns, then the
+/// lower envelope of a parabola of each column's (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*,
+/// 2012), which goes on for half a row beyond both ends.
+///
+/// `pattern` is `width` × `height` texels, row by row.
+///
+/// # Panics
+/// Where it is not.
+pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<f32> {
+    squares(pattern, width, height).into_iter().map(root).collect()
+}
+
+/// The same inverted, as shoreline foam wants it: 1 on the pattern, and linearly less to 0 at `reach` texels from it and
+/// beyond. 0 everywhere where there is no pattern; the pattern alone where `reach` is not above 0.
+///
+/// # Panics
+/// As [`distance_transform`].
+pub fn from_pattern(pattern: &[bool], width: usize, height: usize, reach: f32) -> Vec<f32> {
+    let near = |square: i64| match square {
+        0 => 1.0,
+        NOWHERE => 0.0,
+        _ if reach > 0.0 => (1.0 - root(square) / reach).max(0.0),
+        _ => 0.0,
+    };
+    squares(pattern, width, height).into_iter().map(near).collect()
+}
+
+fn root(square: i64) -> f32 {
+    if square == NOWHERE { f32::INFINITY } else { (square as f64).sqrt() as f32 }
+}
+
+/// Squares of the distances, which are integers.
+fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
+    let texels = width.checked_mul(height);
+    assert_eq!(texels, Some(pattern.len()), "texels of a pattern of {width}x{height}");
+    if !pattern.contains(&true) {
+        return vec![NOWHERE; pattern.len()];
+    }
+    // Along the columns: up and down, twice round.
+    const NONE: u32 = u32::MAX / 2;
+    let mut steps: Vec<u32> = pattern.iter().map(|on| if *on { 0 } else { NONE }).collect();
+    let mut follow = |to: usize, from: usize| {
+        let (to, from) = (to % height * width, from % height * width);
+        for x in 0..width {
+            steps[to + x] = steps[to + x].min(steps[from + x] + 1);
+        }
+    };
+    for y in 1..2 * height {
+        follow(y, y - 1);
+    }
+    for y in (1..2 * height).rev() {
+        follow(y - 1, y);
+    }
+    // Along the rows. Of each parabola of the envelope its apex, its height there, and where it begins to be the lowest.
+    let mut envelope: Vec<(i64, i64, i64)> = Vec::with_capacity(2 * width);
+    let half = width / 2;
+    let mut squares = Vec::with_capacity(pattern.len());
+    for row in steps.chunks_exact(width) {
+        envelope.clear();
+        for unrolled in 0..width + 2 * half {
+            let step = row[(unrolled + width - half) % width];
+            if step >= NONE {
+                continue;
+            }
+            let (apex, low) = (unrolled as i64 - half as i64, i64::from(step).pow(2));
+            let mut from = i64::MIN;
+            while let Some(&(before, height, since)) = envelope.last() {
+                // The first place at which it is lower than the one before.
+                let over = (apex - before) * (apex + before) + low - height;
+                let first = over.div_euclid(2 * (apex - before)) + 1;
+                if first > since {
+                    from = first;
+                    break;
+                }
+                envelope.pop();
+            }
+            envelope.push((apex, low, from));
+        }
+        let mut parts = envelope.iter().peekable();
+        let mut lowest = (0, 0);
+        for x in 0..width as i64 {
+            while let Some((apex, low, _)) = parts.next_if(|part| part.2 <= x) {
+                lowest = (*apex, *low);
+            }
+            squares.push((x - lowest.0).pow(2) + lowest.1);
+        }
+    }
+    squares
+}
+
+/// Octaves of [`noise`]; cells a side of the first, each of the others has twice as many as the one before.
+const OCTAVES: u32 = 4;
+const NOISE_CELLS: usize = 4;
+
+/// Four channels of smooth noise, independent of each other: gradient noise (Perlin, *Improving Noise*, 2002: its second
+/// derivative is continuous), of 4, 8, 16 and 32 cells a side, each with half the amplitude of the one before. `edge`²
+/// texels, row by row; the texture wraps round.
+///
+/// In [−1, 1]: of each channel the mean is 0 and the largest absolute value 1 (a single texel is 0). A seed gives the same
+/// noise at every size, but for the mean and the largest value of its texels.
+pub fn noise(edge: u32, seed: u32) -> Vec<[f32; 4]> {
+    let mut random = Random::new(seed ^ 0x6e6f_6973);
+    let octaves: Vec<Lattice<4>> =
+        (0..OCTAVES).map(|i| Lattice::new(NOISE_CELLS << i, &mut random)).collect();
+    let at = |x: f32, y: f32| {
+        let (mut sum, mut gain) = ([0.0; 4], 1.0);
+        for octave in &octaves {
+            let values = octave.at(x, y);
+            sum = [0, 1, 2, 3].map(|c| sum[c] + gain * values[c]);
+            gain *= 0.5;
+        }
+        sum
+    };
+    let mut texels: Vec<[f32; 4]> = centers(edge).map(|[x, y]| at(x, y)).collect();
+    for c in 0..4 {
+        let sum: f64 = texels.iter().map(|t| f64::from(t[c])).sum();
+        let mean = sum / texels.len().max(1) as f64;
+        let most = texels.iter().map(|t| (f64::from(t[c]) - mean).abs()).fold(0.0, f64::max);
+        for texel in &mut texels {
+            let off = f64::from(texel[c]) - mean;
+            texel[c] = if most > 0.0 { (off / most) as f32 } else { 0.0 };
+        }
+    }
+    texels
+}
+
+/// Of all texels, row by row, in [0, 1).
+fn centers(edge: u32) -> impl Iterator<Item = [f32; 2]> {
+    let center = move |i: u32| (i as f32 + 0.5) / edge as f32;
+    (0..edge).flat_map(move |y| (0..edge).map(move |x| [center(x), center(y)]))
+}
+
+/// Gradients of so many channels at the corners of so many cells a side, over the unit square, which wraps round.
+struct Lattice<const N: usize> {
+    cells: usize,
+    gradients: Vec<[[f32; 2]; N]>,
+}
+
+impl<const N: usize> Lattice<N> {
+    fn new(cells: usize, random: &mut Random) -> Self {
+        let mut direction = || loop {
+            let [x, y] = [random.next(), random.next()].map(|v| 2.0 * v - 1.0);
+            let square = x * x + y * y;
+            if (0.01..1.0).contains(&square) {
+                return [x, y].map(|v| (v / square.sqrt()) as f32);
+            }
+        };
+        let gradients = (0..cells * cells).map(|_| [(); N].map(|()| direction())).collect();
+        Self { cells, gradients }
+    }
+
+    /// At a place in [0, 1).
+    fn at(&self, x: f32, y: f32) -> [f32; N] {
+        let n = self.cells;
+        let corners = |v: f32| {
+            let v = v * n as f32;
+            let first = (v as usize).min(n - 1);
+            let t = v - first as f32;
+            let fade = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+            [(first, t, 1.0 - fade), (if first + 1 == n { 0 } else { first + 1 }, t - 1.0, fade)]
+        };
+        let (across, down) = (corners(x), corners(y));
+        let mut sum = [0.0; N];
+        for (j, v, below) in down {
+            for (i, u, beside) in across {
+                let (u, v) = (below * beside * u, below * beside * v);
+                let gradients = &self.gradients[j * n + i];
+                for c in 0..N {
+                    sum[c] += gradients[c][0] * u + gradients[c][1] * v;
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Texels a side of which the web is made, or nearly, where fewer are asked for: those are means of them.
+const FINE: u32 = 1024;
+
+/// A web of foam as the sea leaves it on a shore: filaments between round cells of very different sizes, thicker where
+/// they meet, some of them torn. `edge`² texels, row by row; the texture wraps round, and shows the same at every size. It
+/// is to be 5 to 15 m long: the widest cells are a fifth of it, filaments a five-hundredth.
+///
+/// An exact [`distance_transform`], inverted: 1 on the filaments, a seventh of the area, and 0 where it is farthest from
+/// all. In between it is laid out by area, so that it is known what a threshold cuts out: of the area without the
+/// filaments, the share 1 − t is at t or above. Texels that hold filaments and other area are the mean. From one texel to
+/// the next it is 0.2 at most where there are 512 a side, and less where there are more.
+pub fn web(edge: u32, seed: u32) -> Vec<f32> {
+    let share = (FINE / edge.max(1)).max(1) as usize;
+    let fine = edge as usize * share;
+    let texels = by_area(&squares(&Cells::new(seed).pattern(fine), fine, fine));
+    if share == 1 || edge == 0 {
+        return texels;
+    }
+    let weight = 1.0 / (share * share) as f32;
+    let mut means = Vec::with_capacity(edge as usize * edge as usize);
+    for rows in texels.chunks_exact(fine * share) {
+        for x in (0..fine).step_by(share) {
+            let sum: f32 = rows.chunks_exact(fine).flat_map(|row| &row[x..x + share]).sum();
+            means.push(sum * weight);
+        }
+    }
+    means
+}
+
+/// 1 where a distance is 0; elsewhere the share of those above 0 that are greater, and half of those that are equal; of the
+/// greatest 0.
+fn by_area(squares: &[i64]) -> Vec<f32> {
+    let most = squares.iter().copied().max().filter(|most| *most != NOWHERE).unwrap_or(0);
+    let mut counts = vec![0_u32; most as usize + 1];
+    for square in squares {
+        if let Some(count) = counts.get_mut(*square as usize) {
+            *count += 1;
+        }
+    }
+    let mut nearer = 0.0;
+    let mut ranks: Vec<f64> = vec![0.0];
+    ranks.extend(counts.iter().skip(1).map(|count| {
+        let before = nearer;
+        nearer += f64::from(*count);
+        0.5 * (before + nearer)
+    }));
+    let last = ranks.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
+    let values: Vec<f32> = ranks.iter().map(|rank| (1.0 - rank / last) as f32).collect();
+    squares.iter().map(|square| values.get(*square as usize).copied().unwrap_or(0.0)).collect()
+}
+
+/// Radii of the cells' cores: the largest, above the smallest, and each of the one before. All lengths are of an edge.
+const LARGEST: f32 = 0.09;
+const SMALLEST: f32 = 0.006;
+const NEXT: f32 = 0.95;
+/// Places that are tried for the largest; for others more, as there is room for more of them.
+const TRIES: f32 = 3.0;
+/// How much of a core's radius may lie in a larger one.
+const OVERLAP: f32 = 0.3;
+/// Cells a side and amplitude of what bends the filaments, on the whole and in detail.
+const BENDS: [(usize, f32); 2] = [(6, 0.06), (20, 0.01)];
+/// Width of a filament, and how much it varies.
+const WIDTH: f32 = 0.0022;
+const WIDTH_VARIES: f32 = 0.6;
+/// How far from a junction filaments begin to thicken, of the core's radius.
+const FILLET: f32 = 0.8;
+/// The share of filaments that are torn, where both cores are of that radius at least, and how far from a junction they
+/// end, of the smaller one's radius.
+const TORN: f32 = 0.35;
+const TORN_RADIUS: f32 = 0.03;
+const TORN_LENGTH: f32 = 0.8;
+/// How near a junction filaments begin to be like those they meet there, of the core's radius, and at most.
+const BLEND: f32 = 0.5;
+const BLEND_MOST: f32 = 0.015;
+/// Tiles a side, each of which knows the cores that matter in it.
+const TILES: usize = 64;
+/// How much [`Cells::within`] is taken to change with the place at most: 2 or 3 of itself, the rest by the bending.
+const STEEP: f32 = 5.0;
+
+/// A disc, of an edge.
+#[derive(Clone, Copy)]
+struct Core {
+    center: [f32; 2],
+    radius: f32,
+}
+
+impl Core {
+    /// How far a place, in [0, 1), is from its rim, across the borders if that is nearer; less than 0 inside.
+    fn distance(&self, [x, y]: [f32; 2]) -> f32 {
+        let across = |a: f32, b: f32| {
+            let d = (a - b).abs();
+            d.min(1.0 - d)
+        };
+        let (u, v) = (across(x, self.center[0]), across(y, self.center[1]));
+        (u * u + v * v).sqrt() - self.radius
+    }
+}
+
+/// Cells of foam over the unit square, which wraps round: each place is of the core whose rim is nearest (the Voronoi
+/// diagram of discs, whose borders are hyperbolas). Discs are thrown where there is room, the largest first, so that small
+/// ones fill the gaps of large ones, as bubbles do.
+struct Cells {
+    cores: Vec<Core>,
+    /// Of each tile, which of them.
+    tiles: Vec<Vec<u16>>,
+    bends: [Lattice<2>; 2],
+    seed: u32,
+}
+
+impl Cells {
+    fn new(seed: u32) -> Self {
+        let mut random = Random::new(seed ^ 0x666f_616d);
+        let mut cores: Vec<Core> = Vec::new();
+        let mut radius = LARGEST;
+        while radius > SMALLEST {
+            let smaller = LARGEST / radius;
+            for _ in 0..(TRIES * smaller * smaller) as u32 {
+                let center = [random.next(), random.next()].map(|v| v as f32);
+                // Larger ones are there already.
+                if cores.iter().all(|core| core.distance(center) > (1.0 - OVERLAP) * radius) {
+                    cores.push(Core { center, radius });
+                }
+            }
+            radius *= NEXT;
+        }
+        let bends = BENDS.map(|(cells, _)| Lattice::new(cells, &mut random));
+        let tiles = centers(TILES as u32).map(|center| of_tile(&cores, center)).collect();
+        Self { cores, tiles, bends, seed: pcg(seed) }
+    }
+
+    /// Where filaments are, of so many texels a side.
+    fn pattern(&self, edge: usize) -> Vec<bool> {
+        let center = |i: usize| (i as f32 + 0.5) / edge as f32;
+        let mut pattern = vec![false; edge * edge];
+        for (y, row) in pattern.chunks_exact_mut(edge.max(1)).enumerate() {
+            let mut x = 0;
+            while x < edge {
+                let within = self.within(center(x), center(y));
+                row[x] = within < 0.0;
+                // Nearer than that there is none.
+                x += 1 + (within.max(0.0) / STEEP * edge as f32) as usize;
+            }
+        }
+        pattern
+    }
+
+    /// How far within its cell a place is, beyond the filaments: less than 0 in them, and a lower bound where it is more.
+    fn within(&self, x: f32, y: f32) -> f32 {
+        let bends = [self.bends[0].at(x, y), self.bends[1].at(x, y)];
+        let bent = |v: f32, i: usize| {
+            let v = v + BENDS[0].1 * bends[0][i] + BENDS[1].1 * bends[1][i];
+            if v < 0.0 {
+                v + 1.0
+            } else if v < 1.0 {
+                v
+            } else {
+                v - 1.0
+            }
+        };
+        let at = [bent(x, 0), bent(y, 1)];
+        let tile = at.map(|v| ((v * TILES as f32) as usize).min(TILES - 1));
+        let near = &self.tiles[tile[1] * TILES + tile[0]];
+        let distance = |i: &u16| self.cores[*i as usize].distance(at);
+        let mut own = 0;
+        let mut nearest = [f32::INFINITY; 3];
+        for i in near {
+            let d = distance(i);
+            if d < nearest[0] {
+                nearest = [d, nearest[0], nearest[1]];
+                own = *i;
+            } else if d < nearest[1] {
+                nearest = [nearest[0], d, nearest[1]];
+            } else if d < nearest[2] {
+                nearest[2] = d;
+            }
+        }
+        // From the next cell, and from the one after it.
+        let (second, third) = (nearest[1] - nearest[0], nearest[2] - nearest[0]);
+        let radius = self.cores[own as usize].radius;
+        let width = WIDTH * (1.0 + WIDTH_VARIES * bends[0][0]);
+        // A smooth minimum of both.
+        let rounded = |reach: f32| {
+            let corner = (1.0 - (third - second) / reach).max(0.0);
+            second - 0.25 * reach * corner * corner
+        };
+        let bound = rounded(FILLET * radius) - width;
+        if bound > 0.0 {
+            return bound;
+        }
+        // What the filament is like: that of the next cell, and where another is almost as near, something of its own.
+        let reach = BLEND_MOST.min(BLEND * radius);
+        let (mut torn, mut smaller, mut all) = (0.0, 0.0, 0.0);
+        for i in near.iter().filter(|i| **i != own) {
+            let near = 1.0 - (distance(i) - nearest[1]) / reach;
+            if near > 0.0 {
+                let size = radius.min(self.cores[*i as usize].radius);
+                let chance = TORN * (size / TORN_RADIUS).min(1.0);
+                let weight = near * near;
+                all += weight;
+                smaller += weight * size;
+                torn += if self.chance(own, *i) < chance { weight } else { 0.0 };
+            }
+        }
+        let (torn, smaller) = (torn / all, smaller / all);
+        // A torn one is the same seen from both of its cells: nothing hides where they meet.
+        let fillet = FILLET * (radius + (smaller - radius) * torn);
+        rounded(fillet) - width * (1.0 - torn * third / (TORN_LENGTH * smaller))
+    }
+
+    /// Of two cells, in [0, 1).
+    fn chance(&self, a: u16, b: u16) -> f32 {
+        let pair = u32::from(a.min(b)) << 16 | u32::from(a.max(b));
+        (pcg(self.seed ^ pcg(pair)) >> 8) as f32 / (1 << 24) as f32
+    }
+}
+
+/// The cores that are one of the three nearest anywhere in the tile about a place, or nearly the second.
+fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
+    let distances: Vec<f32> = cores.iter().map(|core| core.distance(center)).collect();
+    let mut nearest = [f32::INFINITY; 3];
+    for d in &distances {
+        let [first, second, third] = nearest;
+        nearest = [first.min(*d), second.min(first.max(*d)), third.min(second.max(*d))];
+    }
+    // Places of the tile are so far from its middle; by as much each distance may differ.
+    let half = std::f32::consts::FRAC_1_SQRT_2 / TILES as f32;
+    let most = nearest[2].max(nearest[1] + BLEND_MOST) + 2.0 * half;
+    (0..).zip(&distances).filter(|(_, d)| **d <= most).map(|(i, _)| i).collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test may
+mod tests {
+    use super::*;
+
+    /// Of every texel to every texel of the pattern, the shorter way round.
+    fn brute(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
+        let round = |a: usize, b: usize, n: usize| a.abs_diff(b).min(n - a.abs_diff(b)) as i64;
+        let texels = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let to = |x: usize, y: usize| {
+            let on = texels().filter(|(i, j)| pattern[j * width + i]);
+            on.map(|(i, j)| round(x, i, width).pow(2) + round(y, j, height).pow(2)).min()
+        };
+        texels().map(|(x, y)| to(x, y).unwrap_or(NOWHERE)).collect()
+    }
+
+    /// About so many of a thousand texels.
+    fn scattered(width: usize, height: usize, thousandths: u32, seed: u32) -> Vec<bool> {
+        let mut random = Random::new(seed);
+        let share = f64::from(thousandths) / 1000.0;
+        (0..width * height).map(|_| random.next() < share).collect()
+    }
+
+    fn shifted<T: Copy>(texels: &[T], width: usize, height: usize, by: (usize, usize)) -> Vec<T> {
+        let from = |x: usize, y: usize| (y + by.1) % height * width + (x + by.0) % width;
+        let texel = |i: usize| texels[from(i % width, i / width)];
+        (0..width * height).map(texel).collect()
+    }
+
+    #[test]
+    fn distances_are_exact_on_every_torus() {
+        let sizes =
+            [(1, 1), (1, 2), (2, 1), (1, 9), (9, 1), (2, 2), (2, 5), (3, 3), (4, 3), (7, 6)];
+        let larger = [(8, 8), (16, 9), (9, 16), (64, 3), (3, 64), (33, 17), (24, 31)];
+        for (width, height) in sizes.into_iter().chain(larger) {
+            let mut patterns: Vec<Vec<bool>> = (0..)
+                .zip([0, 5, 20, 100, 300, 500, 900, 1000])
+                .flat_map(|(seed, share)| [seed, seed + 100].map(|seed| (seed, share)))
+                .map(|(seed, share)| scattered(width, height, share, seed))
+                .collect();
+            // A single one, in each corner and in the middle.
+            for at in [0, width - 1, (height - 1) * width, width * height - 1, width * height / 2] {
+                patterns.push((0..width * height).map(|i| i == at).collect());
+            }
+            for pattern in patterns {
+                let expected = brute(&pattern, width, height);
+                assert_eq!(
+                    squares(&pattern, width, height),
+                    expected,
+                    "{width}x{height} {pattern:?}"
+                );
+                let distances = distance_transform(&pattern, width, height);
+                for (d, square) in distances.iter().zip(expected) {
+                    let root =
+                        if square == NOWHERE { f64::INFINITY } else { (square as f64).sqrt() };
+                    assert_eq!(*d, root as f32);
+                }
+            }
+        }
+        assert!(
+            distance_transform(&[], 0, 7).is_empty() && distance_transform(&[], 7, 0).is_empty()
+        );
+    }
+
+    #[test]
+    fn a_pattern_that_is_shifted_shifts_its_distances() {
+        for (width, height) in [(37, 22), (64, 64), (5, 48)] {
+            let pattern = scattered(width, height, 15, 3);
+            assert!(pattern.contains(&true));
+            let distances = distance_transform(&pattern, width, height);
+            for by in [(1, 0), (0, 1), (width / 2, height / 3), (width - 1, height - 1)] {
+                let moved = shifted(&pattern, width, height, by);
+                let expected = shifted(&distances, width, height, by);
+                assert_eq!(distance_transform(&moved, width, height), expected, "{by:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn inverted_distances_fall_to_0_at_their_reach() {
+        let mut pattern = vec![false; 80];
+        pattern[1] = true;
+        let row = |reach| from_pattern(&pattern, 8, 10, reach)[..8].to_vec();
+        assert_eq!(row(4.0), [0.75, 1.0, 0.75, 0.5, 0.25, 0.0, 0.25, 0.5]);
+        assert_eq!(row(2.0), [0.5, 1.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(row(f32::INFINITY), [1.0; 8]);
+        for none in [0.0, -1.0, f32::NAN] {
+            assert_eq!(row(none), [0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], "{none}");
+        }
+        for reach in [1.0, f32::INFINITY] {
+            assert_eq!(from_pattern(&[false; 6], 3, 2, reach), [0.0; 6]);
+            assert_eq!(from_pattern(&[true; 6], 3, 2, reach), [1.0; 6]);
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "3x2")]
+    fn a_pattern_of_another_size_is_refused() {
+        distance_transform(&[true; 5], 3, 2);
+    }
+
+    /// The largest difference of neighbours across the borders, and of all others.
+    fn jumps(texels: &[f32], edge: usize) -> (f32, f32) {
+        let (mut across, mut within) = (0.0_f32, 0.0_f32);
+        for (i, texel) in texels.iter().enumerate() {
+            let (x, y) = (i % edge, i / edge);
+            for (next, last) in
+                [(y * edge + (x + 1) % edge, x + 1), ((y + 1) % edge * edge + x, y + 1)]
+            {
+                let to = if last == edge { &mut across } else { &mut within };
+                *to = to.max((texels[next] - texel).abs());
+            }
+        }
+        (across, within)
+    }
+
+    #[test]
+    fn web_and_noise_have_no_seam() {
+        for seed in 0..4 {
+            let (across, within) = jumps(&web(512, seed), 512);
+            assert!(across <= within, "web {seed}: {across} across the borders, {within} within");
+            assert!(within < 0.2, "web {seed}: {within}");
+            for edge in [200, 256] {
+                let noise = noise(edge, seed);
+                for c in 0..4 {
+                    let channel: Vec<f32> = noise.iter().map(|t| t[c]).collect();
+                    let (across, within) = jumps(&channel, edge as usize);
+                    assert!(across <= within, "noise {seed} {c}: {across}, {within}");
+                }
+            }
+        }
+    }
+
+    /// Nothing of the pattern stops at a border either: where the first and the last row are on, they go on.
+    #[test]
+    fn filaments_go_on_across_the_borders() {
+        for seed in 0..4 {
+            let n = 1024;
+            let pattern = Cells::new(seed).pattern(n);
+            // Of the texels that are on, those whose neighbour in the next column, or row, is not.
+            let ends = |at: &dyn Fn(usize, usize) -> usize, from: usize| {
+                let to = (from + 1) % n;
+                let count = (0..n).filter(|i| pattern[at(from, *i)] != pattern[at(to, *i)]).count();
+                count as f64
+            };
+            for at in [&(|i, j| j * n + i) as &dyn Fn(usize, usize) -> usize, &|i, j| i * n + j] {
+                let inside = (0..n - 1).map(|i| ends(at, i)).fold(0.0, f64::max);
+                let border = ends(at, n - 1);
+                assert!(
+                    border <= inside,
+                    "{border} ends at the border, {inside} elsewhere at most"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_web_falls_with_the_distance_from_its_filaments() {
+        let n = 1024;
+        for seed in [1, 2] {
+            let web = web(n as u32, seed);
+            let filaments: Vec<bool> = web.iter().map(|v| *v == 1.0).collect();
+            let squares = squares(&filaments, n, n);
+            let mut sorted: Vec<(i64, f32)> = squares.into_iter().zip(web).collect();
+            sorted.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+            for two in sorted.windows(2) {
+                let [(near, more), (far, less)] = [two[0], two[1]];
+                assert!(if near == far { more == less } else { more > less }, "{two:?}");
+            }
+            assert_eq!(sorted.last().unwrap().1, 0.0);
+            assert!(sorted.iter().all(|(_, v)| (0.0..=1.0).contains(v)));
+        }
+    }
+
+    #[test]
+    fn a_threshold_cuts_out_of_a_web_what_it_says() {
+        for (edge, seed) in [(1024, 1), (1024, 5), (512, 2), (512, 3)] {
+            let pattern = Cells::new(seed).pattern(FINE as usize);
+            let share = |n: usize, of: usize| n as f64 / of as f64;
+            let filaments = share(pattern.iter().filter(|on| **on).count(), pattern.len());
+            assert!((0.12..0.18).contains(&filaments), "{filaments}");
+            let web = web(edge, seed);
+            // Texels that hold both are means, of which some fall on the other side of a threshold.
+            let tolerance = if edge == FINE { 0.04 } else { 0.05 };
+            for t in [0.05, 0.1, 0.25, 0.5, 0.75, 0.9] {
+                let found = share(web.iter().filter(|v| f64::from(**v) >= t).count(), web.len());
+                let expected = filaments + (1.0 - filaments) * (1.0 - t);
+                let off = (found - expected).abs();
+                // What is nearest the filaments, all at one distance, goes over at once.
+                assert!(
+                    off < if t < 0.7 { 0.01 } else { tolerance },
+                    "{edge} {t}: {found}, {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_web_is_the_same_at_every_size() {
+        for seed in [1, 9] {
+            let large = web(512, seed);
+            // Of the same finer one.
+            let small = web(256, seed);
+            let mean = |x: usize, y: usize| {
+                let at = |i: usize, j: usize| large[(2 * y + j) * 512 + 2 * x + i];
+                0.25 * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1))
+            };
+            for (i, v) in small.iter().enumerate() {
+                assert!((v - mean(i % 256, i / 256)).abs() < 1.0e-5);
+            }
+            // Of another, of 640 texels: at the same places nearly the same.
+            let other = web(640, seed);
+            let sample = |v: usize| v * 640 / 512;
+            let off = |i: usize| other[sample(i / 512) * 640 + sample(i % 512)] - large[i];
+            let square = (0..512 * 512).map(|i| f64::from(off(i)).powi(2)).sum::<f64>();
+            let rms = (square / (512.0 * 512.0)).sqrt();
+            assert!(rms < 0.05, "{rms}");
+        }
+    }
+
+    #[test]
+    fn no_filament_is_left_out_for_speed() {
+        for seed in [1, 4] {
+            let cells = Cells::new(seed);
+            let all = Cells {
+                tiles: vec![(0..).take(cells.cores.len()).collect(); TILES * TILES],
+                ..Cells::new(seed)
+            };
+            let n = 512;
+            let pattern = cells.pattern(n);
+            for (on, [x, y]) in pattern.iter().zip(centers(n as u32)) {
+                let within = cells.within(x, y);
+                assert_eq!(*on, within < 0.0, "{x} {y}");
+            }
+            for [x, y] in centers(100) {
+                assert_eq!(cells.within(x, y), all.within(x, y), "{x} {y}");
+            }
+        }
+    }
+
+    /// Of the bits of all values (FNV).
+    fn hash(values: impl Iterator<Item = f32>) -> u64 {
+        let one = |hash: u64, v: f32| (hash ^ u64::from(v.to_bits())).wrapping_mul(0x100_0000_01b3);
+        values.fold(0xcbf2_9ce4_8422_2325, one)
+    }
+
+    #[test]
+    fn a_seed_gives_one_texture_and_another_another() {
+        let [web, noise] = [hash(web(64, 1).into_iter()), hash(noise(64, 1).into_iter().flatten())];
+        assert_eq!(hash(super::web(64, 1).into_iter()), web);
+        assert_ne!(hash(super::web(64, 2).into_iter()), web);
+        assert_ne!(hash(super::noise(64, 2).into_iter().flatten()), noise);
+        // To the last digit on every machine.
+        assert_eq!([web, noise], [10_425_592_817_350_839_320, 10_374_132_684_964_779_970]);
+    }
+
+    #[test]
+    fn small_textures_are_sound() {
+        assert!(web(0, 1).is_empty() && noise(0, 1).is_empty());
+        assert_eq!(noise(1, 1), [[0.0; 4]]);
+        for edge in [1, 2, 3, 7] {
+            let web = web(edge, 1);
+            assert_eq!(web.len(), (edge * edge) as usize);
+            assert!(web.iter().all(|v| (0.0..=1.0).contains(v)));
+            assert_eq!(noise(edge, 1).len(), (edge * edge) as usize);
+        }
+    }
+
+    #[test]
+    fn noise_is_about_0_and_within_1() {
+        for (edge, seed) in [(5, 1), (64, 1), (100, 2), (256, 3)] {
+            let noise = noise(edge, seed);
+            for c in 0..4 {
+                let channel = || noise.iter().map(|t| t[c]);
+                let mean = channel().map(f64::from).sum::<f64>() / f64::from(edge * edge);
+                // What each was rounded by, at most.
+                assert!(mean.abs() <= f64::from(f32::EPSILON) / 4.0, "{edge} {c}: {mean}");
+                assert_eq!(channel().map(f32::abs).fold(0.0, f32::max), 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn channels_of_noise_are_independent() {
+        // Of two that are, the correlation is 0 on the whole; its square is the sum of those of the octaves' shares of the
+        // variance, each over as many numbers as its gradients have.
+        let octaves = (0..OCTAVES).map(|i| (0.25_f64.powi(i as i32), NOISE_CELLS << i));
+        let variance: f64 = octaves.clone().map(|(share, _)| share).sum();
+        let expected: f64 =
+            octaves.map(|(share, n)| (share / variance).powi(2) / (2 * n * n) as f64).sum();
+        let (mut sum, mut squares, mut pairs) = (0.0, 0.0, 0.0);
+        for seed in 0..24 {
+            let noise = noise(48, seed);
+            let of = |a: usize, b: usize| {
+                noise.iter().map(|t| f64::from(t[a]) * f64::from(t[b])).sum::<f64>()
+            };
+            for (a, b) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                let correlation = of(a, b) / (of(a, a) * of(b, b)).sqrt();
+                sum += correlation;
+                squares += correlation * correlation;
+                pairs += 1.0;
+            }
+        }
+        let (mean, square): (f64, f64) = (sum / pairs, squares / pairs);
+        println!(
+            "{mean} in the mean, {} of {} by root mean square",
+            square.sqrt(),
+            expected.sqrt()
+        );
+        assert!(mean.abs() < 4.0 * (expected / pairs).sqrt(), "{mean}");
+        // Gradients do not count alike: by twice as much it may be off.
+        assert!(square < 2.0 * expected, "{square}, {expected}");
+    }
+
+    #[test]
+    fn the_second_derivative_of_noise_is_continuous() {
+        let lattice: Lattice<4> = Lattice::new(4, &mut Random::new(5));
+        // From one border between cells to either side.
+        let step = 1.0 / 64.0;
+        let mut largest = 0.0_f32;
+        for y in 0..40 {
+            let at = |k: i32| lattice.at((2.0 + k as f32 * step) / 4.0, (y as f32 + 0.3) / 40.0);
+            let (middle, near, far) = (at(0), [at(-1), at(1)], [at(-2), at(2)]);
+            let second = |side: usize, c: usize| {
+                (far[side][c] - 2.0 * near[side][c] + middle[c]) / (step * step)
+            };
+            for c in 0..4 {
+                largest = largest.max((second(1, c) - second(0, c)).abs());
+            }
+        }
+        // The third derivative of the weights is 60 at most, of gradients that differ by 2: over two steps no more.
+        assert!(largest < 2.0 * step * 60.0 * 2.0, "{largest}");
+    }
+}
