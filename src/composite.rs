@@ -18,7 +18,7 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
-use crate::shore::{DRAW, Shore};
+use crate::shore::Shore;
 use crate::water::coarsening;
 use crate::water::settings::Shading;
 use crate::water::split::{DISPATCHES, KINDS};
@@ -230,12 +230,12 @@ impl Composite {
             Path::Raster { pass, pipelines, coat } => {
                 gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);
                 if let (Some(pipeline), Some(shore)) = (coat, shore) {
-                    let (list, arguments, across) = shore.tiles(r.extent);
+                    let (list, arguments, places) = shore.tiles(r.extent);
                     let resources = [&resources[..], &[(32, Resource::buffer(list))]].concat();
                     r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    pipeline.push(gpu, cmd, &across);
+                    pipeline.push(gpu, cmd, &places);
                     // SAFETY: inside the render pass; the arguments are visible since `shoreline`.
-                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments.handle, DRAW, 1, 16) };
+                    unsafe { gpu.device.cmd_draw_indirect(cmd, arguments.handle, 0, 1, 16) };
                 }
                 for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };

@@ -234,10 +234,12 @@ impl Renderer {
                 .copy_from_slice(bytemuck::bytes_of(&numbers));
         }
 
+        let mut general = false;
         if let Some(shore) = &self.shore {
             let numbers = ShoreUniforms::new(frame, &lens, shore.edges());
             mapped[SHORE..][..size_of::<ShoreUniforms>()]
                 .copy_from_slice(bytemuck::bytes_of(&numbers));
+            general = numbers.is_general(frame.scene_depth.rect.extent, extent);
         }
 
         gpu.begin_label(cmd, c"whitewater");
@@ -302,7 +304,7 @@ impl Renderer {
         self.water.record(&mut r, &frame.particles, &beside)?;
         let given = Given::new(frame.shore.as_ref(), gpu);
         if let Some(shore) = &self.shore {
-            shore.record_shoreline(&mut r, &given)?;
+            shore.record_shoreline(&mut r, &given, general)?;
             if given.shore.is_some() && frame.settings.shore.contact.particle_opacity > 0.0 {
                 shore.record_contact(&mut r, &given, &self.water.layers())?;
             }

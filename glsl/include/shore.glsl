@@ -2,6 +2,13 @@
 // Horizontal places p are metres along two axes of the world's that are level. Needs frame.glsl.
 // Reads: the block of shoreline and contact foam.
 
+// 0: what most frames have, a level surface, a map of distances or a strip, two looks into the noise and two into the web at
+// most, the scene's depth of the frame's size; 1: all there is. A pipeline each: a CPU runs branches whole, and finds the
+// numbers of a loop's turns one lane at a time.
+layout(constant_id = 3) const uint GENERAL = 1;
+const int LOOKS = GENERAL == 1u ? 6 : 2;
+const int LAYERS = GENERAL == 1u ? 4 : 2;
+
 layout(set = 0, binding = 1, std140) uniform ShoreFrame {
     vec4 east;          // eye space -> first level axis
     vec4 north;         // the second
@@ -13,10 +20,10 @@ layout(set = 0, binding = 1, std140) uniform ShoreFrame {
     vec4 waves;         // frequency, phase, a, b
     vec4 mixed;         // floor, ratio of waves, of the web, threshold
     vec4 web;           // a', b'; texels of the web, of the noise
-    vec4 web_warp;      // metres, repetitions a metre, how far it has moved
-    vec4 warp;          // metres, repetitions a metre; layers of the web; different scales of noise
-    vec4 noise_scale;   // repetitions a metre of each
-    vec4 noise[4];      // at each: of the frequency, of the phase, of what is affine, of the threshold
+    vec4 counts;        // looks into the noise, layers of the web; 0 0
+    vec4 look[6];       // of each: repetitions a metre; metres by which its xy bends places, by which its zw bends the web; 0
+    vec4 look_moved[6]; // how far it has moved, metres; 0 0
+    vec4 noise[6];      // what its xyzw adds to the frequency, the phase, what is affine, the threshold
     vec4 layer[4];      // web at p: (x p.x - y p.y, y p.x + x p.y) + zw
     vec4 layer_weight;
     vec4 contact;       // 1 over metres on the host's surface, on the particles'; how much the mask takes; 0 distance, 1 view, 2 vertical

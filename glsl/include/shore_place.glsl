@@ -8,9 +8,10 @@ layout(set = 0, binding = 6) uniform sampler2D map;
 float surface_at(vec2 pixel, vec3 ray) {
     float fall = dot(shore.height.xyz, ray);
     float z = -shore.height.w / (abs(fall) < 1.0e-9 ? 1.0e-9 : fall);
-    for (bool go = shore.surface_part.z > 1.5; go; go = false) {
+    if (GENERAL == 1u) {
         ivec2 texel = clamp(ivec2(pixel * shore.surface.xy), ivec2(0), ivec2(shore.surface.zw) - 1);
-        z = eye_depth(texelFetch(surface_depth, texel + ivec2(shore.surface_part.xy), 0).x);
+        float depth = eye_depth(texelFetch(surface_depth, texel + ivec2(shore.surface_part.xy), 0).x);
+        z = shore.surface_part.z > 1.5 ? depth : z;
     }
     return clamp(z, -EMPTY, EMPTY);
 }

@@ -19,49 +19,45 @@ vec4 noise_at(vec2 p, float scale, float width) {
     return textureLod(shore_noise, p * scale, log2(max(width * scale * shore.web.w, 1.0e-6)));
 }
 
-// Mean of the web and of its square.
-vec2 web_at(vec2 uv, float scale, float width) {
-    return textureLod(shore_web, uv, log2(max(width * scale * shore.web.z, 1.0e-6))).xy;
+// Mean of the web and of its square, and its slope each way.
+vec4 web_at(vec2 uv, float scale, float width) {
+    return textureLod(shore_web, uv, log2(max(width * scale * shore.web.z, 1.0e-6)));
 }
 
-// dv: change of v a pixel to the right, and down. What the noises change from pixel to pixel is little. Loops, not branches:
-// a CPU runs branches whole.
+// dv: change of v a pixel to the right, and down. What the noises change from pixel to pixel is little.
 Mixed shoreline_at(vec2 p, float v, mat2 across, vec2 dv) {
     float width = sqrt(abs(determinant(across)));
-    for (int i = shore.warp.x != 0.0 ? 1 : 0; i > 0; --i) {
-        p += shore.warp.x * noise_at(p, shore.warp.y, width).xy;
-    }
     vec4 noise = vec4(0.0);
-    for (int i = 0; i < int(shore.warp.w); ++i) {
-        noise += shore.noise[i] * noise_at(p, shore.noise_scale[i], width);
+    vec2 bent = vec2(0.0);
+    // The world's bend first, the web's last.
+    for (int i = 0; i < LOOKS; ++i) {
+        vec4 n = noise_at(p + shore.look_moved[i].xy, shore.look[i].x, width);
+        noise += shore.noise[i] * n;
+        p += shore.look[i].y * n.xy;
+        bent += shore.look[i].z * n.zw;
     }
     float frequency = shore.waves.x + noise.x;
     // Mean of the wave over a pixel, as if it were over a normal distribution of a box's variance.
     float kept = exp(-frequency * frequency * dot(dv, dv) / 24.0);
     float phase = frequency * v + shore.waves.y + noise.y;
+    // Nothing is promised of a sine beyond half a turn.
+    phase -= 6.2831853 * round(phase / 6.2831853);
     float waves = kept * sin(phase) + shore.waves.z * v + shore.waves.w + noise.z;
     float steep = waves > shore.mixed.x ? kept * frequency * cos(phase) + shore.waves.z : 0.0;
     waves = max(waves, shore.mixed.x);
 
-    vec2 q = p;
-    for (int i = shore.web_warp.x != 0.0 ? 1 : 0; i > 0; --i) {
-        q += shore.web_warp.x * noise_at(p + shore.web_warp.zw, shore.web_warp.y, width).zw;
-    }
+    vec2 q = p + bent;
     float web = shore.web.x * v + shore.web.y + noise.z;
     vec2 change = shore.web.x * dv;
     float fine = 0.0;
-    for (int i = 0; i < int(shore.warp.z); ++i) {
+    for (int i = 0; i < LAYERS; ++i) {
         vec4 layer = shore.layer[i];
         mat2 turn = mat2(layer.x, layer.y, -layer.y, layer.x);
-        vec2 uv = turn * q + layer.zw;
-        mat2 step = turn * across;
-        float scale = length(layer.xy);
-        vec2 mean = web_at(uv, scale, width);
-        vec2 beside = vec2(web_at(uv + step[0], scale, width).x, web_at(uv + step[1], scale, width).x);
+        vec4 there = web_at(turn * q + layer.zw, length(layer.xy), width);
         float weight = shore.layer_weight[i];
-        web += weight * mean.x;
-        change += weight * (beside - mean.x);
-        fine += weight * weight * max(mean.y - mean.x * mean.x, 0.0);
+        web += weight * there.x;
+        change += weight * (there.zw * (turn * across));
+        fine += weight * weight * max(there.y - there.x * there.x, 0.0);
     }
     vec2 ratio = shore.mixed.yz;
     float ends = smoothstep(0.0, shore.reach.z, v) * smoothstep(0.0, shore.reach.z, 2.0 - v);

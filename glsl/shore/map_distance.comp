@@ -11,7 +11,8 @@ layout(set = 0, binding = 2, r32f) uniform writeonly image2D distances;
 
 // Gradient of the height about a place, of the four texels round it.
 vec2 rise_at(vec2 place) {
-    ivec2 base = ivec2(floor(place - 0.5));
+    // Four that are all of the map.
+    ivec2 base = clamp(ivec2(floor(place - 0.5)), ivec2(0), ivec2(push.size - 2));
     vec2 f = place - 0.5 - vec2(base);
     vec4 h = vec4(height_at(base), height_at(base + ivec2(1, 0)), height_at(base + ivec2(0, 1)), height_at(base + 1));
     return vec2(mix(h.y - h.x, h.w - h.z, f.y), mix(h.z - h.x, h.w - h.y, f.x));

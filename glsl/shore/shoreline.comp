@@ -17,8 +17,14 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
-layout(set = 0, binding = 10, std430) readonly buffer Arguments { uint arguments[8]; };
-layout(push_constant, std430) uniform Push { uint across; } push; // tiles
+layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[4]; };
+layout(push_constant, std430) uniform Push {
+    uint across; // tiles
+    uint most;   // of a list
+} push;
+
+// What tiles may have, 1: shoreline foam, 2: contact foam, 3: both. A pipeline each, not branches: a CPU runs them whole.
+layout(constant_id = 1) const uint PARTS = 3;
 
 #include "shore_light.glsl"
 #include "shore_place.glsl"
@@ -50,39 +56,37 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
 
 void main() {
     uint i = gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x;
-    uint tile = i < arguments[3] ? list[i] : 0xffffffffu;
+    bool inside = i < arguments[PARTS].w;
+    uint tile = list[(PARTS - 1u) * push.most + (inside ? i : 0u)];
     uvec2 texel = 16u * uvec2(tile % push.across, tile / push.across) + gl_LocalInvocationID.xy;
     vec2 pixel = vec2(texel) + 0.5;
-    bool inside = tile != 0xffffffffu && all(lessThan(pixel, frame.extent.xy));
+    inside = inside && all(lessThan(pixel, frame.extent.xy));
     pixel = min(pixel, frame.extent.xy - 0.5);
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     float z = surface_at(pixel, ray);
     bool own = inside && seen_before(z, scene);
-    for (bool go = own; go; go = false) {
-        Water w = water_point(ray, z);
+    Water w = water_point(ray, own ? z : 1.0);
+    float line = 0.0;
+    if ((PARTS & 1u) != 0u) {
         vec2 dv = vec2(0.0);
-        float way = shore.reach.w;
-        float v = 0.0;
-        for (bool go = way == 2.0; go; go = false) {
-            v = mapped(w, dv);
-        }
-        for (bool go = way > 2.5 && scene > 0.0; go; go = false) {
+        float v = mapped(w, dv);
+        if (GENERAL == 1u && shore.reach.w > 2.5) {
             v = v_by_depth(pixel, ray, scene);
+            dv = vec2(0.0);
         }
-        float line = 0.0;
-        for (bool go = v > 0.0 && v < 2.0; go; go = false) {
-            line = covered(shoreline_at(w.p, v, w.across, dv), pixel);
-        }
+        v = clamp(v, 0.0, 2.0);
+        line = own && v > 0.0 && v < 2.0 ? covered(shoreline_at(w.p, v, w.across, dv), pixel) : 0.0;
+    }
+    float amount = 0.0;
+    if ((PARTS & 2u) != 0u) {
         float far = contact_distance(ray, z, scene) * shore.contact.x;
-        float amount = 0.0;
-        for (bool go = far >= 0.0 && far < 1.0; go; go = false) {
-            amount = eased((1.0 - far) * masked(pixel, w.p, width_of(w))) * shore.mask_part.z;
-        }
-        for (bool go = line + amount > 0.0; go; go = false) {
-            // Where there is a strip its foam is here.
-            vec4 there = way == 1.0 ? imageLoad(foam, ivec2(texel)) : vec4(0.0);
-            imageStore(foam, ivec2(texel), vec4(max(line, there.x), amount, sun_share(ray * z, pixel), 0.0));
-        }
+        float part = eased((1.0 - clamp(far, 0.0, 1.0)) * masked(pixel, w.p, width_of(w))) * shore.mask_part.z;
+        amount = own && far >= 0.0 ? part : 0.0;
+    }
+    if (line + amount > 0.0) {
+        // Where there is a strip its foam is here.
+        float strip = PARTS == 2u ? imageLoad(foam, ivec2(texel)).x : 0.0;
+        imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_share(ray * z, pixel), 0.0));
     }
 }

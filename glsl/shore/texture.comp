@@ -1,6 +1,6 @@
 #version 460
 // Pass `web`: a level of the web or the noise as half floats, for a copy to its image. Of the web the mean and the mean of
-// the square, by which what a pixel cannot show is known as a variance. Not in the source.
+// the square, by which what a pixel cannot show is known as a variance, and its slopes. Not in the source.
 // Reads: texels as the host has them, or 32-bit floats, or the level before. Writes: the level.
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -21,16 +21,13 @@ layout(push_constant, std430) uniform Push {
     uint before; // of the one before
 } push;
 
-const uint WORDS = NOISE + 1u;
-
 vec4 before_at(uvec2 at) {
-    uint word = push.before + WORDS * (at.y * 2u * push.size + at.x);
-    vec2 low = unpackHalf2x16(halves[word]);
-    return NOISE == 1u ? vec4(low, unpackHalf2x16(halves[word + 1u])) : vec4(low, 0.0, 0.0);
+    uint word = push.before + 2u * (at.y * 2u * push.size + at.x);
+    return vec4(unpackHalf2x16(halves[word]), unpackHalf2x16(halves[word + 1u]));
 }
 
 // Bilinear, or the mean of what a texel covers where there are more of them; the image closes on itself.
-float host_at(uvec2 at) {
+float host_at(ivec2 at) {
     vec2 step = push.part.zw / float(push.size);
     ivec2 taps = max(ivec2(ceil(step)), ivec2(1));
     float sum = 0.0;
@@ -53,6 +50,12 @@ float host_at(uvec2 at) {
     return sum / float(taps.x * taps.y);
 }
 
+float web_of(ivec2 at) {
+    int size = int(push.size);
+    at = (at + size) % size;
+    return FROM == 1u ? floats[at.y * size + at.x] : host_at(at);
+}
+
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(at, uvec2(push.size)))) {
@@ -66,12 +69,14 @@ void main() {
     } else if (NOISE == 1u) {
         value = vec4(floats[4u * texel], floats[4u * texel + 1u], floats[4u * texel + 2u], floats[4u * texel + 3u]);
     } else {
-        float web = FROM == 1u ? floats[texel] : host_at(at);
-        value = vec4(web, web * web, 0.0, 0.0);
+        ivec2 own = ivec2(at);
+        float web = web_of(own);
+        // Over two texels; by all of it, as the image repeats.
+        vec2 slope = vec2(web_of(own + ivec2(1, 0)) - web_of(own - ivec2(1, 0)),
+                          web_of(own + ivec2(0, 1)) - web_of(own - ivec2(0, 1)));
+        value = vec4(web, web * web, 0.5 * float(push.size) * slope);
     }
-    uint word = push.first + WORDS * texel;
+    uint word = push.first + 2u * texel;
     halves[word] = packHalf2x16(value.xy);
-    if (NOISE == 1u) {
-        halves[word + 1u] = packHalf2x16(value.zw);
-    }
+    halves[word + 1u] = packHalf2x16(value.zw);
 }

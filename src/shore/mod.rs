@@ -31,7 +31,6 @@ pub use distance::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapSte
 pub use settings::{
     ContactLook, Edge, Measure, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
 };
-pub(crate) use shoreline::DRAW;
 use textures::Textures;
 
 /// The block `ShoreFrame` of `glsl/include/shore.glsl`; its comments say what each member holds.
@@ -48,10 +47,10 @@ pub(crate) struct ShoreUniforms {
     waves: [f32; 4],
     mixed: [f32; 4],
     web: [f32; 4],
-    web_warp: [f32; 4],
-    warp: [f32; 4],
-    noise_scale: [f32; 4],
-    noise: [[f32; 4]; 4],
+    counts: [f32; 4],
+    look: [[f32; 4]; 6],
+    look_moved: [[f32; 4]; 6],
+    noise: [[f32; 4]; 6],
     layer: [[f32; 4]; 4],
     layer_weight: [f32; 4],
     contact: [f32; 4],
@@ -73,9 +72,9 @@ shader::assert_layout!(
         waves,
         mixed,
         web,
-        web_warp,
-        warp,
-        noise_scale,
+        counts,
+        look,
+        look_moved,
         noise,
         layer,
         layer_weight,
@@ -106,7 +105,50 @@ fn moved(look: &ShoreLook, scale: f32, speed: [f32; 2]) -> [f32; 2] {
     speed.map(|speed| look.turned(f64::from(scale) * f64::from(speed)) as f32)
 }
 
+/// Looks into the noise, in their order.
+#[derive(Default)]
+struct Looks {
+    count: usize,
+    own: [[f32; 4]; 6],
+    moved: [[f32; 4]; 6],
+    noise: [[f32; 4]; 6],
+}
+
+impl Looks {
+    /// One of so many repetitions a metre.
+    fn add(&mut self, scale: f32) -> &mut [f32; 4] {
+        let own = &mut self.own[self.count];
+        self.count += 1;
+        own[0] = scale;
+        own
+    }
+
+    /// Noises in the four channels, with factors: those of one scale are one look.
+    fn add_noises(&mut self, noises: [(Noise, f32); 4]) {
+        let first = self.count;
+        for (channel, (noise, factor)) in noises.iter().enumerate() {
+            if noise.amplitude == 0.0 {
+                continue;
+            }
+            let known = self.own[first..self.count].iter().position(|own| own[0] == noise.scale);
+            let at = known.map_or(self.count, |known| first + known);
+            if at == self.count {
+                self.add(noise.scale);
+            }
+            self.noise[at][channel] = noise.amplitude * factor;
+        }
+    }
+}
+
 impl ShoreUniforms {
+    /// Whether a frame has more than most have (glsl/include/shore.glsl).
+    pub fn is_general(&self, scene_depth: vk::Extent2D, frame: vk::Extent2D) -> bool {
+        let [looks, layers, ..] = self.counts;
+        let [_, _, kind, _] = self.surface_part;
+        let [_, _, _, way] = self.reach;
+        looks > 2.0 || layers > 2.0 || kind > 1.5 || way > 2.5 || scene_depth != frame
+    }
+
     /// `edges`: of web and noise, in texels. Without a [`Frame::shore`] nothing is drawn by it.
     pub fn new(frame: &Frame<'_>, lens: &Lens, edges: [f32; 2]) -> Self {
         let Settings { shore: look, water, .. } = frame.settings;
@@ -139,23 +181,22 @@ impl ShoreUniforms {
         };
 
         let [phase, local] = look.phases();
-        // Noises of one scale are one look-up.
-        let noises = [
+        let (mut looks, web_warp) = (Looks::default(), s.web_warp);
+        if s.warp.amplitude != 0.0 {
+            looks.add(s.warp.scale)[1] = s.warp.amplitude;
+        }
+        looks.add_noises([
             (s.frequency_noise, 1.0),
             (s.speed_noise, local),
             (s.rise_noise, 1.0),
             (s.threshold_noise, 1.0),
-        ];
-        let (mut scales, mut noise, mut count) = ([0.0; 4], [[0.0; 4]; 4], 0);
-        for (channel, (own, factor)) in noises.iter().enumerate() {
-            if own.amplitude == 0.0 {
-                continue;
-            }
-            let known = scales[..count].iter().position(|scale| *scale == own.scale);
-            let at = known.unwrap_or(count);
-            count = count.max(at + 1);
-            scales[at] = own.scale;
-            noise[at][channel] = own.amplitude * factor;
+        ]);
+        if web_warp.amplitude != 0.0 {
+            looks.add(web_warp.scale)[2] = web_warp.amplitude;
+            // In metres.
+            let [u, v] = moved(look, web_warp.scale, s.web_warp_speed);
+            let metres = 1.0 / web_warp.scale.max(1.0e-9);
+            looks.moved[looks.count - 1] = [u * metres, v * metres, 0.0, 0.0];
         }
         let (mut layer, mut weight, mut layers) = ([[0.0; 4]; 4], [0.0; 4], 0);
         for own in s.layers.iter().filter(|own| own.weight > 0.0) {
@@ -168,9 +209,6 @@ impl ShoreUniforms {
             weight[layers] = own.weight;
             layers += 1;
         }
-        let web_warp = moved(look, s.web_warp.scale, s.web_warp_speed);
-        // Metres, which the shader adds to the place.
-        let [u, v] = web_warp.map(|part| part / s.web_warp.scale.max(1.0e-9));
         let [mask_u, mask_v] = moved(look, c.mask_scale, c.mask_speed);
         let (mask, [mask_x, mask_y]) =
             own.mask.as_ref().map_or_else(Default::default, |image| texels(image, extent));
@@ -186,10 +224,10 @@ impl ShoreUniforms {
             waves: [s.frequency, phase, s.wave_rise[0], s.wave_rise[1]],
             mixed: [s.floor.unwrap_or(-1.0e9), s.wave_ratio, s.web_ratio, s.threshold],
             web: [s.web_rise[0], s.web_rise[1], edges[0], edges[1]],
-            web_warp: [s.web_warp.amplitude, s.web_warp.scale, u, v],
-            warp: [s.warp.amplitude, s.warp.scale, layers as f32, count as f32],
-            noise_scale: scales,
-            noise,
+            counts: [looks.count as f32, layers as f32, 0.0, 0.0],
+            look: looks.own,
+            look_moved: looks.moved,
+            noise: looks.noise,
             layer,
             layer_weight: weight,
             contact: [
@@ -335,9 +373,15 @@ impl Shore {
     }
 
     /// Where foam lies on the host's surface: before the tiles that are drawn are known.
-    pub fn record_shoreline(&self, r: &mut Recording<'_>, given: &Given<'_>) -> Result<(), Error> {
+    /// `general`: the frame has more than most have.
+    pub fn record_shoreline(
+        &self,
+        r: &mut Recording<'_>,
+        given: &Given<'_>,
+        general: bool,
+    ) -> Result<(), Error> {
         let scope = r.begin(c"shoreline");
-        self.shoreline.record(r, given, &self.textures)?;
+        self.shoreline.record(r, (given, general), &self.textures)?;
         r.end(scope);
         Ok(())
     }
@@ -360,8 +404,9 @@ impl Shore {
         self.shoreline.image()
     }
 
-    /// Which tiles may have foam on the host's surface, the draw of their quads, and how many there are in a row of a frame.
-    pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, u32) {
+    /// Which tiles may have foam on the host's surface, the draw of their quads; how many there are in a row of a frame, and
+    /// where in the list they begin.
+    pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, [u32; 2]) {
         self.shoreline.tiles(extent)
     }
 

@@ -33,10 +33,10 @@ use crate::water::{Recording, Window};
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Edge of a tile in pixels (glsl/shore/tiles.comp).
 const TILE: u32 = 16;
-/// A dispatch over no tiles and how many they are, a quad's draw of none.
-const NO_TILES: [u32; 8] = [0, 0, 1, 0, 4, 0, 0, 0];
-/// Where the draw begins, in bytes.
-pub const DRAW: u64 = 16;
+/// Lists of tiles: with shoreline foam, with contact foam, with both, with any.
+const LISTS: u32 = 4;
+/// A quad's draw of no tiles; dispatches over none and how many they are.
+const NO_TILES: [u32; 16] = [4, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0];
 /// How the list and the arguments are read, here and by `composite`.
 const READ: Access = COMPUTE_READ.and(VERTEX_READ).and(INDIRECT);
 
@@ -64,6 +64,8 @@ fn tiles(extent: vk::Extent2D) -> [u32; 2] {
 
 /// Of each tile whether it may have foam; which have.
 struct Lists {
+    /// Tiles of a list.
+    most: u32,
     marks: Buffer,
     list: Buffer,
 }
@@ -71,12 +73,12 @@ struct Lists {
 impl Lists {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let [x, y] = tiles(config.extent);
-        let words = |name| {
+        let words = |name, each: u32| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-            let bytes = 4 * u64::from(x) * u64::from(y);
+            let bytes = 4 * u64::from(each * x * y);
             Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
         };
-        Ok(Self { marks: words("shore/marks")?, list: words("shore/list")? })
+        Ok(Self { most: x * y, marks: words("shore/marks", 1)?, list: words("shore/list", LISTS)? })
     }
 }
 
@@ -90,11 +92,32 @@ fn desc(config: &Config) -> ImageDesc<'static> {
     ImageDesc::new("shore/foam", config.extent, vk::Format::R8G8B8A8_UNORM, usage)
 }
 
+/// Pipelines for what a frame may have (glsl/include/shore.glsl).
+struct Way {
+    mark: Pipeline,
+    /// Of each list.
+    shade: [Pipeline; 3],
+}
+
+impl Way {
+    fn new(gpu: &Gpu, constants: &[(u32, u32)], general: u32) -> Result<Self, Error> {
+        let general = (3, general);
+        let shade = |parts| {
+            let own = [constants, &[(1, parts), general]].concat();
+            Pipeline::compute(gpu, shader::SHORE_SHORELINE_COMP, &own)
+        };
+        Ok(Self {
+            mark: Pipeline::compute(gpu, shader::SHORE_TILES_COMP, &[general])?,
+            shade: [shade(1)?, shade(2)?, shade(3)?],
+        })
+    }
+}
+
 /// The pass.
 pub struct Shore {
-    mark: Pipeline,
     gather: Pipeline,
-    shade: Pipeline,
+    /// For what most frames have, and for all there is.
+    ways: [Way; 2],
     strip: Pipeline,
     /// The dispatch over the tiles, and the draw of their quads.
     arguments: Buffer,
@@ -131,11 +154,10 @@ impl Shore {
             | vk::BufferUsageFlags::TRANSFER_DST;
         let name = "shore/arguments";
         Ok(Self {
-            mark: Pipeline::compute(gpu, shader::SHORE_TILES_COMP, &[])?,
             gather: Pipeline::compute(gpu, shader::SHORE_TILES_LIST_COMP, &[])?,
-            shade: Pipeline::compute(gpu, shader::SHORE_SHORELINE_COMP, &constants)?,
+            ways: [Way::new(gpu, &constants, 0)?, Way::new(gpu, &constants, 1)?],
             strip: Pipeline::graphics(gpu, &strip)?,
-            arguments: Buffer::new(gpu, name, 32, usage, MemoryLocation::GpuOnly)?,
+            arguments: Buffer::new(gpu, name, 64, usage, MemoryLocation::GpuOnly)?,
             lists: Lists::new(gpu, config)?,
             target,
         })
@@ -148,14 +170,16 @@ impl Shore {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let new = Lists::new(gpu, config)?;
+        self.lists.most = new.most;
         retired.replace(&mut self.lists.marks, new.marks);
         retired.replace(&mut self.lists.list, new.list);
         self.target.resize(gpu, &desc(config), retired)
     }
 
-    /// Which tiles may have foam on the host's surface, the draw of their quads, and how many there are in a row of a frame.
-    pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, u32) {
-        (&self.lists.list, &self.arguments, tiles(extent)[0])
+    /// Which tiles may have foam on the host's surface, the draw of their quads; how many there are in a row of a frame, and
+    /// where in the list they begin.
+    pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, [u32; 2]) {
+        (&self.lists.list, &self.arguments, [tiles(extent)[0], 3 * self.lists.most])
     }
 
     /// The foam.
@@ -163,13 +187,15 @@ impl Shore {
         &self.target.image
     }
 
+    /// `general`: the frame has more than most have.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
-        given: &Given<'_>,
+        (given, general): (&Given<'_>, bool),
         textures: &Textures,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
+        let way = &self.ways[usize::from(general)];
         let image = self.image();
         let arguments = self.arguments.handle;
         gpu.barriers(
@@ -216,9 +242,8 @@ impl Shore {
             buffer(arguments, COPY_WRITE, COMPUTE_READ_WRITE),
         ];
         gpu.barriers(cmd, &[], &filled);
-        let any = given.shore.is_some();
-        if any {
-            self.record_tiles(r, &own)?;
+        if given.shore.is_some() {
+            self.record_tiles(r, &own, &way.mark)?;
         }
         gpu.barriers(
             cmd,
@@ -234,27 +259,40 @@ impl Shore {
                 (9, Resource::buffer(&self.lists.list)),
                 (10, Resource::buffer(&self.arguments)),
             ];
-            r.descriptors.bind(gpu, cmd, &self.shade, &[&resources[..], &lists].concat())?;
-            self.shade.push(gpu, cmd, &tiles(r.extent)[0]);
-            // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible (barrier).
-            unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments, 0) };
+            let resources = [&resources[..], &lists].concat();
+            for (i, pipeline) in (1..).zip(&way.shade) {
+                r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+                pipeline.push(gpu, cmd, &[tiles(r.extent)[0], self.lists.most]);
+                if i > 1 {
+                    // Each tile is in one list; all may write all for what a validation layer knows.
+                    let both = COMPUTE_READ_WRITE;
+                    gpu.barriers(cmd, &[access::image(image, both, both)], &[]);
+                }
+                // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible (barrier).
+                unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments, 16 * i) };
+            }
         }
         gpu.barriers(cmd, &[access::image(image, COMPUTE_READ_WRITE, AFTER)], &[]);
         Ok(())
     }
 
     /// Which tiles may have foam on the host's surface.
-    fn record_tiles(&self, r: &Recording<'_>, own: &[(u32, Resource)]) -> Result<(), Error> {
+    fn record_tiles(
+        &self,
+        r: &Recording<'_>,
+        own: &[(u32, Resource)],
+        mark: &Pipeline,
+    ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let Lists { marks, list } = &self.lists;
+        let Lists { marks, list, .. } = &self.lists;
         let [x, y] = tiles(r.extent);
         let marked = [own, &[(8, Resource::buffer(marks))]].concat();
-        r.descriptors.bind(gpu, cmd, &self.mark, &marked)?;
-        self.mark.push(gpu, cmd, &x);
-        // Four pixels at a time.
-        let half =
-            vk::Extent2D { width: r.extent.width.div_ceil(2), height: r.extent.height.div_ceil(2) };
-        r.dispatch_over(half, self.mark.local_size);
+        r.descriptors.bind(gpu, cmd, mark, &marked)?;
+        mark.push(gpu, cmd, &x);
+        // Sixteen pixels at a time.
+        let vk::Extent2D { width, height } = r.extent;
+        let blocks = vk::Extent2D { width: width.div_ceil(4), height: height.div_ceil(4) };
+        r.dispatch_over(blocks, mark.local_size);
         let both = COMPUTE_READ_WRITE;
         gpu.barriers(cmd, &[], &[buffer(marks.handle, both, both)]);
         let listed = [
@@ -263,7 +301,7 @@ impl Shore {
             (2, Resource::buffer(&self.arguments)),
         ];
         r.descriptors.bind(gpu, cmd, &self.gather, &listed)?;
-        self.gather.push(gpu, cmd, &(x * y));
+        self.gather.push(gpu, cmd, &[x * y, self.lists.most]);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, (x * y).div_ceil(64), 1, 1) };
         Ok(())
@@ -309,7 +347,7 @@ impl Shore {
 
     /// Bytes of images and of buffers.
     pub fn memory(&self) -> (u64, u64) {
-        let Lists { marks, list } = &self.lists;
+        let Lists { marks, list, .. } = &self.lists;
         (self.image().size, marks.size + list.size + self.arguments.size)
     }
 }

@@ -1,7 +1,7 @@
 //! Pass `web`: the textures of shoreline and contact foam, all levels of them: made once, the web again from an image of
 //! the host's.
 //!
-//! Reads: texels. Writes: the web (RG16F: mean, mean of the square) and the noise (RGBA16F).
+//! Reads: texels. Writes: the web (mean, mean of the square, slopes) and the noise, RGBA16F.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -43,8 +43,6 @@ shader::assert_layout!(shader::SHORE_TEXTURE_COMP, "Push", Push { part, size, fi
 /// One of them: its floats as they come, its levels packed, its image.
 struct Texture {
     edge: u32,
-    /// Words of a texel among the packed.
-    words: u32,
     first: Pipeline,
     next: Pipeline,
     floats: Buffer,
@@ -61,11 +59,7 @@ impl Texture {
         (name, edge, noise): (&str, u32, bool),
         floats: &[u8],
     ) -> Result<Self, Error> {
-        let words = 1 + u32::from(noise);
-        let format = match noise {
-            true => vk::Format::R16G16B16A16_SFLOAT,
-            false => vk::Format::R16G16_SFLOAT,
-        };
+        let format = vk::Format::R16G16B16A16_SFLOAT;
         let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
         let extent = vk::Extent2D { width: edge, height: edge };
         let desc = ImageDesc::new(name, extent, format, usage);
@@ -85,14 +79,13 @@ impl Texture {
         let levels = edge.ilog2() + 1;
         let mut made = Self {
             edge,
-            words,
             first: pipeline(1)?,
             next: pipeline(0)?,
             floats: own,
             halves: Buffer::new(
                 gpu,
                 &format!("{name}/halves"),
-                4 * u64::from(words) * u64::from(level_begin(edge, levels)),
+                8 * u64::from(level_begin(edge, levels)),
                 storage | vk::BufferUsageFlags::TRANSFER_SRC,
                 MemoryLocation::GpuOnly,
             )?,
@@ -131,7 +124,7 @@ impl Texture {
                 host.filter(|_| level == 0).unwrap_or((own, set, vk::Rect2D::default()));
             pipeline.bind(gpu, cmd);
             bind_set(gpu, cmd, pipeline, set);
-            let begin = |level| self.words * level_begin(self.edge, level);
+            let begin = |level| 2 * level_begin(self.edge, level);
             let size = self.edge >> level;
             let vk::Rect2D { offset, extent } = rect;
             let part = [offset.x, offset.y, extent.width as i32, extent.height as i32];
@@ -151,7 +144,7 @@ impl Texture {
             .map(|level| {
                 let size = self.edge >> level;
                 vk::BufferImageCopy::default()
-                    .buffer_offset(4 * u64::from(self.words * level_begin(self.edge, level)))
+                    .buffer_offset(8 * u64::from(level_begin(self.edge, level)))
                     .image_subresource(vk::ImageSubresourceLayers {
                         aspect_mask: vk::ImageAspectFlags::COLOR,
                         mip_level: level,
@@ -192,7 +185,8 @@ pub struct Textures {
     /// The web of an image of the host's.
     hosts: Pipeline,
     _setup: Descriptors,
-    sampler: Owned<vk::Sampler>,
+    /// Of the web, of the noise.
+    samplers: [Owned<vk::Sampler>; 2],
 }
 
 impl Textures {
@@ -216,7 +210,14 @@ impl Textures {
             noise: texture(("shore/noise", NOISE, true), bytemuck::cast_slice(&noise))?,
             hosts: Pipeline::compute(gpu, shader::SHORE_TEXTURE_COMP, &[(0, 0), (1, 2)])?,
             _setup: setup,
-            sampler: gpu.sampler("repeat", &sampler)?,
+            // A level of the noise has what is coarse of the one before: between two of them is no more.
+            samplers: [
+                gpu.sampler("repeat", &sampler)?,
+                gpu.sampler(
+                    "repeat, a level",
+                    &sampler.mipmap_mode(vk::SamplerMipmapMode::NEAREST),
+                )?,
+            ],
         })
     }
 
@@ -256,11 +257,11 @@ impl Textures {
     }
 
     pub fn web(&self) -> Resource {
-        Resource::Sampled(self.web.image.view, self.sampler.handle)
+        Resource::Sampled(self.web.image.view, self.samplers[0].handle)
     }
 
     pub fn noise(&self) -> Resource {
-        Resource::Sampled(self.noise.image.view, self.sampler.handle)
+        Resource::Sampled(self.noise.image.view, self.samplers[1].handle)
     }
 
     /// Edges of the web and of the noise.
