@@ -7,6 +7,9 @@
 // Reads: shadow map, environment, irradiance, texture. Writes: scene colour.
 
 #include "../headless/scene.glsl"
+#include "../headless/noise.glsl"
+#include "../headless/light.glsl"
+#include "../headless/sea.glsl"
 
 const uint PLAIN = 0;
 const uint TILES = 1;
@@ -15,20 +18,21 @@ const uint CONCRETE = 3;
 const uint STONE = 4;
 const uint SAND = 5;
 const uint PAVING = 6;
+const uint ISLAND = 7;
+const uint ROCK = 8;
+const uint LEAVES = 9;
 
 layout(constant_id = 0) const uint PATTERN = PLAIN;
 layout(constant_id = 1) const uint GROUND = 0;   // fades into the sky
 layout(constant_id = 2) const uint TEXTURED = 0;
 
 layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
-layout(set = 0, binding = 2) uniform samplerCube environment;
-layout(set = 0, binding = 3, std430) readonly buffer Irradiance { vec4 irradiance[9]; };
 layout(set = 0, binding = 4) uniform sampler2D base_texture;
 layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // size, height of the tiles' band (world)
+    vec4 pattern;   // size, height of the tiles' band (world); or how high sand reaches above the sea
 } push;
 
 layout(location = 0) in vec3 position;
@@ -54,50 +58,6 @@ vec3 unturn(vec3 v) {
 vec3 turn(vec3 v) {
     vec3 q = push.turn.xyz;
     return v + 2.0 * cross(q, cross(q, v) + push.turn.w * v);
-}
-
-float hash(ivec3 p) {
-    uint h = uint(p.x) * 0x8da6b343u ^ uint(p.y) * 0xd8163841u ^ uint(p.z) * 0xcb1ab31fu;
-    h ^= h >> 15;
-    h *= 0x2c1b3c6du;
-    h ^= h >> 12;
-    h *= 0x297a2d39u;
-    h ^= h >> 15;
-    return float(h >> 8) / 16777216.0;
-}
-
-// Value noise in [-1, 1].
-float noise(vec3 p) {
-    ivec3 i = ivec3(floor(p));
-    vec3 f = fract(p);
-    f = f * f * (3.0 - 2.0 * f);
-    vec4 low = vec4(hash(i), hash(i + ivec3(1, 0, 0)), hash(i + ivec3(0, 1, 0)), hash(i + ivec3(1, 1, 0)));
-    ivec3 j = i + ivec3(0, 0, 1);
-    vec4 high = vec4(hash(j), hash(j + ivec3(1, 0, 0)), hash(j + ivec3(0, 1, 0)), hash(j + ivec3(1, 1, 0)));
-    vec4 z = mix(low, high, f.z);
-    vec2 y = mix(z.xy, z.zw, f.y);
-    return 2.0 * mix(y.x, y.y, f.x) - 1.0;
-}
-
-// What of a wave of this frequency survives a footprint of this width.
-float kept(float width, float frequency) {
-    return 1.0 - smoothstep(0.25, 0.9, width * frequency);
-}
-
-// Octaves of noise that fade as the footprint grows over them.
-float octaves(vec3 p, float frequency, int count, float width) {
-    float sum = 0.0;
-    float amplitude = 0.5;
-    for (int i = 0; i < count; ++i) {
-        float share = kept(width, frequency);
-        if (share <= 0.0) {
-            break;
-        }
-        sum += amplitude * share * noise(p * frequency + float(i) * 19.7);
-        amplitude *= 0.55;
-        frequency *= 2.13;
-    }
-    return sum;
 }
 
 // Share of the footprint that is covered by lines of this width at the integers.
@@ -233,6 +193,72 @@ Surface paving(vec2 q, vec2 footprint, vec3 p, float width) {
     return s;
 }
 
+// Rock: clouds, clefts, lichen on what looks up; dark where the sea wets it.
+Surface rock(vec3 p, vec3 n, float width, float height) {
+    float cloud = octaves(p, 0.45, 4, width);
+    float cleft = octaves(p + 3.0 * cloud, 1.1, 3, width);
+    float grain = octaves(p + 53.0, 14.0, 3, width);
+    vec3 relief = vec3(octaves(p, 2.6, 4, width), octaves(p + 17.0, 2.6, 4, width), octaves(p + 43.0, 2.6, 4, width));
+    float strata = octaves(vec3(0.25 * p.x, 1.6 * p.y + 0.5 * cloud, 0.25 * p.z) + 37.0, 1.1, 4, width);
+    vec3 tone = push.color.rgb * (1.0 + 0.25 * cloud + 0.45 * grain + 0.55 * strata + 0.6 * relief.x);
+    tone *= 1.0 + vec3(0.08, 0.0, -0.10) * cleft;
+    float lichen = smoothstep(0.15, 0.5, octaves(p + 71.0, 1.7, 3, width)) * smoothstep(0.3, 0.8, n.y);
+    tone = mix(tone, push.color.rgb * vec3(1.15, 1.2, 0.85), 0.5 * lichen);
+    if (SEA == WATER) {
+        float damp = 1.0 - smoothstep(0.05, 0.35, height + 0.15 * cloud);
+        tone *= mix(vec3(1.0), vec3(0.40, 0.38, 0.33), damp);
+    }
+    Surface s;
+    s.albedo = tone;
+    s.roughness = push.color.a;
+    s.tilt = 0.9 * relief + 0.25 * vec3(grain, 0.0, -grain);
+    return s;
+}
+
+// Leaves: light tips and dark gaps between them.
+Surface leaves(vec3 p, vec3 n, float width) {
+    float clump = octaves(p + 3.0, 1.6, 3, width);
+    vec3 leaf = vec3(octaves(p, 9.0, 3, width), octaves(p + 41.0, 9.0, 3, width), octaves(p + 83.0, 9.0, 3, width));
+    float gap = 1.0 - 0.75 * smoothstep(0.0, 0.4, -leaf.x - 0.3 * clump);
+    Surface s;
+    s.albedo = push.color.rgb * (1.0 + 0.5 * clump + 0.8 * leaf.y) * gap * mix(0.55, 1.1, smoothstep(-0.8, 0.8, n.y));
+    s.albedo *= 1.0 + vec3(0.35, 0.10, -0.2) * leaf.z;
+    s.roughness = push.color.a;
+    s.tilt = 1.3 * leaf;
+    return s;
+}
+
+// Sand to some height above the sea, then grass, rock where it is steep; weed and stones on the bottom.
+Surface island(vec3 p, vec3 n, float width, float height) {
+    float beach = push.pattern.x;
+    Surface s = sand(p, width);
+    float broad = octaves(p + 5.0, 0.06, 4, width);
+    float patches = octaves(p + 29.0, 0.22, 4, width);
+    float fine = octaves(p + 47.0, 1.3, 3, width);
+    // Sand that the sea has wet.
+    float damp = SEA == WATER ? 1.0 - smoothstep(0.08, 0.30, height + 0.12 * broad + 0.05 * patches) : 0.0;
+    s.albedo *= mix(vec3(1.0), vec3(0.66, 0.62, 0.57), damp);
+    vec3 weed = vec3(0.060, 0.070, 0.035) * (1.0 + 0.8 * fine);
+    s.albedo = mix(s.albedo, s.albedo * vec3(1.05, 1.13, 1.32), smoothstep(0.0, -0.8, height));
+    float deep = smoothstep(-1.3, -3.0, height);
+    s.albedo = mix(s.albedo, weed, 0.85 * deep * smoothstep(0.08, 0.34, patches + 0.6 * broad));
+
+    vec3 grass = mix(vec3(0.115, 0.150, 0.040), vec3(0.060, 0.105, 0.025), smoothstep(-0.3, 0.3, patches));
+    grass = mix(grass, vec3(0.23, 0.20, 0.09), smoothstep(0.1, 0.5, broad + 0.3 * fine));
+    grass *= 1.0 + 0.7 * fine + 0.4 * octaves(p, 7.0, 2, width);
+    float green = smoothstep(0.75, 1.15, height / beach + 0.9 * patches + 0.35 * fine);
+    s.albedo = mix(s.albedo, grass, green);
+    float steep = smoothstep(0.82, 0.70, n.y + 0.16 * fine + 0.12 * patches) * smoothstep(-0.5, 0.3, height - 0.5 * beach);
+    float clouds = octaves(p + 83.0, 0.5, 4, width);
+    float strata = octaves(vec3(0.3 * p.x, 2.2 * p.y, 0.3 * p.z), 0.8, 3, width);
+    vec3 relief = vec3(octaves(p, 0.9, 4, width), octaves(p + 17.0, 0.9, 4, width), octaves(p + 43.0, 0.9, 4, width));
+    vec3 stone = vec3(0.25, 0.22, 0.19) * (1.0 + 0.35 * clouds + 0.6 * strata + 0.3 * fine + 0.2 * relief.y);
+    s.albedo = mix(s.albedo, stone, steep);
+    s.roughness = mix(s.roughness, 0.9, max(green, steep));
+    s.tilt += mix(0.5 * green, 1.0, steep) * relief;
+    return s;
+}
+
 // Share of the sun that arrives: a 5×5 tent by nine bilinear comparisons (Castaño 2013, as in The
 // Witness), about as wide as the sun's own penumbra a metre behind an edge. Smooth, so no noise.
 float sunlight(vec3 at, vec3 facing) {
@@ -263,13 +289,12 @@ float sunlight(vec3 at, vec3 facing) {
     return sum / 144.0;
 }
 
-vec3 sky_irradiance(vec3 n) {
-    vec3 e = 0.282095 * irradiance[0].rgb
-           + 0.488603 * (irradiance[1].rgb * n.y + irradiance[2].rgb * n.z + irradiance[3].rgb * n.x)
-           + 1.092548 * (irradiance[4].rgb * n.x * n.y + irradiance[5].rgb * n.y * n.z + irradiance[7].rgb * n.x * n.z)
-           + 0.315392 * irradiance[6].rgb * (3.0 * n.z * n.z - 1.0)
-           + 0.546274 * irradiance[8].rgb * (n.x * n.x - n.y * n.y);
-    return max(e, 0.0);
+// Irradiance on the sea at a place, of the sun and a share of the sky.
+vec3 lava_light(vec2 place, float sky_seen) {
+    vec3 at = vec3(place.x, scene.sea.x, place.y);
+    vec3 up = vec3(0.0, 1.0, 0.0);
+    float sun = max(scene.sun_direction.y, 0.0) * sunlight(at, up);
+    return scene.sun_color.rgb * sun + sky_seen * sky_irradiance(up);
 }
 
 void main() {
@@ -283,8 +308,20 @@ void main() {
     face = dot(face, v) < 0.0 ? -face : face;
     vec3 n = normalize(normal);
     n = dot(n, face) < 0.0 ? -n : n;
+    // How far under the sea, and what of the pixel is.
+    float depth = SEA != 0u ? max(scene.sea.x - position.y, 0.0) : 0.0;
+    float under = SEA != 0u ? clamp((scene.sea.x - position.y) / max(fwidth(position.y), 1.0e-6) + 0.5, 0.0, 1.0) : 0.0;
 
-    vec3 p = unturn(position - push.origin.xyz);
+    // Ends of loops, not branches: a CPU runs branches whole.
+    int wet = under > 0.0 && over_sea() ? 1 : 0;
+    Surf sea;
+    vec3 shown_at = position;
+    for (int i = 0; i < wet; ++i) {
+        sea = surf();
+        vec3 aside = wobble(sea, depth);
+        shown_at += aside - n * dot(aside, n);
+    }
+    vec3 p = unturn(shown_at - push.origin.xyz);
     vec3 step_x = unturn(px);
     vec3 step_y = unturn(py);
     vec3 footprint3 = abs(step_x) + abs(step_y);
@@ -311,6 +348,12 @@ void main() {
         s = sand(p, width);
     } else if (PATTERN == PAVING) {
         s = paving(q, footprint, p, width);
+    } else if (PATTERN == ISLAND) {
+        s = island(p, n, width, shown_at.y - scene.sea.x);
+    } else if (PATTERN == LEAVES) {
+        s = leaves(p, n, width);
+    } else if (PATTERN == ROCK) {
+        s = rock(p, n, width, position.y - scene.sea.x);
     }
     if (TEXTURED == 1u) {
         s.albedo *= texture(base_texture, uv).rgb;
@@ -333,7 +376,17 @@ void main() {
     vec3 sky = sky_seen * sky_irradiance(n);
     // What is around sees about half of the sky itself.
     vec3 bounced = max(light.yzw, 0.0) * scene.sun_color.rgb + 0.5 * max(around.rgb, 0.0) * up;
+    for (int i = 0; SEA == WATER && i < wet; ++i) {
+        sun *= sun_under(position, depth);
+        sky *= sky_under(depth);
+        bounced *= sky_under(depth);
+    }
     vec3 c = s.albedo / PI * (sun + sky + bounced);
+    if (SEA == LAVA && over_sea()) {
+        c += s.albedo / PI * lava_glow(position.y - scene.sea.x, n);
+    }
+
+    vec3 matt = c;
 
     // Dielectric highlights of sun and sky.
     float alpha = max(s.roughness * s.roughness, 0.02);
@@ -353,6 +406,11 @@ void main() {
     if (GROUND == 1u) {
         float away = distance(position.xz, scene.ground.xy);
         c = mix(c, textureLod(environment, -v, 2.0).rgb, smoothstep(scene.ground.z, scene.ground.w, away));
+    }
+    for (int i = 0; i < wet; ++i) {
+        // What is in water shines little.
+        vec3 lit = SEA == LAVA ? lava_light(sea.place.at, sky_seen) : up;
+        c = mix(c, sea_over(matt, depth, lit, sea), under);
     }
     color = vec4(clamp(c, 0.0, 60000.0), 1.0);
 }

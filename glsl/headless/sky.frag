@@ -1,11 +1,13 @@
 #version 460
 // Pass `scene`: the sky where no mesh is: the environment along the pixel's ray, and the sun.
 // The environment does not hold the disc: it would be a few texels of huge radiance there.
-// Reads: environment. Writes: scene colour.
+// A sea reaches to the horizon, and has no floor where no mesh is.
+// Reads: environment, irradiance. Writes: scene colour.
 
 #include "../headless/scene.glsl"
-
-layout(set = 0, binding = 2) uniform samplerCube environment;
+#include "../headless/noise.glsl"
+#include "../headless/light.glsl"
+#include "../headless/sea.glsl"
 
 layout(location = 0) in vec3 ray;
 layout(location = 0) out vec4 color;
@@ -13,6 +15,12 @@ layout(location = 0) out vec4 color;
 void main() {
     vec3 d = normalize(ray);
     vec3 c = textureLod(environment, d, 0.0).rgb;
+    // The end of a loop, not a branch: a CPU runs branches whole.
+    int wet = over_sea() && d.y < 0.0 ? 1 : 0;
+    for (int i = 0; i < wet; ++i) {
+        // Bottomless.
+        c = sea_over(c, 1.0e6, sky_irradiance(vec3(0.0, 1.0, 0.0)), surf());
+    }
     // acos of a cosine near one is noise in 32 bits; the chord is not.
     float angle = 2.0 * asin(min(0.5 * length(d - scene.sun_direction.xyz), 1.0));
     const float radius = 0.00465; // 0.533 degrees across

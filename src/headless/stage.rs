@@ -18,6 +18,8 @@ use crate::gpu::image::{Image, ImageDesc};
 pub(super) struct Stage {
     pub renderer: SceneRenderer,
     descriptors: Descriptors,
+    /// The frame in which its solids are, and whether edges are smoothed.
+    drawn: (u64, bool),
     /// Its last picture, for a camera that rests.
     kept: Option<Kept>,
 }
@@ -55,18 +57,29 @@ impl Headless {
     /// colour. Its light is baked: a new sun needs a new scene.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// A sun or a sea that is none; no memory, and what Vulkan reports.
     pub fn scene(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
         self.set_up_scene(scene, antialias, None)
     }
 
-    /// The scene that was handed in last, in another [`frame`](Scene::frame): its parts have moved,
-    /// and nothing else has changed. What moves takes the baked light along; the sun's shadow is
-    /// drawn anew.
+    /// The scene that was handed in last, in another [`frame`](Scene::frame) and at another
+    /// [`time`](Scene::time): its parts and its sea have moved, and nothing else has changed. What moves takes the
+    /// baked light along; the sun's shadow is drawn anew. Where the sea alone has moved this costs nothing.
     ///
     /// # Errors
     /// As [`scene`](Self::scene).
     pub fn scene_frame(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
+        if let Some(stage) = &mut self.scene {
+            let (frame, smoothed) = stage.drawn;
+            if scene.sea.is_some()
+                && smoothed == antialias
+                && scene.solids_rest_between(frame, scene.frame)
+            {
+                stage.renderer.sea_at(scene)?;
+                self.forget_scene();
+                return Ok(());
+            }
+        }
         let light = self.scene.as_ref().map(|stage| Arc::clone(&stage.renderer.baked));
         self.set_up_scene(scene, antialias, light)
     }
@@ -88,7 +101,8 @@ impl Headless {
         };
         let made = made.and_then(|renderer| {
             let descriptors = Descriptors::new(gpu, renderer.sets())?;
-            Ok(Stage { descriptors, renderer, kept: None })
+            let drawn = (scene.frame, antialias);
+            Ok(Stage { descriptors, renderer, drawn, kept: None })
         });
         if made.is_err() {
             // Nothing was submitted with what was made before the failure.

@@ -95,10 +95,10 @@ impl Noise {
 /// with v 0 at the sea's edge, 1 at the shore, 2 inland (the blog, Sec. IV to VIII).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShorelineLook {
-    /// Metres of foam to sea and inland of the shore, (0, 1e6], where v is found from a distance; default 9 and 3. A strip
+    /// Metres of foam to sea and inland of the shore, (0, 1e6], where v is found from a distance; default 12 and 3. A strip
     /// has its own v.
     pub reach: [f32; 2],
-    /// Radians of the waves per v, [0, 1000], default 15: two and a half of them from the sea's edge to the shore.
+    /// Radians of the waves per v, [0, 1000], default 13: two of them from the sea's edge to the shore.
     pub frequency: f32,
     /// Radians a second, [-1000, 1000], default -0.9: towards the shore; more than 0, out to sea, as the blog's.
     pub speed: f32,
@@ -112,27 +112,27 @@ pub struct ShorelineLook {
     pub speed_noise: Noise,
     /// Seconds of that swing, [0.1, 1e6], default 11.
     pub speed_period: f32,
-    /// The waves' a and b, [-100, 100]; default 1.5 and -1.
+    /// The waves' a and b, [-100, 100]; default 1.1 and -0.75.
     pub wave_rise: [f32; 2],
     /// Waves are no less than this, [-100, 100]; `None` (default): the mix has no floor, the blog's first steps have 0.
     pub floor: Option<f32>,
-    /// Of the waves in the mix, [0, 100], default 0.5.
+    /// Of the waves in the mix, [0, 100], default 0.34.
     pub wave_ratio: f32,
-    /// Of the web in the mix, [0, 100], default 0.5.
+    /// Of the web in the mix, [0, 100], default 0.66.
     pub web_ratio: f32,
-    /// The web's a' and b', [-100, 100]; default 0.9 and -0.6.
+    /// The web's a' and b', [-100, 100]; default 0.95 and -0.62.
     pub web_rise: [f32; 2],
     /// Of the web; default two of them.
     pub layers: [WebLayer; LAYERS],
-    /// Bends the web, metres; default 0.8, 1/17 m.
+    /// Bends the web, metres; default 0.7, 1/18 m.
     pub web_warp: Noise,
     /// Metres a second by which that noise moves, [-1000, 1000], default 0.35 and 0.2.
     pub web_warp_speed: [f32; 2],
-    /// Foam is where the mix is at least this, [-100, 100], default 0.42.
+    /// Foam is where the mix is at least this, [-100, 100], default 0.39.
     pub threshold: f32,
-    /// On the threshold; default 0.14, 1/90 m.
+    /// On the threshold; default 0.1, 1/90 m.
     pub threshold_noise: Noise,
-    /// On both affine parts, so that foam reaches farther here than there; default 0.2, 1/90 m.
+    /// On both affine parts, so that foam reaches farther here than there; default 0.22, 1/90 m.
     pub rise_noise: Noise,
     /// Bends all but v, metres; default none.
     pub warp: Noise,
@@ -166,30 +166,30 @@ impl Default for ShorelineLook {
     fn default() -> Self {
         let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
         Self {
-            reach: [9.0, 3.0],
-            frequency: 15.0,
+            reach: [12.0, 3.0],
+            frequency: 13.0,
             speed: -0.9,
             swing: 0.35,
             swing_by: [2.2, 7.0],
             frequency_noise: Noise::new(5.0, 1.0 / 90.0),
             speed_noise: Noise::new(0.35, 1.0 / 90.0),
             speed_period: 11.0,
-            wave_rise: [1.5, -1.0],
+            wave_rise: [1.1, -0.75],
             floor: None,
-            wave_ratio: 0.5,
-            web_ratio: 0.5,
-            web_rise: [0.9, -0.6],
+            wave_ratio: 0.34,
+            web_ratio: 0.66,
+            web_rise: [0.95, -0.62],
             layers: [
-                layer(0.62, 1.0 / 13.0, 0.0, [0.12, 0.07]),
-                layer(0.38, 1.0 / 7.9, 37.0, [-0.1, 0.13]),
+                layer(0.65, 1.0 / 10.5, 0.0, [0.12, 0.07]),
+                layer(0.35, 1.0 / 6.4, 37.0, [-0.1, 0.13]),
                 WebLayer::NONE,
                 WebLayer::NONE,
             ],
-            web_warp: Noise::new(0.8, 1.0 / 17.0),
+            web_warp: Noise::new(0.7, 1.0 / 18.0),
             web_warp_speed: [0.35, 0.2],
-            threshold: 0.42,
-            threshold_noise: Noise::new(0.14, 1.0 / 90.0),
-            rise_noise: Noise::new(0.2, 1.0 / 90.0),
+            threshold: 0.39,
+            threshold_noise: Noise::new(0.1, 1.0 / 90.0),
+            rise_noise: Noise::new(0.22, 1.0 / 90.0),
             warp: Noise::NONE,
             fade: 0.2,
             color: [0.9; 3],
@@ -345,10 +345,9 @@ impl ContactLook {
         range("ContactLook.particle_depth", self.particle_depth.unwrap_or(1.0), 1.0e-6, 1.0e6)?;
         range("ContactLook.mask", self.mask, 0.0, 1.0)?;
         range("ContactLook.mask_scale", self.mask_scale, 0.0, 100.0)?;
-        let speed = self.mask_speed.into_iter();
-        speed
-            .map(|v| range("ContactLook.mask_speed", v, -1000.0, 1000.0))
-            .collect::<Result<(), _>>()?;
+        for speed in self.mask_speed {
+            range("ContactLook.mask_speed", speed, -1000.0, 1000.0)?;
+        }
         range("ContactLook.lit", self.lit, 0.0, 1.0)?;
         let most = if self.lit > 0.0 { 1.0 } else { f32::MAX };
         self.color.into_iter().try_for_each(|c| range("ContactLook.color", c, 0.0, most))?;

@@ -7,6 +7,7 @@ mod gltf;
 mod load;
 mod obj;
 mod renderer;
+mod sea;
 mod shapes;
 mod tracer;
 
@@ -16,6 +17,7 @@ use glam::{Mat4, Vec3};
 
 pub use load::SceneError;
 pub use renderer::{SceneFrame, SceneRenderer};
+pub use sea::{Liquid, Sea};
 
 use crate::environment::Sky;
 
@@ -34,6 +36,10 @@ pub struct Scene {
     pub motions: Vec<Motion>,
     /// The frame that is drawn; [`Headless::scene_frame`](super::Headless::scene_frame) draws another.
     pub frame: u64,
+    /// Water or lava that meshes and ground stand in.
+    pub sea: Option<Sea>,
+    /// When the frame is, in seconds: the sea goes by it.
+    pub time: f64,
 }
 
 /// Meshes that move as one.
@@ -188,6 +194,16 @@ pub enum Pattern {
         /// Width of a slab; it is half as long again.
         size: f32,
     },
+    /// Sand round the height of the [`Sea`] (of 0 where there is none), grass above, rock where it is steep, weed
+    /// here and there under water.
+    Island {
+        /// How high over the sea sand reaches.
+        beach: f32,
+    },
+    /// Natural rock; dark where the [`Sea`] wets it.
+    Rock,
+    /// Leaves of bushes and hedges.
+    Leaves,
 }
 
 impl Default for Material {
@@ -217,6 +233,8 @@ impl Material {
             "ground" | "paving" => {
                 Self::new([0.35, 0.315, 0.265], 0.85, Pattern::Paving { size: 0.5 })
             }
+            "island" => Self::new([0.66, 0.58, 0.44], 0.9, Pattern::Island { beach: 2.0 }),
+            "rock" => Self::new([0.25, 0.225, 0.20], 0.85, Pattern::Rock),
             _ => return None,
         })
     }
@@ -224,7 +242,7 @@ impl Material {
     /// The names that [`Material::named`] knows.
     pub const NAMES: &'static [&'static str] = &[
         "plain", "concrete", "tiles", "timber", "stone", "steel", "bamboo", "sand", "ground",
-        "paving",
+        "paving", "island", "rock",
     ];
 
     /// Mean colour of all of it, for light that bounces off.
@@ -283,6 +301,12 @@ impl Scene {
 
     /// Whether two frames look the same.
     pub fn rests_between(&self, a: u64, b: u64) -> bool {
+        let sea = a == b || self.sea.as_ref().is_none_or(Sea::rests);
+        sea && self.solids_rest_between(a, b)
+    }
+
+    /// Whether nothing but the sea moves.
+    pub(in crate::headless) fn solids_rest_between(&self, a: u64, b: u64) -> bool {
         self.motions.iter().all(|motion| motion.pose(a) == motion.pose(b))
     }
 }

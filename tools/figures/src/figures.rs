@@ -9,12 +9,13 @@ use crate::bubbles;
 use crate::curves::{self, Curve};
 use crate::diffuse;
 use crate::panels::{self, amount, depth, grid, iterations, normals};
+use crate::shore;
 use crate::tool::{Times, Tool, quicker, sequence, total};
 
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 26] = [
+pub const ALL: [(&str, Figure); 30] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -41,6 +42,10 @@ pub const ALL: [(&str, Figure); 26] = [
     ("bubble-foam", bubbles::dense),
     ("bubble-slope", bubbles::slope),
     ("bubble-box", bubbles::boxes),
+    ("shore-steps", shore::steps),
+    ("shore-ways", shore::ways),
+    ("shore-islands", shore::islands),
+    ("contact", shore::contact),
 ];
 
 pub fn pictures(docs: &Path, name: &str) -> PathBuf {

@@ -1,5 +1,5 @@
-//! The figures of `docs/layered-water.md`, `docs/screen-space-foam.md` and `docs/bubble-foam.md`: the sources' own
-//! (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi), drawn anew by `whitewater`.
+//! The figures of `docs/layered-water.md`, `docs/screen-space-foam.md`, `docs/bubble-foam.md` and `docs/shore-foam.md`: the
+//! sources' own (F. Bagar, 2010; Akinci et al., 2013; Huszár, Szécsi; a blog; D. Lettier), drawn anew by `whitewater`.
 //!
 //! ```sh
 //! cargo build --release -p whitewater-cli -p whitewater-figures -p whitewater-raycast
@@ -15,6 +15,7 @@ mod curves;
 mod diffuse;
 mod figures;
 mod panels;
+mod shore;
 mod tool;
 
 use std::path::PathBuf;

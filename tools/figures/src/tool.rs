@@ -103,10 +103,20 @@ impl Tool {
 
     /// A frame of bubble foam. `more` are further arguments.
     pub fn bubbles(&self, which: &str, frame: u32, more: &str) -> Outcome<Frame> {
-        let [exr, png] = ["bubbles.exr", "bubbles.png"].map(|name| self.temporary(name));
+        self.alone(&format!("--bubbles={which}"), frame, more)
+    }
+
+    /// A frame of shoreline and contact foam. `more` are further arguments.
+    pub fn shore(&self, which: &str, frame: u32, more: &str) -> Outcome<Frame> {
+        self.alone(&format!("--shore={which}"), frame, more)
+    }
+
+    /// A frame without particles.
+    fn alone(&self, what: &str, frame: u32, more: &str) -> Outcome<Frame> {
+        let [exr, png] = ["alone.exr", "alone.png"].map(|name| self.temporary(name));
         let mut arguments = vec![
             "render".to_owned(),
-            format!("--bubbles={which}"),
+            what.to_owned(),
             format!("--frames={frame}"),
             format!("--size={}x{}", SIZE.0, SIZE.1),
             format!("--output={}", exr.display()),

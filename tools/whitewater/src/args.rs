@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
 use crate::pattern::Source;
+use crate::shore::Which as Shore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::water::settings::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
@@ -72,7 +73,7 @@ pub enum Command {
 #[derive(Args, Debug)]
 pub struct RenderArgs {
     /// Particle files: names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
-    #[arg(required_unless_present = "bubbles", value_name = "INPUT")]
+    #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
     /// (five thousand), slope:N and box:N of as many, or a .json of blobs, {"blobs":[{"center":[x,y,z],"radius":r,
@@ -80,6 +81,15 @@ pub struct RenderArgs {
     /// [bubbles] of --settings says how it looks
     #[arg(long, value_name = "one|slope|box|FILE", value_parser = crate::bubbles::named)]
     pub bubbles: Option<Bubbles>,
+    /// Shoreline and contact foam on a sea: 'archipelago' (islands, of which one drifts), 'pool' (objects in it), 'lava' (a
+    /// river of it), or a scene of your own (.glb, .gltf, .obj, .json) in the sea, without particles; frames from 1 on, which
+    /// come round in ten seconds. Tables [shore], [shoreline] and [contact] of --settings say how it looks; [contact]
+    /// particle_opacity = 1 puts contact foam on particles' water
+    #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
+    pub shore: Option<Shore>,
+    /// Height of the sea in a scene of your own
+    #[arg(long, value_name = "Y", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true, requires = "shore")]
+    pub level: f32,
     /// Frames of the sequence to draw, as A-B or A. Camera, radius and ground are found from the
     /// whole sequence, so that its parts fit together
     #[arg(long, value_name = "A-B")]
@@ -151,8 +161,8 @@ pub struct DrawArgs {
     /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = times_as_large)]
     pub supersample: u32,
-    /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [shadow], [noise]
-    /// and [light]
+    /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
+    /// [shadow], [noise] and [light]
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'

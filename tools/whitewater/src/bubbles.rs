@@ -411,6 +411,8 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         occlusion: file.diffuse.occlusion(),
         splat: file.diffuse.splat(),
         bubbles: Some((blobs, BubbleConfig { hand_over: false, ..file.bubbles.config() })),
+        shores: None,
+        exposure: 0.0,
         spray: false,
         shadows: file.shadows().map_err(Failure::input)?,
         region: Region { center, radius: 1.5 * radius },

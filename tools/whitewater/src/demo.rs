@@ -75,6 +75,8 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         occlusion: file.diffuse.occlusion(),
         splat: file.diffuse.splat(),
         bubbles: None,
+        shores: None,
+        exposure: 0.0,
         spray,
         shadows,
         region,

@@ -10,7 +10,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 26] = [
+const GROUPS: [&str; 28] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -34,6 +34,8 @@ const GROUPS: [&str; 26] = [
     "foam.irradiance",
     "bubbles",
     "bubbles.layers",
+    "shore.amount",
+    "contact.amount",
     "scene",
     MOTION,
     LADDER,
@@ -161,6 +163,8 @@ pub fn collect(
         ("foam.radius", Merge::Most),
         ("foam.shadow", Merge::Mean),
         ("bubbles.layers", Merge::Most),
+        ("shore.amount", Merge::Mean),
+        ("contact.amount", Merge::Mean),
     ] {
         if wanted.contains(&name)
             && let Some(picture) = headless.layer(name)?

@@ -23,6 +23,7 @@ mod reader;
 mod render;
 mod session;
 mod settings;
+mod shore;
 mod simulate;
 mod stage;
 mod timings;

@@ -121,6 +121,13 @@ fn of_picture(path: &Path, args: &PatternArgs) -> Outcome<Layers> {
     Ok(layers)
 }
 
+/// A web of the user's: the values of a picture as they are, 0 where it is transparent, and its size.
+pub fn values(path: &Path) -> Outcome<([u32; 2], Vec<f32>)> {
+    let picture = picture::read(path)?;
+    let size = [picture.width as u32, picture.height as u32];
+    Ok((size, over(&picture, 0.0)))
+}
+
 /// Luminance of the values as they are, over a ground where there is alpha.
 fn over(picture: &Layers, ground: f32) -> Vec<f32> {
     let light = luminance(picture);

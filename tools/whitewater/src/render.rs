@@ -21,9 +21,13 @@ use crate::progress::Progress;
 use crate::reader::{DEFAULT_FPS, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::SettingsFile;
+use crate::shore::{self, Shores};
 use crate::stage;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
+    if let Some(which) = &args.shore {
+        return shore::run(args, which);
+    }
     let foam = match &args.bubbles {
         Some(which) if args.inputs.is_empty() => return bubbles::run(args, which),
         Some(bubbles::Which::File(path)) => {
@@ -103,6 +107,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let settings = settings.unwrap_or_default();
     let settings_of_bubbles = settings.bubbles.config();
+    let shores = Shores::of_particles(&settings)?;
     if settings_of_bubbles.hand_over && (foam.is_some() || args.whitewater.is_empty()) {
         let why = "--settings, [bubbles] hand_over: diffuse particles become blobs, so that --whitewater is expected, and no \
                    --bubbles";
@@ -123,7 +128,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         foam => foam,
     };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
-    let look = Look { diffuse: files.or(look.diffuse), bubbles: foam, ..look };
+    let look = Look { diffuse: files.or(look.diffuse), bubbles: foam, shores, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
     session.up = args.up_axis;
@@ -462,6 +467,8 @@ fn look(
         occlusion: file.diffuse.occlusion(),
         splat: file.diffuse.splat(),
         bubbles: None,
+        shores: None,
+        exposure: 0.0,
         spray,
         shadows,
         region,

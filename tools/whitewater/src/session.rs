@@ -22,6 +22,7 @@ use crate::layers;
 use crate::output::{self, PictureFormat, Target};
 use crate::progress::Steps;
 use crate::settings;
+use crate::shore::Shores;
 use crate::timings::Times;
 
 /// What is the same in every frame.
@@ -40,6 +41,10 @@ pub struct Look {
     pub splat: Option<Splat>,
     /// Bubble foam, and how it is drawn.
     pub bubbles: Option<(Blobs, BubbleConfig)>,
+    /// Shoreline and contact foam.
+    pub shores: Option<Shores>,
+    /// Stops beside those of the environment.
+    pub exposure: f32,
     /// Particles of the water turn to spray.
     pub spray: bool,
     /// How the scene's shadow map is filtered.
@@ -286,6 +291,7 @@ impl<'a> Session<'a> {
             let max_blobs = if bubbles.hand_over { bubbles.max_blobs } else { own };
             BubbleConfig { max_blobs, ..*bubbles }
         });
+        config.shore = self.look.shores.as_ref().map(|shores| shores.config);
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
         config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
@@ -317,6 +323,9 @@ impl<'a> Session<'a> {
                 None => headless.bubbles(&blobs.blobs),
             })?;
         }
+        if let Some(shores) = &self.look.shores {
+            times.step("shore", number, || shores.set_up(&mut headless, &self.look.scene))?;
+        }
         self.staged = self.look.scene.frame;
         self.headless = Some(headless);
         self.memory = Memory::default();
@@ -331,7 +340,8 @@ impl<'a> Session<'a> {
         source: &str,
         particles: &Particles,
     ) -> Outcome<()> {
-        self.look.scene.frame = number;
+        let time = self.time(number);
+        (self.look.scene.frame, self.look.scene.time) = (number, time);
         let files = match &self.look.diffuse {
             Some(Diffusing::Files(files)) => Some(files),
             _ => None,
@@ -355,6 +365,11 @@ impl<'a> Session<'a> {
             }
         }
         self.step(number, source, particles, true)
+    }
+
+    /// Seconds at a frame; 0 in all where each is for itself.
+    fn time(&self, number: u64) -> f64 {
+        number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
     }
 
     /// Lets foam come and go by a frame that is not drawn, after [`make_room`](Self::make_room).
@@ -406,7 +421,7 @@ impl<'a> Session<'a> {
         particles: &Particles,
         drawn: bool,
     ) -> Outcome<()> {
-        let times = self.times.clone();
+        let (times, time) = (self.times.clone(), self.time(number));
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
@@ -478,10 +493,15 @@ impl<'a> Session<'a> {
             times.step("scene", number, || {
                 headless.scene_frame(&self.look.scene, self.args.supersample == 1)
             })?;
+            if let Some(shores) = &self.look.shores {
+                times.step("shore", number, || {
+                    shores.moved(headless, &self.look.scene, self.staged)
+                })?;
+            }
             self.staged = number;
         }
-        let fps = self.look.fps.unwrap_or(f32::INFINITY);
-        self.look.settings.foam.time = number as f64 / f64::from(fps);
+        self.look.settings.foam.time = time;
+        self.look.settings.shore.time = time;
         for _ in 0..self.args.repeat.get() {
             times.step("draw", number, || {
                 headless.render(&camera, &self.look.settings, &Background::Scene)
@@ -541,7 +561,8 @@ impl<'a> Session<'a> {
     }
 
     fn write(&self, format: PictureFormat, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
-        let exposure = self.look.environment.exposure() + self.args.exposure;
+        let look = &self.look;
+        let exposure = look.environment.exposure() + look.exposure + self.args.exposure;
         output::write(path, |to| match format {
             PictureFormat::Exr => picture::write_exr(layers, to),
             PictureFormat::Png => picture::write_png(layers, exposure, to),

@@ -20,5 +20,7 @@ mod pictures;
 mod scenes;
 #[path = "tool/sequences.rs"]
 mod sequences;
+#[path = "tool/shore.rs"]
+mod shore;
 #[path = "tool/temporal.rs"]
 mod temporal;

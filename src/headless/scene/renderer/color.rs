@@ -11,7 +11,7 @@ use super::opaque::DepthOnly;
 use super::sky::Sky;
 use super::targets::{Samples, Targets};
 use super::textures::Textures;
-use super::{Formats, Recording, SceneFrame};
+use super::{Formats, Recording, SceneFrame, sea};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COLOR_ATTACHMENT, DEPTH_ATTACHMENT};
@@ -52,7 +52,7 @@ impl Color {
             _ => Some(DepthOnly::colored(gpu, pass.handle, samples)?),
         };
         let meshes = Meshes::new(gpu, scene, batches, textures, pass.handle, samples)?;
-        let sky = Sky::new(gpu, pass.handle, samples)?;
+        let sky = Sky::new(gpu, pass.handle, samples, sea::kind(scene))?;
         Ok(Self { samples, pass, first, meshes, sky })
     }
 

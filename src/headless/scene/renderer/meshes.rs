@@ -14,7 +14,7 @@ use super::super::bake::Batch;
 use super::super::{Material, Pattern, Scene, Texture};
 use super::opaque::{Opaque, set_depth_test};
 use super::textures::Textures;
-use super::{Recording, geometry};
+use super::{Recording, geometry, sea};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::bind_set;
@@ -39,6 +39,7 @@ struct Kind {
     pattern: u32,
     ground: u32,
     textured: u32,
+    sea: u32,
 }
 
 pub struct Meshes {
@@ -84,7 +85,7 @@ impl Meshes {
             let transform = batch
                 .mesh
                 .map(|index| scene.pose(index).unwrap_or_default() * scene.meshes[index].transform);
-            let draw = Draw::new(batch, texture, transform, material);
+            let draw = Draw::new(batch, texture, transform, material, sea::kind(scene));
             if let Entry::Vacant(entry) = pipelines.entry(draw.kind) {
                 entry.insert(pipeline(gpu, draw.kind, pass, samples)?);
             }
@@ -138,13 +139,24 @@ fn pipeline(
         colored: true,
         samples,
         bias: 0.0,
-        constants: &[(0, kind.pattern), (1, kind.ground), (2, kind.textured)],
+        constants: &[
+            (0, kind.pattern),
+            (1, kind.ground),
+            (2, kind.textured),
+            (sea::CONSTANT, kind.sea),
+        ],
     };
     opaque.pipeline(gpu)
 }
 
 impl Draw {
-    fn new(batch: &Batch, texture: usize, transform: Option<Mat4>, material: &Material) -> Self {
+    fn new(
+        batch: &Batch,
+        texture: usize,
+        transform: Option<Mat4>,
+        material: &Material,
+        sea: u32,
+    ) -> Self {
         let (mut turn, mut origin) = (Quat::IDENTITY, Vec3::ZERO);
         if let Some(transform) = transform {
             let (_, rotation, translation) = transform.to_scale_rotation_translation();
@@ -162,6 +174,9 @@ impl Draw {
             Pattern::Stone { course } => (4, course, None),
             Pattern::Sand => (5, 1.0, None),
             Pattern::Paving { size } => (6, size, None),
+            Pattern::Island { beach } => (7, beach, None),
+            Pattern::Rock => (8, 1.0, None),
+            Pattern::Leaves => (9, 1.0, None),
         };
         let [r, g, b] = material.base_color;
         Self {
@@ -169,6 +184,7 @@ impl Draw {
                 pattern,
                 ground: transform.is_none().into(),
                 textured: material.texture.is_some().into(),
+                sea,
             },
             texture,
             first: batch.first,

@@ -4,7 +4,7 @@
 //! [`irradiance`] of the environment; [`depth`], which the water is tested against, with one
 //! sample a pixel; [`color`], of [`meshes`] and [`sky`], with four where that is asked for and the
 //! device has them. [`targets`] are the images and framebuffers they draw to, [`uniforms`] what
-//! their shaders know of the view, and [`opaque`] the pipeline state they share.
+//! their shaders know of the view, [`sea`] what of the sea, and [`opaque`] the pipeline state they share.
 //! Reads: vertices, shadow map, environment. Writes: scene colour and depth, all of both.
 
 mod color;
@@ -13,6 +13,7 @@ mod geometry;
 mod irradiance;
 mod meshes;
 mod opaque;
+mod sea;
 mod shadow;
 mod sky;
 mod targets;
@@ -120,7 +121,7 @@ impl SceneRenderer {
     /// freed by the next `Gpu::bury`.
     ///
     /// # Errors
-    /// A sun without direction; no memory; what Vulkan reports.
+    /// A sun without direction, a sea that is none; no memory; what Vulkan reports.
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
@@ -165,6 +166,14 @@ impl SceneRenderer {
             slots: (0..gpu.slots).map(slot).collect::<Result<_, Error>>()?,
             surroundings,
         })
+    }
+
+    /// The same scene at another time, in which nothing but the sea has moved.
+    ///
+    /// # Errors
+    /// No such time.
+    pub(in crate::headless) fn sea_at(&mut self, scene: &Scene) -> Result<(), Error> {
+        self.surroundings.move_sea(scene)
     }
 
     /// The sun's shadow map as a host hands it over; `bias` in metres beside a texel of the map.
@@ -214,9 +223,9 @@ impl SceneRenderer {
         if frame.color.extent != frame.depth.extent {
             return Err(Error::bad("SceneFrame.depth", "not of the colour image's size"));
         }
-        let far = lens.nothing();
+        let (far, extent) = (lens.nothing(), frame.color.extent);
         let uniforms =
-            Uniforms::new(&self.surroundings, &self.shadow.sun, frame.camera, &lens, far);
+            Uniforms::new(&self.surroundings, &self.shadow.sun, frame.camera, &lens, far, extent);
         let bytes = bytemuck::bytes_of(&uniforms);
         slot.uniforms.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
         let earlier = slot.targets.take().and_then(|targets| targets.samples);

@@ -1,11 +1,11 @@
-//! The sky: one triangle over everything, as far away as depth can say.
-//! Reads: environment, uniforms.
+//! The sky: one triangle over everything, as far away as depth can say; the sea below the horizon.
+//! Reads: environment, irradiance, uniforms.
 
 use ash::vk;
 
-use super::Recording;
 use super::opaque::{Opaque, set_depth_test};
 use super::textures::Textures;
+use super::{Recording, sea};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::pipeline::Pipeline;
@@ -18,6 +18,7 @@ impl Sky {
         gpu: &Gpu,
         pass: vk::RenderPass,
         samples: vk::SampleCountFlags,
+        sea: u32,
     ) -> Result<Self, Error> {
         let opaque = Opaque {
             vertex: shader::HEADLESS_SKY_VERT,
@@ -27,7 +28,7 @@ impl Sky {
             colored: true,
             samples,
             bias: 0.0,
-            constants: &[],
+            constants: &[(sea::CONSTANT, sea)],
         };
         opaque.pipeline(gpu).map(Self)
     }

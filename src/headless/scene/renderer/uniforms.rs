@@ -1,10 +1,12 @@
 //! The uniform block of all shaders of the scene.
 
+use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
 use super::super::bake::GROUND_FADE;
 use super::super::{Scene, SunLight};
+use super::sea::Sea;
 use super::shadow::{self, SunView};
 use crate::contract::Camera;
 use crate::error::Error;
@@ -32,6 +34,7 @@ pub struct Uniforms {
     sun_color: [f32; 4],
     shadow_texel: [f32; 4],
     ground: [f32; 4],
+    sea: Sea,
 }
 
 shader::assert_layout!(
@@ -47,7 +50,8 @@ shader::assert_layout!(
         sun_direction,
         sun_color,
         shadow_texel,
-        ground
+        ground,
+        sea
     }
 );
 
@@ -59,11 +63,12 @@ pub struct Surroundings {
     ground: Option<f32>,
     /// Centre x and z; where the ground begins and ends to fade.
     fade: [f32; 4],
+    sea: Sea,
 }
 
 impl Surroundings {
     /// # Errors
-    /// A sun without direction, or of no colour.
+    /// A sun without direction, or of no colour; a sea that is none.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let SunLight { direction, color } = scene.sun;
         let Some(to_sun) = Vec3::from(direction).try_normalize() else {
@@ -80,22 +85,33 @@ impl Surroundings {
             sun_color: color.into(),
             ground: scene.ground.as_ref().map(|g| g.y),
             fade: [centre.x, centre.z, begin * size, end * size],
+            sea: Sea::new(scene, to_sun)?,
         })
+    }
+
+    /// The sea at the scene's time.
+    ///
+    /// # Errors
+    /// No such time, or a sea that is none.
+    pub fn move_sea(&mut self, scene: &Scene) -> Result<(), Error> {
+        self.sea = Sea::new(scene, self.to_sun)?;
+        Ok(())
     }
 }
 
 impl Uniforms {
-    /// `far`: device depth of nothing.
+    /// `far`: device depth of nothing; `extent`: of the picture.
     pub fn new(
         surroundings: &Surroundings,
         sun: &SunView,
         camera: &Camera,
         lens: &Lens,
         far: f32,
+        extent: vk::Extent2D,
     ) -> Self {
-        let Surroundings { to_sun, sun_color, ground, fade } = *surroundings;
+        let Surroundings { to_sun, sun_color, ground, fade, sea } = *surroundings;
         let world = lens.view.inverse();
-        let turn = |v: Vec3| world.transform_vector3(v).extend(0.0).to_array();
+        let turn = |v: Vec3, w: f32| world.transform_vector3(v).extend(w).to_array();
         let p = lens.p;
         // Clip space of the sun is -1 to 1 with the same y down.
         let to_uv = Mat4::from_translation(Vec3::new(0.5, 0.5, 0.0))
@@ -107,13 +123,14 @@ impl Uniforms {
             clip: (camera.projection * camera.view).to_cols_array_2d(),
             shadow: (to_uv * sun.clip).to_cols_array_2d(),
             eye: world.transform_point3(Vec3::ZERO).extend(far).to_array(),
-            ray_x: turn(Vec3::X / p.x),
-            ray_y: turn(Vec3::Y / p.y),
-            ray_z: turn(Vec3::new(p.z / p.x, p.w / p.y, -1.0)),
+            ray_x: turn(Vec3::X / p.x, 2.0 / extent.width.max(1) as f32),
+            ray_y: turn(Vec3::Y / p.y, 2.0 / extent.height.max(1) as f32),
+            ray_z: turn(Vec3::new(p.z / p.x, p.w / p.y, -1.0), 0.0),
             sun_direction: to_sun.extend(shows).to_array(),
             sun_color: sun_color.extend(disc).to_array(),
             shadow_texel: [texel, texel, sun.texel, ground.unwrap_or(NO_GROUND)],
             ground: fade,
+            sea,
         }
     }
 }

@@ -3,6 +3,7 @@
 mod bubbles;
 mod diffuse;
 pub mod generate;
+pub mod shore;
 
 use std::path::Path;
 
@@ -24,6 +25,9 @@ pub struct SettingsFile {
     pub diffuse: diffuse::DiffuseTable,
     pub bubbles: bubbles::BubbleTable,
     pub generate: generate::GenerateTable,
+    pub shore: shore::ShoreTable,
+    pub shoreline: shore::ShorelineTable,
+    pub contact: shore::ContactTable,
     pub shadow: ShadowTable,
     pub noise: NoiseTable,
     pub light: LightTable,
@@ -211,6 +215,9 @@ impl SettingsFile {
         if let Some(value) = &table.fresnel {
             water.fresnel = fresnel(value)?;
         }
+        self.shoreline.apply(&mut settings.shore.shoreline)?;
+        self.contact.apply(&mut settings.shore.contact);
+        settings.shore.period = self.shore.period.or(settings.shore.period);
         let (foam, table) = (&mut settings.foam, &self.foam);
         set(&mut foam.extinction, table.extinction);
         set(&mut foam.front_extinction, table.front_extinction);

@@ -1,0 +1,81 @@
+//! What the shaders know of the sea.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use super::super::sea::{Liquid, WAVES};
+use super::super::{Scene, Sea as Described};
+use crate::error::Error;
+use crate::gpu::shader;
+
+/// The specialisation constant that says what of a sea there is.
+pub const CONSTANT: u32 = 3;
+
+/// The numbers of `sea.glsl`; 0: none.
+pub fn kind(scene: &Scene) -> u32 {
+    match scene.sea.as_ref().map(|sea| sea.liquid) {
+        None => 0,
+        Some(Liquid::Water) => 1,
+        Some(Liquid::Lava { .. }) => 2,
+    }
+}
+
+/// Its part of the block `Scene`; the comments of `glsl/headless/scene.glsl` say what each member holds.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct Sea {
+    sea: [f32; 4],
+    absorption: [f32; 4],
+    scattering: [f32; 4],
+    lava: [f32; 4],
+    flow: [f32; 4],
+    waves: [[f32; 4]; WAVES],
+}
+
+/// Where the block has it, from its first member on.
+const fn offset(member: &str) -> usize {
+    shader::HEADLESS_SCENE_FRAG.offset("Scene", member)
+        - shader::HEADLESS_SCENE_FRAG.offset("Scene", "sea")
+}
+
+const _: () = assert!(
+    std::mem::offset_of!(Sea, absorption) == offset("absorption")
+        && std::mem::offset_of!(Sea, scattering) == offset("scattering")
+        && std::mem::offset_of!(Sea, lava) == offset("lava")
+        && std::mem::offset_of!(Sea, flow) == offset("flow")
+        && std::mem::offset_of!(Sea, waves) == offset("waves"),
+    "the sea's part of the block differs from the shader's"
+);
+
+impl Sea {
+    /// `to_sun`: unit length.
+    ///
+    /// # Errors
+    /// A sea or a time that is none.
+    pub fn new(scene: &Scene, to_sun: Vec3) -> Result<Self, Error> {
+        let Some(sea) = scene.checked_sea()? else { return Ok(Self::zeroed()) };
+        let Described { level, absorption: [ar, ag, ab], scattering: [sr, sg, sb], .. } = *sea;
+        let waves = sea.waves_at(scene.time);
+        let variance =
+            waves.iter().map(|[x, z, height, _]| 0.5 * (x * x + z * z) * height * height).sum();
+        let radiance = match sea.liquid {
+            Liquid::Water => [0.0; 3],
+            Liquid::Lava { radiance, .. } => radiance,
+        };
+        let (drift, again) = sea.drift_at(scene.time);
+        let [before, share] = again.unwrap_or_default();
+        let loops = if again.is_some() { 1.0 } else { 0.0 };
+        let [x, z] = sea.flow();
+        // The sun's rays are bent down.
+        const REFRACTION: f32 = 1.333;
+        let across = (1.0 - to_sun.y * to_sun.y) / (REFRACTION * REFRACTION);
+        Ok(Self {
+            sea: [level, sea.length, 0.0, 1.0 / (1.0 - across).sqrt()],
+            absorption: [ar, ag, ab, variance],
+            scattering: [sr, sg, sb, share],
+            lava: Vec3::from(radiance).extend(loops).to_array(),
+            flow: [x, z, drift, before],
+            waves,
+        })
+    }
+}

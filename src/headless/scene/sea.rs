@@ -1,0 +1,202 @@
+//! A level sea, drawn by the pixels' rays: what it is made of, and its waves at a time.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+
+use super::Scene;
+use crate::error::Error;
+
+/// Waves that are summed.
+pub(super) const WAVES: usize = 18;
+/// A wave's length over that of the next longer one.
+const SHORTER: f64 = 0.79;
+/// A wave's steepness over that of the next longer one.
+const FLATTER: f64 = 0.93;
+/// Metres per second squared.
+const GRAVITY: f64 = 9.81;
+
+/// A level sheet of water or lava that reaches to the horizon, with gentle waves on it. Lengths in metres, y up.
+///
+/// It is seen and not there: the scene's depth stays that of what is under it, and so does its shadow map. Water
+/// absorbs and scatters light along the bent ray, but what is seen through it lies where it would without: refraction
+/// moves no edge, only patterns waver. The sun's light gathers on the floor (caustics). Solids cast no shadow on the
+/// surface, which mirrors the environment and the sun alone. An eye below the level sees none of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sea {
+    /// Height of the level it waves about, default 0.
+    pub level: f32,
+    /// Light that water absorbs in a metre, linear RGB, 1/m, [0, ∞), default that of a clear sea.
+    pub absorption: [f32; 3],
+    /// Light that water scatters, alike in all directions, in a metre, linear RGB, 1/m, [0, ∞), default that of a clear
+    /// sea.
+    pub scattering: [f32; 3],
+    /// Height of the largest waves from trough to crest, m, [0, ∞), default 0.22; 0: a mirror. Lava has none.
+    pub waves: f32,
+    /// Length of the largest waves, m, (0, ∞), default 11; of lava, of the plates of its crust.
+    pub length: f32,
+    /// Where the largest waves go, or lava flows: world x and z; any length but zero; default [0.8, 0.6].
+    pub towards: [f32; 2],
+    /// Seconds after which all is as it was, (0, ∞); none, the default: never. The waves' speeds are rounded to it;
+    /// lava comes and goes in two layers.
+    pub period: Option<f32>,
+    /// What it is made of, default water.
+    pub liquid: Liquid,
+}
+
+/// What a [`Sea`] is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Liquid {
+    /// Clear, to its absorption and scattering.
+    #[default]
+    Water,
+    /// Opaque: a dark crust with glowing cracks. It casts no light, but for a guess at its glow on what stands over it
+    /// by height and slope alone, as if it were below everywhere.
+    Lava {
+        /// Radiance where it is hottest, linear RGB in the unit of the output, [0, ∞).
+        radiance: [f32; 3],
+        /// How fast it flows, m/s.
+        speed: f32,
+    },
+}
+
+impl Default for Sea {
+    fn default() -> Self {
+        Self {
+            level: 0.0,
+            absorption: [0.50, 0.058, 0.019],
+            scattering: [0.002, 0.009, 0.014],
+            waves: 0.22,
+            length: 11.0,
+            towards: [0.8, 0.6],
+            period: None,
+            liquid: Liquid::Water,
+        }
+    }
+}
+
+impl Liquid {
+    /// Lava as bright as it is by daylight, that creeps.
+    pub const LAVA: Self = Self::Lava { radiance: [6.0, 3.2, 0.2], speed: 0.5 };
+}
+
+impl Sea {
+    /// Whether it looks the same at all times.
+    pub fn rests(&self) -> bool {
+        match self.liquid {
+            Liquid::Water => self.waves == 0.0,
+            Liquid::Lava { speed, .. } => speed == 0.0,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let light = |c: &[f32; 3]| c.iter().all(|v| v.is_finite() && *v >= 0.0);
+        let number = |good: bool, field: &'static str, expected: &str, found: String| match good {
+            true => Ok(()),
+            false => Err(Error::bad(field, format!("expected {expected}, found {found}"))),
+        };
+        let least = "finite values of at least 0";
+        let Self { level, absorption, scattering, waves, length, towards, period, liquid } = self;
+        number(level.is_finite(), "Scene.sea.level", "a finite height", level.to_string())?;
+        let found = |c: &[f32; 3]| format!("{c:?}");
+        number(light(absorption), "Scene.sea.absorption", least, found(absorption))?;
+        number(light(scattering), "Scene.sea.scattering", least, found(scattering))?;
+        let good = waves.is_finite() && *waves >= 0.0;
+        number(good, "Scene.sea.waves", "a finite height of at least 0", waves.to_string())?;
+        let good = length.is_finite() && *length > 0.0;
+        number(good, "Scene.sea.length", "a finite length above 0", length.to_string())?;
+        let [x, z] = *towards;
+        let good = x.hypot(z).is_finite() && x.hypot(z) > 0.0;
+        number(good, "Scene.sea.towards", "finite, of some length", format!("{towards:?}"))?;
+        let good = period.is_none_or(|t| t.is_finite() && t > 0.0);
+        number(good, "Scene.sea.period", "finite seconds above 0", format!("{period:?}"))?;
+        if let Liquid::Lava { radiance, speed } = liquid {
+            number(light(radiance), "Scene.sea.liquid.radiance", least, found(radiance))?;
+            let good = speed.is_finite();
+            number(good, "Scene.sea.liquid.speed", "a finite speed", speed.to_string())?;
+        }
+        Ok(())
+    }
+
+    /// Where the largest waves go, of length one.
+    fn ahead(&self) -> DVec2 {
+        DVec2::from(self.towards.map(f64::from)).normalize_or(DVec2::X)
+    }
+
+    /// Waves at a time in seconds: radians a metre along x and z, height over the level, phase. The longest first.
+    pub(super) fn waves_at(&self, time: f64) -> [[f32; 4]; WAVES] {
+        let longest = TAU / f64::from(self.length);
+        let steepest = 0.5 * f64::from(self.waves) * longest;
+        std::array::from_fn(|i| {
+            let n = i as f64;
+            let number = longest * SHORTER.powf(-n);
+            // Evenly about the way of the largest, however many they are; the short ones go farther astray.
+            let aside = (n * 0.618_034 + 0.5).fract() - 0.5;
+            let turn = aside * PI * (0.5 + 0.6 * n / WAVES as f64);
+            let wave = number * self.ahead().rotate(DVec2::from_angle(turn));
+            // On deep water.
+            let mut rate = (GRAVITY * number).sqrt();
+            if let Some(period) = self.period {
+                let whole = TAU / f64::from(period);
+                rate = (rate / whole).round().max(1.0) * whole;
+            }
+            let phase = (2.4 * n * n + 1.7 * n - rate * time).rem_euclid(TAU);
+            let height = steepest * FLATTER.powf(n) / number;
+            [wave.x as f32, wave.y as f32, height as f32, phase as f32]
+        })
+    }
+
+    /// How far lava has flown, in metres; the same of the loop before, and its share of the picture: it comes in place
+    /// of this one's towards the loop's end. None where it never ends.
+    pub(super) fn drift_at(&self, time: f64) -> (f32, Option<[f32; 2]>) {
+        let speed = match self.liquid {
+            Liquid::Lava { speed, .. } => f64::from(speed),
+            Liquid::Water => 0.0,
+        };
+        match self.period.map(f64::from) {
+            None => ((speed * time) as f32, None),
+            Some(period) => {
+                let passed = time.rem_euclid(period);
+                let share = (passed / period) as f32;
+                ((speed * passed) as f32, Some([(speed * (passed - period)) as f32, share]))
+            }
+        }
+    }
+
+    pub(super) fn flow(&self) -> [f32; 2] {
+        self.ahead().as_vec2().to_array()
+    }
+}
+
+impl Scene {
+    /// The sea at the time that is drawn, if it can be.
+    pub(super) fn checked_sea(&self) -> Result<Option<&Sea>, Error> {
+        let Some(sea) = &self.sea else { return Ok(None) };
+        sea.check()?;
+        match self.time.is_finite() {
+            true => Ok(Some(sea)),
+            false => {
+                Err(Error::bad("Scene.time", format!("expected seconds, found {}", self.time)))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waves_are_as_high_and_long_as_is_said_and_come_again() {
+        let sea = Sea { period: Some(6.0), ..Sea::default() };
+        let [x, z, height, _] = sea.waves_at(0.0)[0];
+        assert!((x.hypot(z) * sea.length / TAU as f32 - 1.0).abs() < 1e-5);
+        assert!((2.0 * height / sea.waves - 1.0).abs() < 1e-5);
+        // At the loop's end all phases are whole turns from where they were.
+        for (a, b) in sea.waves_at(1.5).iter().zip(sea.waves_at(7.5)) {
+            let apart = f64::from(a[3] - b[3]).rem_euclid(TAU);
+            assert!(apart.min(TAU - apart) < 1e-4, "{a:?} {b:?}");
+        }
+        assert_ne!(sea.waves_at(0.0), sea.waves_at(1.0));
+    }
+}

@@ -1,0 +1,304 @@
+//! `render --shore`: shoreline and contact foam on a scene's sea.
+
+use std::path::{Path, PathBuf};
+
+use glam::{Mat4, Vec2, Vec3};
+use whitewater::headless::scene::{Scene, Sea};
+use whitewater::headless::{Headless, ShoreMesh};
+use whitewater::io::particles::{Particles, sequence};
+use whitewater::shore::{Area, ShoreConfig};
+use whitewater::{Error, Region, Settings, Shore, Shoreline};
+
+use super::scenes::{self, ShoreScene};
+use super::strip::Strip;
+use crate::args::RenderArgs;
+use crate::camera::CameraFile;
+use crate::failure::{Failure, Outcome};
+use crate::output;
+use crate::pattern;
+use crate::progress::Progress;
+use crate::session::{self, Look, Session};
+use crate::settings::SettingsFile;
+use crate::settings::shore::By;
+use crate::stage;
+
+/// Texels of the map each way where nothing is said.
+const MAP: u32 = 1024;
+
+/// A scene with a shore.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Which {
+    Archipelago,
+    Pool,
+    Lava,
+    /// The user's own.
+    File(PathBuf),
+}
+
+/// Of the command line.
+pub fn named(text: &str) -> Result<Which, String> {
+    match text {
+        "archipelago" => Ok(Which::Archipelago),
+        "pool" => Ok(Which::Pool),
+        "lava" => Ok(Which::Lava),
+        "" => Err("expected archipelago, pool, lava or a scene's file".into()),
+        file => Ok(Which::File(file.into())),
+    }
+}
+
+/// Shoreline and contact foam of a session.
+pub struct Shores {
+    pub config: ShoreConfig,
+    shore: Shore,
+    land: Land,
+    /// Texels of a web of the user's.
+    web: Option<([u32; 2], Vec<f32>)>,
+}
+
+/// What tells how far the shore is.
+enum Land {
+    /// The frame itself, or nothing.
+    None,
+    Strip(Strip),
+    Map {
+        size: u32,
+        area: Area,
+    },
+}
+
+impl Shores {
+    /// Contact foam on the particles' water alone, where a file asks for it.
+    pub fn of_particles(file: &SettingsFile) -> Outcome<Option<Self>> {
+        let on = file.contact.on_particles();
+        on.then(|| {
+            let shore = Shore { surface: None, ..Shore::new(0.0) };
+            let config = file.shore.config();
+            Ok(Self { config, shore, land: Land::None, web: web(file)? })
+        })
+        .transpose()
+    }
+
+    /// On the sea of a scene.
+    fn of(
+        file: &SettingsFile,
+        scene: &Scene,
+        level: f32,
+        strip: Option<Strip>,
+        (reach, by): ([f32; 2], By),
+    ) -> Outcome<Self> {
+        let mut shore = Shore::new(level);
+        let land = match file.shore.by.unwrap_or(by) {
+            By::None => Land::None,
+            By::Screen => {
+                shore.shoreline = Some(Shoreline::Screen);
+                Land::None
+            }
+            By::Strip => Land::Strip(strip.ok_or_else(|| {
+                let why = "the scene has none: by = \"map\" finds the shore without";
+                Failure::input(format!("shore.by = \"strip\": {why}"))
+            })?),
+            By::Map => {
+                let (low, high) = scene.bounds();
+                let (middle, size) = (0.5 * (low + high), high - low);
+                let reach = reach[0].max(reach[1]);
+                let edge = size.x.max(size.z) + 2.0 * reach;
+                let (up, center) = ([0.0, 1.0, 0.0], [middle.x, middle.z]);
+                let area = Area { up, center, edge, level, reach: reach.min(edge) };
+                Land::Map { size: file.shore.map.unwrap_or(MAP), area }
+            }
+        };
+        Ok(Self { config: file.shore.config(), shore, land, web: web(file)? })
+    }
+
+    /// Hands over what is the same in all frames.
+    pub fn set_up(&self, headless: &mut Headless, scene: &Scene) -> Result<(), Error> {
+        if let Some((size, texels)) = &self.web {
+            headless.shore_web(*size, texels)?;
+        }
+        match &self.land {
+            Land::None => {}
+            Land::Strip(Strip { positions, v, indices }) => {
+                headless.shore_strip(&ShoreMesh { positions, indices }, v)?;
+            }
+            Land::Map { size, area } => {
+                let meshes = scene.meshes.iter();
+                let meshes = meshes
+                    .map(|mesh| ShoreMesh { positions: &mesh.positions, indices: &mesh.indices });
+                headless.shore_map(*size, &meshes.collect::<Vec<_>>())?;
+                headless.shore_map_step(area, &transforms(scene, scene.frame), None)?;
+            }
+        }
+        headless.shore(Some(self.shore));
+        Ok(())
+    }
+
+    /// The land where it is in the scene's frame, after another.
+    pub fn moved(&self, headless: &mut Headless, scene: &Scene, before: u64) -> Result<(), Error> {
+        let Land::Map { area, .. } = &self.land else { return Ok(()) };
+        let Some(changed) = changed(scene, before) else { return Ok(()) };
+        headless.shore_map_step(area, &transforms(scene, scene.frame), Some(changed))
+    }
+}
+
+/// The user's web.
+fn web(file: &SettingsFile) -> Outcome<Option<([u32; 2], Vec<f32>)>> {
+    file.shore.web.as_deref().map(pattern::values).transpose()
+}
+
+/// Where each mesh is in a frame.
+fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
+    let pose = |index: usize| {
+        let motion = scene.motions.iter().find(|motion| motion.meshes.contains(&index));
+        motion.map_or(Mat4::IDENTITY, |motion| motion.pose(frame))
+    };
+    (0..scene.meshes.len()).map(|index| pose(index) * scene.meshes[index].transform).collect()
+}
+
+/// The least and the greatest x and z of what stands elsewhere than in another frame, then and now.
+fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
+    let [then, now] = [before, scene.frame].map(|frame| transforms(scene, frame));
+    let (mut least, mut most) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
+    for (i, mesh) in scene.meshes.iter().enumerate().filter(|(i, _)| then[*i] != now[*i]) {
+        for at in [then[i], now[i]] {
+            for place in &mesh.positions {
+                let place = at.transform_point3(Vec3::from(*place));
+                least = least.min(Vec2::new(place.x, place.z));
+                most = most.max(Vec2::new(place.x, place.z));
+            }
+        }
+    }
+    least.cmple(most).all().then(|| [least.to_array(), most.to_array()])
+}
+
+/// A scene by its name, how foam looks there and by what it knows the shore.
+fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(ShoreScene, By)> {
+    let contact = &mut settings.shore.contact;
+    Ok(match which {
+        Which::Archipelago => (scenes::archipelago(), By::Map),
+        Which::Pool => {
+            (contact.depth, contact.mask_scale, contact.mask) = (0.4, 1.0 / 0.9, 0.7);
+            (scenes::pool(), By::None)
+        }
+        Which::Lava => {
+            // Of the crust's own glow.
+            (contact.color, contact.lit) = ([4.2, 1.35, 0.12], 0.0);
+            (contact.depth, contact.mask_scale, contact.mask) = (0.75, 1.0 / 1.8, 0.7);
+            contact.mask_speed = [0.02, 0.3];
+            (scenes::lava(), By::None)
+        }
+        Which::File(path) => (own(path, level)?, By::Map),
+    })
+}
+
+/// A scene of the user's in a sea.
+fn own(path: &Path, level: f32) -> Outcome<ShoreScene> {
+    let mut scene = stage::read(path)?;
+    let (low, high) = scene.bounds();
+    if !(low.y..=high.y).contains(&level) {
+        let why = format!("it goes from {} to {} in height", low.y, high.y);
+        let path = path.display();
+        return Err(Failure::input(format!(
+            "{path}: {why}, and has no shore at {level}: --level says where the sea is"
+        )));
+    }
+    scene.sea = Some(Sea { level, ..Sea::default() });
+    scene.ground = None;
+    let camera = scene.camera;
+    let (middle, size) = (0.5 * (low + high), high - low);
+    let away = 0.75 * size.x.max(size.z);
+    let eye =
+        middle + away * Vec3::new(-0.45, 0.0, 0.9) + Vec3::Y * (level + 0.35 * away - middle.y);
+    Ok(ShoreScene {
+        eye: camera.map_or(eye.to_array(), |camera| camera.eye),
+        target: camera.map_or([middle.x, level, middle.z], |camera| camera.target),
+        fov: camera.map_or(40.0, |camera| camera.fov_y_degrees),
+        sun: [-0.6, 0.5, 0.4],
+        exposure: 0.0,
+        level,
+        frames: 240,
+        fps: 24.0,
+        strip: None,
+        scene,
+    })
+}
+
+/// `render --shore`.
+pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
+    let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
+    let file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
+    let file = file.unwrap_or_default();
+    let mut settings = Settings::default();
+    let (shown, by) = scene_of(which, args.level, &mut settings)?;
+    let (first, last) = range.map_or((1, 1), |range| (*range.start(), *range.end()));
+    let frames: Vec<u64> = (first..=last).step_by(args.every.get()).collect();
+    let checked = session::check(&args.draw, frames.len() > 1)?;
+    let environment = session::environment(&args.draw, Some(shown.sun))?;
+    let camera = CameraFile::from_args(&args.camera)?.unwrap_or_else(|| CameraFile {
+        eye: Some(shown.eye),
+        target: Some(shown.target),
+        up: Some([0.0, 1.0, 0.0]),
+        fov_y_degrees: args.camera.fov.or(Some(shown.fov)),
+        ..CameraFile::default()
+    });
+    camera.check(frames.iter().copied(), args.draw.size)?;
+    if let Some(number) = frames.first() {
+        for target in &checked.0 {
+            output::probe(&target.path(*number))?;
+        }
+    }
+    settings.light = environment.light();
+    // The scenes come round.
+    let built_in = !matches!(which, Which::File(_));
+    settings.shore.period = built_in.then(|| shown.frames as f32 / shown.fps);
+    file.apply(&mut settings).map_err(Failure::input)?;
+    let mut scene = shown.scene;
+    scene.frame = frames.first().copied().unwrap_or(1);
+    scene.sun = environment.sun_light();
+    let reach = settings.shore.shoreline.reach;
+    let shores = Shores::of(&file, &scene, shown.level, shown.strip, (reach, by))?;
+    let (low, high) = scene.bounds();
+    let look = Look {
+        camera,
+        settings,
+        environment,
+        scene,
+        foam: None,
+        diffuse: None,
+        occlusion: file.diffuse.occlusion(),
+        splat: file.diffuse.splat(),
+        bubbles: None,
+        shores: Some(shores),
+        exposure: shown.exposure,
+        spray: false,
+        shadows: file.shadows().map_err(Failure::input)?,
+        region: Region {
+            center: (0.5 * (low + high)).to_array(),
+            radius: 0.5 * (high - low).length().max(1.0e-3),
+        },
+        fps: Some(args.fps.unwrap_or(shown.fps)),
+        rate: None,
+        fullest: 1,
+    };
+    let mut progress = Progress::new(frames.len(), "frames");
+    let mut session = Session::new(&args.draw, checked, look, progress.steps())?;
+    let none = Particles::from_positions(Vec::new());
+    let numbered = frames.len() > 1;
+    for number in frames {
+        let began = std::time::Instant::now();
+        let paths = session.paths(number);
+        let there = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
+        if numbered && !args.draw.overwrite && paths.iter().all(there) {
+            progress.advance(&format!("frame {number}: is there (--overwrite draws it again)"));
+            continue;
+        }
+        session.frame(number, None, "shore", &none)?;
+        let paths: Vec<_> = paths.iter().map(|p| p.display().to_string()).collect();
+        progress.advance(&format!(
+            "frame {number}: {:.2} s, {}",
+            began.elapsed().as_secs_f32(),
+            paths.join(" and ")
+        ));
+    }
+    progress.finish();
+    session.finish()
+}
