@@ -22,7 +22,7 @@
 //! What a body of water remembers, its foam, is a [`State`] of its own, which views share:
 //! [`State::record_step`] once per step of the simulation. Spray, foam and bubbles that are particles of their own can
 //! be made of the water's by a [`foam::Generator`], and blobs of bubble foam moved by a [`bubbles::Heap`], likewise once
-//! per step.
+//! per step. How far shores are a [`shore::ShoreMap`] finds, where land has changed.
 //!
 //! # What `record` takes
 //!
@@ -46,6 +46,8 @@
 //! | `bubbles.balls` | with `Config.bubbles`: 4×f32, centre and radius of blobs of soap foam, world space; those that are none are dropped | as above | as above |
 //! | `bubbles.turns`, `ids` | 4×f32 (quaternions), u32 of each; neither need be there | as above | as above |
 //! | `bubbles.count` | as `particles.count` | as above | as above |
+//! | `shore.surface`, `mask` | with `Config.shore`: your water's level, or its depth in the camera's convention; what takes contact foam away, one channel; any size | sampled (a depth: and depth attachment), single-sampled | `before` → `after` |
+//! | `shore.shoreline` | a strip: 3×f32 and v of vertices, u32 of triangles; or a [`shore::ShoreMap`]'s distances | storage buffers | as above |
 //! | `sun.shadow` | with `Config.shadow`: a depth map of the sun's, with its matrix, of any size from frame to frame, or a mask of the view | sampled (a depth map: and depth attachment), single-sampled | `before` → `after` |
 //! | `sun.region` | with `Config.cast`: the ball in which water and foam cast shadows and caustics | | |
 //! | `previous` | with `Config.motion`: the camera of the frame before and the seconds since | | |
@@ -122,13 +124,15 @@
 //! | the same, blobs (`bubbles`) | 64 a blob | 0.3 MiB for 5000 | |
 //! | those that diffuse foam becomes (`bubbles.hand_over`) | 36 a blob | 2.3 MiB for 65 536 | |
 //! | the same as the sun sees them (`cast` = N with `bubbles`) | N² | 1 MiB for 1024 | |
+//! | shoreline and contact foam (`shore`), and 7.3 MiB of textures | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | the same of diffuse particles (`cast` with `diffuse`) | 24 N² | 24 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
-//! A [`State`] takes 68 bytes a particle, a [`foam::Generator`] 72 to 76 a particle of the fluid and 44 a diffuse one.
+//! A [`State`] takes 68 bytes a particle, a [`foam::Generator`] 72 to 76 a particle of the fluid and 44 a diffuse one, a
+//! [`shore::ShoreMap`] 16 a texel.
 //!
 //! # Where it differs from its sources
 //!
@@ -206,6 +210,15 @@
 //! - Diffuse foam near the eye, which Akinci et al. give up, becomes blobs ([`bubbles::HandOver`]).
 //! - A pixel goes through the blobs of its tile once and ends where nothing behind can be seen; drawn once a layer, the
 //!   source's way, they are there as [`bubbles::BubbleSort::Peel`].
+//!
+//! Against the blog and the tutorial whose shoreline and contact foam it is:
+//!
+//! - A pixel is as much foam as it covers of it, and what is too fine for it counts as a variance; both clip or leave it to
+//!   the textures ([`shore::Edge`]).
+//! - Noise on a speed swings, and phases come from the host within one turn: nothing drifts apart or loses digits in time.
+//! - No mesh is needed: distances come from a map in the world, or from the slope of what is below the water.
+//! - The tutorial's colour is taken as sRGB, its distance as that of both points, as its program has it; its text takes
+//!   the difference along the view ([`shore::Measure`]).
 //!
 //! Against Ihmsen et al. (2012), whose diffuse particles [`foam::Generator`] makes:
 //!

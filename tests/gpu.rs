@@ -52,6 +52,8 @@ mod queries;
 mod rect;
 #[path = "gpu/reduce.rs"]
 mod reduce;
+#[path = "gpu/sea.rs"]
+mod sea;
 #[path = "gpu/shading.rs"]
 mod shading;
 #[path = "gpu/sheets/mod.rs"]

@@ -41,11 +41,11 @@ Place place_at(vec3 ray, float height) {
     return Place(scene.eye.xz + along * ray.xz, x.xz - x.y * slant, y.xz - y.y * slant);
 }
 
-// What of a wave a pixel shows, which sees the mean over a bell of half a pixel.
-float shown(vec2 wave, Place place) {
+// What of a wave a pixel shows, which sees the mean over a bell of so many pixels' deviation.
+float shown(vec2 wave, Place place, float deviation) {
     float x = dot(wave, place.across);
     float y = dot(wave, place.down);
-    return exp(-0.125 * (x * x + y * y));
+    return exp(-0.5 * deviation * deviation * (x * x + y * y));
 }
 
 // Few sines make a lattice: slow ones, each bent by those before, delay each wave otherwise, and make patches of rough
@@ -72,7 +72,7 @@ float phase(int i, vec2 at, vec3 unrest) {
     vec4 wave = scene.waves[i];
     float turn = 2.1 * float(i);
     // The short ones as much for their length.
-    float more = 1.0 + 0.25 * float(i);
+    float more = 1.0 + 0.5 * float(i);
     return dot(wave.xy, at) + wave.w + more * (unrest.x * cos(turn) + unrest.y * sin(turn));
 }
 
@@ -99,11 +99,11 @@ Surf surf() {
         float least = max(0.5 * (square.x + square.y) - length(vec2(0.5 * (square.x - square.y), square.z)), 0.0);
         for (int i = 0; i < WAVES; ++i) {
             vec4 wave = scene.waves[i];
-            if (dot(wave.xy, wave.xy) * least > 60.0) {
+            if (dot(wave.xy, wave.xy) * least > 30.0) {
                 s.hidden.xy += 0.5 * max(scene.absorption.w - s.hidden.x - s.hidden.y, 0.0);
                 break;
             }
-            float kept = shown(wave.xy, s.place);
+            float kept = shown(wave.xy, s.place, 0.7);
             vec2 rise = wave.xy * wave.z * mix(1.0, unrest.z, min(0.25 * float(i), 1.0));
             s.slope += rise * kept * cos(phase(i, s.place.at, unrest));
             s.hidden += 0.5 * (1.0 - kept * kept) * vec3(rise * rise, rise.x * rise.y);
@@ -151,9 +151,9 @@ float caustics(vec3 at, float depth) {
         float square = dot(wave.xy, wave.xy);
         // The sun's disc, and what has long been past its focus, are blurs.
         float focus = bent * wave.z * square;
-        float blurred = exp(-4.0e-6 * depth * depth * square) / (1.0 + 12.0 * focus * focus);
-        float kept = shown(wave.xy, place) * blurred;
-        float part = 0.8 * bent * wave.z * kept * unrest.z;
+        float blurred = exp(-4.0e-6 * depth * depth * square) / (1.0 + 28.0 * focus * focus);
+        float kept = shown(wave.xy, place, 1.2) * blurred;
+        float part = bent * wave.z * kept * unrest.z;
         bend -= part * sin(phase(i, place.at, unrest)) * vec3(wave.xy * wave.xy, wave.x * wave.y);
         variance += 0.5 * part * part * square * square;
     }

@@ -130,7 +130,8 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
                 + sky * (-lost * depth * 1.2).exp();
             let under = albedo / PI * arrives * (-lost * depth).exp();
             let rate = lost * (1.0 + slant);
-            let haze = scattered * entering * slant / (4.0 * PI) * (1.0 - (-rate * depth).exp()) / rate;
+            let haze =
+                scattered * entering * slant / (4.0 * PI) * (1.0 - (-rate * depth).exp()) / rate;
             let expected = (1.0 - mirrored) * (under + haze) + mirrored * AROUND;
             assert!(
                 (found[c] / expected - 1.0).abs() < 4.0e-3,
@@ -147,13 +148,15 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
 fn what_is_not_seen_through_a_sea_is_as_it_was() {
     let mut headless = headless();
     let plain = Material::default();
-    let wall = Mesh::cuboid([0.0, 30.0, -2.0], [60.0, 29.0, 1.0], [0.0, 0.0, 0.0, 1.0], plain.clone());
+    let wall =
+        Mesh::cuboid([0.0, 30.0, -2.0], [60.0, 29.0, 1.0], [0.0, 0.0, 0.0, 1.0], plain.clone());
     let floor = Mesh::plane([0.0, -8.0, 0.0], [60.0, 60.0], plain);
     let over = camera([0.0, 26.0, 1.0], [0.0, 26.0, 0.0], [0.0, 1.0, 0.0], Lens::Standard);
     let under = camera([0.0, -1.0, 9.0], [0.0, -3.0, 0.0], [0.0, 1.0, 0.0], Lens::Standard);
     for camera in [over, under] {
         for sea in [Sea::default(), lava()] {
-            let scene = |sea| Scene { meshes: vec![wall.clone(), floor.clone()], sea, ..Scene::default() };
+            let scene =
+                |sea| Scene { meshes: vec![wall.clone(), floor.clone()], sea, ..Scene::default() };
             let (dry, _) = shot(&mut headless, &scene(None), &camera, false);
             let (wet, _) = shot(&mut headless, &scene(Some(sea)), &camera, false);
             // Two pipelines may round otherwise; lava's glow is far below.
@@ -205,7 +208,10 @@ fn bad_values_are_named() {
         (lava([1.0; 3], f32::NAN), "Scene.sea.liquid.speed"),
     ] {
         let error = headless.scene(&stage(Some(sea)), false).expect_err(named);
-        assert!(matches!(error, Error::BadInput { field, .. } if field == named), "{named}: {error}");
+        assert!(
+            matches!(error, Error::BadInput { field, .. } if field == named),
+            "{named}: {error}"
+        );
     }
     let never = Scene { time: f64::NAN, ..stage(Some(sea())) };
     let error = headless.scene(&never, false).expect_err("no time");

@@ -86,13 +86,19 @@ pub fn along(loops: &[Vec<Vec2>], level: f32, reach: Reach, shore: impl Fn(Vec2)
         let rise = |d: Vec2| (shore(p + d) - shore(p - d)) / (2.0 * STEP);
         vec2(rise(vec2(STEP, 0.0)), rise(vec2(0.0, STEP)))
     };
-    // Where it has changed by so much, along its gradient.
+    // Where it has changed by so much, along its gradient; in a narrow bay no farther than to its middle.
     let moved = |from: Vec2, by: f32| {
-        const STEPS: usize = 8;
-        (0..STEPS).fold(from, |p, _| {
-            let g = slope(p);
-            p + by / STEPS as f32 * g / g.length_squared().max(0.05)
-        })
+        const STEPS: usize = 16;
+        let mut at = from;
+        for _ in 0..STEPS {
+            let g = slope(at);
+            let next = at + by / STEPS as f32 * g / g.length_squared().max(0.1);
+            if by * (shore(next) - shore(at)) <= 0.0 {
+                break;
+            }
+            at = next;
+        }
+        at
     };
     let mut strip = Strip::default();
     for points in loops {
