@@ -152,6 +152,8 @@ float caustics(vec3 at, float depth) {
         // The sun's disc, and what has long been past its focus, are blurs.
         float focus = bent * wave.z * square;
         float blurred = exp(-4.0e-6 * depth * depth * square) / (1.0 + 28.0 * focus * focus);
+        // Where the waves end the last few would make a lattice.
+        blurred *= 1.0 - smoothstep(0.4, 1.0, float(i) / float(WAVES));
         float kept = shown(wave.xy, place, 1.2) * blurred;
         float part = bent * wave.z * kept * unrest.z;
         bend -= part * sin(phase(i, place.at, unrest)) * vec3(wave.xy * wave.xy, wave.x * wave.y);

@@ -62,8 +62,9 @@ pub fn contact(tool: &Tool, docs: &Path) -> Outcome<()> {
     let without = tool.shore("pool", 1, &none)?.picture;
     let pool = tool.shore("pool", 1, "")?.picture;
     let lava = tool.shore("lava", 1, "")?.picture;
-    let on = tool
-        .settings("[contact]\nparticle_opacity = 1.0\nparticle_depth = 0.12\nmask_scale = 3.0\n")?;
+    let on = tool.settings(
+        "[contact]\nparticle_opacity = 1.0\nparticle_depth = 0.3\nmask_scale = 2.0\nmask = 0.6\n",
+    )?;
     let water = tool.frame("waterfall", 200, &format!("{on} --foam none"))?.picture;
     grid(&[without, pool, lava, water], 2, &pictures(docs, "contact.png"))
 }

@@ -55,8 +55,16 @@ pub fn contours(patch: Patch, field: impl Fn(Vec2) -> f32) -> Vec<Vec<Vec2>> {
     }
     let corner = |n: usize| patch.corner(n % (nx + 1), n / (nx + 1));
     let place = |(a, b): (usize, usize)| {
-        let t = values[a] / (values[a] - values[b]);
-        corner(a).lerp(corner(b), t)
+        // Halved until it is known to a thousandth of a cell: between its corners the field may bend.
+        let (mut low, mut high) = (corner(a), corner(b));
+        for _ in 0..10 {
+            let middle = low.midpoint(high);
+            match (field(middle) > 0.0) == inside(a) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        low.midpoint(high)
     };
     let mut loops = Vec::new();
     // The same order in every run.
