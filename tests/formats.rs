@@ -116,6 +116,27 @@ fn base64_with_a_header_of_its_own() {
 }
 
 #[test]
+fn base64_of_one_byte_is_no_header_of_its_own() {
+    use base64::Engine;
+    let array = |ty: &str, name: &str, components: usize, raw: &[u8]| {
+        let bytes = [&samples::ints(&[raw.len() as u32], 4, false), raw].concat();
+        let text = base64::engine::general_purpose::STANDARD.encode(bytes);
+        format!(
+            "<DataArray type=\"{ty}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
+             format=\"binary\">{text}</DataArray>"
+        )
+    };
+    let text = format!(
+        "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><PointData>{}</PointData>\
+         <Points>{}</Points></Piece></PolyData></VTKFile>",
+        array("UInt8", "type", 1, &[2]),
+        array("Float32", "Points", 3, &samples::floats(&[1.0, 2.0, 3.0], 4, false))
+    );
+    let particles = read_bytes(text.as_bytes(), Extension::Vtp).unwrap();
+    assert_eq!((particles.positions, particles.kinds), (vec![[1.0, 2.0, 3.0]], Some(vec![2])));
+}
+
+#[test]
 fn raw_triples_that_are_valid_utf8_are_no_text() {
     let particles = read_bytes(&[0; 24], Extension::Xyz).unwrap();
     assert_eq!(particles.format, Format::RawF32);
