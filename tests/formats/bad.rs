@@ -226,17 +226,38 @@ fn places_are_told() {
         &["line 3", "vertex one"],
     );
     // The number that is missing, not the line that is taken for another then.
-    let vtk =
-        String::from_utf8(samples::vtk(&samples::cloud(), "4.2", false, true, false)).unwrap();
-    let positions = vtk.find("POINTS 11 float\n").unwrap() + 16;
-    let short =
-        vtk[..positions].to_string() + &vtk[vtk[positions..].find(' ').unwrap() + positions..];
-    let place = format!("at byte {}", short.find("\nMETADATA").unwrap());
-    let said = ["a number for POINTS, found \"METADATA\"", &place];
-    refused(short.as_bytes(), Extension::Vtk, &said);
+    let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n";
+    let vtk = |points: &str| format!("{head}{points}\nPOINT_DATA 2\nVECTORS v float\n1 2 3 4 5 6");
+    let said = ["a number for POINTS, found \"POINT_DATA\"", "at byte 74"];
+    refused(vtk("0 0 0 1").as_bytes(), Extension::Vtk, &said);
+    assert!(read_bytes(vtk("0 0 0 1 1 1").as_bytes(), Extension::Vtk).is_ok());
     let mut bytes = samples::bgeo(&samples::cloud());
     bytes.truncate(200);
     refused(&bytes, Extension::Bgeo, &["the points", "at byte 154", "528", "46 are there"]);
+}
+
+/// Of two arrays that may be the velocities one is used; the other has to be sound as well.
+#[test]
+fn arrays_that_have_no_meaning_are_checked() {
+    let array = |name: &str, numbers: &str| {
+        format!(
+            "<DataArray type=\"Float32\" Name=\"{name}\" NumberOfComponents=\"3\">{numbers}</DataArray>"
+        )
+    };
+    let file = |second: &str| {
+        format!(
+            "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><PointData>{}{}</PointData>\
+             <Points>{}</Points></Piece></PolyData></VTKFile>",
+            array("velocity", "1 2 3"),
+            array("v", second),
+            array("Points", "0 0 0"),
+        )
+    };
+    let sound = read_bytes(file("4 5 6").as_bytes(), Extension::Vtp).unwrap();
+    assert_eq!(sound.velocities, Some(vec![[1.0, 2.0, 3.0]]));
+    for (numbers, said) in [("4 x 6", "a number for v"), ("4 5", "v at byte"), ("4 5 6 7", "`v`")] {
+        refused(file(numbers).as_bytes(), Extension::Vtp, &[said]);
+    }
 }
 
 #[test]
