@@ -15,7 +15,8 @@
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
 //! | CSV (ParaView's names, or `x,y,z`), XYZ text, XYZ raw `f32` triples, JSON | yes | |
 //!
-//! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory.
+//! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
+//! formats but JSON.
 //!
 //! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
 //! Lengths and times are taken as they are; nothing is scaled, recentred or reordered.
