@@ -231,7 +231,11 @@ impl Pass<'_> {
             count = count.min(stream.read(wanted, &mut own, &mut self.room)?);
             columns.append(&mut own);
         }
-        if count < wanted && plan.rows.is_some() {
+        // So that all lists have as many, whatever became of the file.
+        let whole = |(column, used): (&Column, &bool)| {
+            !used || column.data.len() == count.saturating_mul(column.components)
+        };
+        if (count < wanted && plan.rows.is_some()) || !columns.iter().zip(&plan.used).all(whole) {
             return Err(changed());
         }
         self.left = if count < wanted { 0 } else { self.left - count };
