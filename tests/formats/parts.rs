@@ -164,17 +164,19 @@ fn written(particles: &Particles, format: WriteFormat) -> Vec<u8> {
     out.into_inner()
 }
 
+type Make = Box<dyn Fn(&Particles) -> Vec<u8>>;
+
 /// A way to write particles that have all attributes.
 struct Maker {
     name: String,
     hint: Extension,
-    make: Box<dyn Fn(&Particles) -> Vec<u8>>,
+    make: Make,
 }
 
 /// Formats that come in parts and are no rows of one length.
 fn makers() -> Vec<Maker> {
     let mut all = Vec::new();
-    let mut add = |name: &str, hint, make: Box<dyn Fn(&Particles) -> Vec<u8>>| {
+    let mut add = |name: &str, hint, make: Make| {
         all.push(Maker { name: name.into(), hint, make });
     };
     add("csv", Extension::Csv, Box::new(table));

@@ -79,7 +79,7 @@ struct Current<'a> {
 
 enum Numbers<'a> {
     Words(Text<'a>),
-    Bytes(Box<Encoded<'a>>),
+    Bytes(Encoded<'a>),
 }
 
 impl Stream for ArrayStream<'_> {
@@ -171,13 +171,9 @@ impl<'a> ArrayStream<'a> {
                     segment.end,
                 )?))
             }
-            Stored::Bytes(encoding, offset) => Numbers::Bytes(Box::new(Encoded::open(
-                segment,
-                *encoding,
-                *offset,
-                name,
-                &mut self.spare,
-            )?)),
+            Stored::Bytes(encoding, offset) => {
+                Numbers::Bytes(Encoded::open(segment, *encoding, *offset, name, &mut self.spare)?)
+            }
         };
         Ok(Current { numbers, left: segment.count })
     }

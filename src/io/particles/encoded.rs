@@ -66,7 +66,7 @@ pub(super) struct Encoded<'a> {
 
 enum Bytes<'a> {
     None,
-    Plain(Run<'a>),
+    Plain(Box<Run<'a>>),
     Blocks(Box<Blocks<'a>>),
 }
 
@@ -120,7 +120,7 @@ impl<'a> Encoded<'a> {
                 head.extended(word.saturating_add(first))?
             };
             check(first)?;
-            Bytes::Plain(run)
+            Bytes::Plain(Box::new(run))
         } else if first == 0 {
             check(0)?;
             Bytes::None

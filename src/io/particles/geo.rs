@@ -145,9 +145,8 @@ fn point<'l>(
     for field in fields {
         for _ in 0..field.size {
             let word = words.next()?;
-            match field.column.and_then(|i| columns.get_mut(i)) {
-                Some(column) => column.data.push_text(word).then_some(())?,
-                None => {}
+            if let Some(column) = field.column.and_then(|i| columns.get_mut(i)) {
+                column.data.push_text(word).then_some(())?;
             }
         }
     }

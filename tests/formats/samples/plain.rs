@@ -117,10 +117,10 @@ pub fn numpy_samples(list: &mut Vec<Sample>, of: &Particles) {
     let arrays = [
         ("<f4, C", npy("<f4", &shape, false, 1, &floats(p, 4, false))),
         (">f8, C, version 2", npy(">f8", &shape, false, 2, &floats(p, 8, true))),
-        ("<f4, Fortran", npy("<f4", &shape, true, 1, &floats(&columns(&positions(of)), 4, false))),
+        ("<f4, Fortran", npy("<f4", &shape, true, 1, &floats(&columns(positions(of)), 4, false))),
         (
             ">f4, Fortran, version 3",
-            npy(">f4", &shape, true, 3, &floats(&columns(&positions(of)), 4, true)),
+            npy(">f4", &shape, true, 3, &floats(&columns(positions(of)), 4, true)),
         ),
     ];
     for (name, bytes) in arrays {
@@ -135,8 +135,8 @@ pub fn numpy_samples(list: &mut Vec<Sample>, of: &Particles) {
     let row = format!("({count},)");
     let velocity = velocities(of);
     let common = [
-        ("rho", npy("<f8", &row, false, 1, &floats(&densities(of), 8, false))),
-        ("ids", npy("<i8", &row, false, 1, &ints(&ids(of), 8, false))),
+        ("rho", npy("<f8", &row, false, 1, &floats(densities(of), 8, false))),
+        ("ids", npy("<i8", &row, false, 1, &ints(ids(of), 8, false))),
         ("time", npy("<f8", "()", false, 1, &floats(&[0.5], 8, false))),
     ];
     for deflate in [false, true] {
@@ -157,8 +157,8 @@ pub fn numpy_samples(list: &mut Vec<Sample>, of: &Particles) {
     let mut arrays = common.to_vec();
     for (c, (pos, vel)) in [("x", "vx"), ("y", "vy"), ("z", "vz")].into_iter().enumerate() {
         let pick = |v: &[[f32; 3]]| floats(&v.iter().map(|v| v[c]).collect::<Vec<_>>(), 4, false);
-        arrays.push((pos, npy("<f4", &row, false, 1, &pick(&positions(of)))));
-        arrays.push((vel, npy("<f4", &row, false, 1, &pick(&velocity))));
+        arrays.push((pos, npy("<f4", &row, false, 1, &pick(positions(of)))));
+        arrays.push((vel, npy("<f4", &row, false, 1, &pick(velocity))));
     }
     list.push(sample(
         "npz of components",
@@ -230,17 +230,11 @@ pub fn text_samples(list: &mut Vec<Sample>, of: &Particles) {
         format!("[{}]", rows.join(", "))
     };
     let flat = |text: String| format!("[{}]", text.replace(' ', ", "));
-    list.push(sample(
-        "json array",
-        Extension::Json,
-        array(&positions(of)),
-        Positions,
-        Format::Json,
-    ));
+    list.push(sample("json array", Extension::Json, array(positions(of)), Positions, Format::Json));
     let object = format!(
         "{{\"time\": 0.5, \"Positions\": {}, \"v\": {}, \"density\": {}, \"id\": {}, \"p\": [1]}}",
-        array(&positions(of)),
-        array(&velocities(of)),
+        array(positions(of)),
+        array(velocities(of)),
         flat(words(densities(of))),
         flat(words(ids(of)))
     );

@@ -81,7 +81,7 @@ pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: 
     put(
         &mut out,
         format!("SCALARS id {id} 1\nLOOKUP_TABLE id_table\n"),
-        ints(&ids(of), size, true),
+        ints(ids(of), size, true),
         words(ids(of)),
     );
     put(
@@ -103,7 +103,7 @@ pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: 
     put(
         &mut out,
         format!("density 1 {count} {real}\n"),
-        floats(&densities(of), size, true),
+        floats(densities(of), size, true),
         words(densities(of)),
     );
     out
