@@ -604,8 +604,8 @@ fn two_million_particles_take_no_more_memory_than_a_part() {
 /// The others as well, also within gzip.
 #[test]
 fn text_and_arrays_take_no_more_memory_than_a_part() {
-    const COUNT: usize = 100_000;
-    const SIZE: usize = 5000;
+    const COUNT: usize = 50_000;
+    const SIZE: usize = 1000;
     let particles = cloud(COUNT);
     for (i, Maker { name, hint, make }) in makers().into_iter().enumerate() {
         let plain = make(&particles);
