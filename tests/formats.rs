@@ -50,7 +50,7 @@ fn gzip_may_wrap_any_format() {
 
 #[test]
 fn attributes_are_listed_with_their_shape() {
-    let particles = read_bytes(&samples::bgeo(), Extension::Bgeo).unwrap();
+    let particles = read_bytes(&samples::bgeo(&samples::cloud()), Extension::Bgeo).unwrap();
     let list: Vec<_> =
         particles.attributes.iter().map(|a| (a.name.as_str(), a.components, a.ty)).collect();
     assert_eq!(
@@ -80,9 +80,9 @@ fn formats_have_names() {
         double: false,
     };
     let name = |bytes: &[u8], hint| read_bytes(bytes, hint).unwrap().format.to_string();
-    assert_eq!(name(&xml.bytes(), Extension::Vtu), "VTU, appended raw, zlib");
+    assert_eq!(name(&xml.bytes(&samples::cloud()), Extension::Vtu), "VTU, appended raw, zlib");
     assert_eq!(
-        name(&samples::vtk("5.1", true, true, false), Extension::Vtk),
+        name(&samples::vtk(&samples::cloud(), "5.1", true, true, false), Extension::Vtk),
         "legacy VTK 5.1, binary"
     );
 }
@@ -101,7 +101,7 @@ fn base64_with_a_header_of_its_own() {
     // Some writers encode the length of uncompressed data apart, padding included.
     use base64::Engine;
     let encode = |b: &[u8]| base64::engine::general_purpose::STANDARD.encode(b);
-    let raw = samples::floats(samples::positions().as_flattened(), 4, false);
+    let raw = samples::floats(samples::cloud().positions.as_flattened(), 4, false);
     let head = samples::ints(&[raw.len() as u32], 4, false);
     let text = format!(
         "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"{}\"><Points>\
@@ -113,6 +113,27 @@ fn base64_with_a_header_of_its_own() {
     );
     let particles = read_bytes(text.as_bytes(), Extension::Vtp).unwrap();
     samples::check("two runs", &particles, samples::Has::Positions);
+}
+
+#[test]
+fn base64_of_one_byte_is_no_header_of_its_own() {
+    use base64::Engine;
+    let array = |ty: &str, name: &str, components: usize, raw: &[u8]| {
+        let bytes = [&samples::ints(&[raw.len() as u32], 4, false), raw].concat();
+        let text = base64::engine::general_purpose::STANDARD.encode(bytes);
+        format!(
+            "<DataArray type=\"{ty}\" Name=\"{name}\" NumberOfComponents=\"{components}\" \
+             format=\"binary\">{text}</DataArray>"
+        )
+    };
+    let text = format!(
+        "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><PointData>{}</PointData>\
+         <Points>{}</Points></Piece></PolyData></VTKFile>",
+        array("UInt8", "type", 1, &[2]),
+        array("Float32", "Points", 3, &samples::floats(&[1.0, 2.0, 3.0], 4, false))
+    );
+    let particles = read_bytes(text.as_bytes(), Extension::Vtp).unwrap();
+    assert_eq!((particles.positions, particles.kinds), (vec![[1.0, 2.0, 3.0]], Some(vec![2])));
 }
 
 #[test]

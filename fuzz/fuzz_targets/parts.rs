@@ -4,9 +4,31 @@
 use libfuzzer_sys::fuzz_target;
 use whitewater::io::particles::{Extension, Particles, Parts, read_bytes};
 
-/// Beginnings that lead to the formats which are read in parts.
-const MAGIC: [&[u8]; 5] =
-    [b"", b"BgeoV\0\0\0\x05", b"ply\nformat binary_", b"\x93NUMPY\x01\0", b"PK\x03\x04"];
+/// Beginnings and hints that lead to the formats which are read in parts.
+const STARTS: [(&[u8], Extension); 13] = [
+    (b"", Extension::Unknown),
+    (b"", Extension::Csv),
+    (b"", Extension::Xyz),
+    (b"x,y,z,id\n", Extension::Csv),
+    (b"BgeoV\0\0\0\x05", Extension::Unknown),
+    (b"PGEOMETRY V5\nNPoints 3 NPointAttrib 1\nid 1 int 0\n", Extension::Unknown),
+    (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float ", Extension::Unknown),
+    (b"ply\nformat binary_", Extension::Unknown),
+    (b"\x93NUMPY\x01\0", Extension::Unknown),
+    (b"PK\x03\x04", Extension::Unknown),
+    (
+        b"# vtk DataFile Version 4.2\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n",
+        Extension::Unknown,
+    ),
+    (
+        b"# vtk DataFile Version 4.2\nt\nBINARY\nDATASET POLYDATA\nPOINTS 3 float\n",
+        Extension::Unknown,
+    ),
+    (
+        b"<VTKFile type=\"PolyData\"><Piece NumberOfPoints=\"3\"><Points><DataArray ",
+        Extension::Unknown,
+    ),
+];
 
 /// Position after position, as bits: no NaN is equal to itself.
 fn bits<'a>(particles: impl Iterator<Item = &'a Particles>) -> Vec<u32> {
@@ -15,10 +37,10 @@ fn bits<'a>(particles: impl Iterator<Item = &'a Particles>) -> Vec<u32> {
 
 fuzz_target!(|data: &[u8]| {
     let Some((size, data)) = data.split_first() else { return };
-    for magic in MAGIC {
-        let bytes = [magic, data].concat();
-        let whole = read_bytes(&bytes, Extension::Unknown);
-        let parts = Parts::of_bytes(&bytes, Extension::Unknown, usize::from(*size));
+    for (start, hint) in STARTS {
+        let bytes = [start, data].concat();
+        let whole = read_bytes(&bytes, hint);
+        let parts = Parts::of_bytes(&bytes, hint, usize::from(*size));
         match (whole, parts) {
             (Err(_), Err(_)) => {}
             (Ok(whole), Ok(parts)) => {

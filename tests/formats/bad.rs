@@ -120,7 +120,7 @@ fn known_formats_that_are_not_read_say_what_to_do() {
 fn wrong_counts() {
     // More points than bytes, and the most that the header can say.
     for (at, value) in [(9, 12_i32), (9, i32::MAX), (9, -1), (25, 1000), (25, i32::MAX)] {
-        let mut bytes = samples::bgeo();
+        let mut bytes = samples::bgeo(&samples::cloud());
         bytes[at..at + 4].copy_from_slice(&value.to_be_bytes());
         assert!(read_checked("bgeo", &bytes, Extension::Bgeo).is_err(), "{at} {value}");
     }
@@ -142,7 +142,8 @@ fn wrong_counts() {
             ("density 1 11", "density 1 10".into()),
             ("POINT_DATA 11", "POINT_DATA 10".into()),
         ] {
-            let bytes = swap(samples::vtk("5.1", binary, false, false), from, &to);
+            let bytes =
+                swap(samples::vtk(&samples::cloud(), "5.1", binary, false, false), from, &to);
             // In a text the values that are left over are found as an unknown section: a warning or an error.
             let result = read_checked("vtk", &bytes, Extension::Vtk);
             assert!(result.is_err(), "{binary} {from} {to}");
@@ -163,7 +164,7 @@ fn wrong_counts() {
             };
             for points in ["10", "12", huge, "-1", "many"] {
                 let bytes = swap(
-                    xml.bytes(),
+                    xml.bytes(&samples::cloud()),
                     "NumberOfPoints=\"11\"",
                     &format!("NumberOfPoints=\"{points}\""),
                 );
@@ -176,8 +177,11 @@ fn wrong_counts() {
     }
     for format in ["ascii", "binary_little_endian"] {
         for count in ["12", huge, "-1"] {
-            let bytes =
-                swap(samples::ply(format, false, false), "vertex 11", &format!("vertex {count}"));
+            let bytes = swap(
+                samples::ply(&samples::cloud(), format, false, false),
+                "vertex 11",
+                &format!("vertex {count}"),
+            );
             assert!(read_checked("ply", &bytes, Extension::Ply).is_err(), "{format} {count}");
         }
     }
@@ -187,7 +191,7 @@ fn wrong_counts() {
         let bytes = npy("<f4", shape, false, 1, &[0; 132]);
         assert!(read_checked("npy", &bytes, Extension::Npy).is_err(), "{shape}");
     }
-    let raw = samples::floats(samples::positions().as_flattened(), 4, false);
+    let raw = samples::floats(samples::cloud().positions.as_flattened(), 4, false);
     refused(&raw[..raw.len() - 1], Extension::Xyz, &["12 bytes", "byte 120"]);
     refused(b"3\n0 0 0\n1 1 1\n", Extension::Xyz, &["expected 3", "found 2"]);
 }
@@ -221,14 +225,44 @@ fn places_are_told() {
         Extension::Ply,
         &["line 3", "vertex one"],
     );
-    let mut bytes = samples::bgeo();
+    // The number that is missing, not the line that is taken for another then.
+    let head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n";
+    let vtk = |points: &str| format!("{head}{points}\nPOINT_DATA 2\nVECTORS v float\n1 2 3 4 5 6");
+    let said = ["a number for POINTS, found \"POINT_DATA\"", "at byte 74"];
+    refused(vtk("0 0 0 1").as_bytes(), Extension::Vtk, &said);
+    assert!(read_bytes(vtk("0 0 0 1 1 1").as_bytes(), Extension::Vtk).is_ok());
+    let mut bytes = samples::bgeo(&samples::cloud());
     bytes.truncate(200);
     refused(&bytes, Extension::Bgeo, &["the points", "at byte 154", "528", "46 are there"]);
 }
 
+/// Of two arrays that may be the velocities one is used; the other has to be sound as well.
+#[test]
+fn arrays_that_have_no_meaning_are_checked() {
+    let array = |name: &str, numbers: &str| {
+        format!(
+            "<DataArray type=\"Float32\" Name=\"{name}\" NumberOfComponents=\"3\">{numbers}</DataArray>"
+        )
+    };
+    let file = |second: &str| {
+        format!(
+            "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\"><PointData>{}{}</PointData>\
+             <Points>{}</Points></Piece></PolyData></VTKFile>",
+            array("velocity", "1 2 3"),
+            array("v", second),
+            array("Points", "0 0 0"),
+        )
+    };
+    let sound = read_bytes(file("4 5 6").as_bytes(), Extension::Vtp).unwrap();
+    assert_eq!(sound.velocities, Some(vec![[1.0, 2.0, 3.0]]));
+    for (numbers, said) in [("4 x 6", "a number for v"), ("4 5", "v at byte"), ("4 5 6 7", "`v`")] {
+        refused(file(numbers).as_bytes(), Extension::Vtp, &[said]);
+    }
+}
+
 #[test]
 fn an_unknown_vtk_section_ends_the_reading_with_a_warning() {
-    let mut bytes = samples::vtk("4.2", true, false, false);
+    let mut bytes = samples::vtk(&samples::cloud(), "4.2", true, false, false);
     bytes.extend(b"HYPERDATA h 3\n\x00\x01\x02");
     let p = read_bytes(&bytes, Extension::Vtk).unwrap();
     samples::check("vtk", &p, Has::All);

@@ -4,10 +4,7 @@ use super::samples;
 use whitewater::io::particles::{Particles, WriteError, WriteFormat, read, write};
 
 fn cloud() -> Particles {
-    let mut p = Particles::from_positions(samples::positions());
-    p.velocities = Some(samples::velocities());
-    p.densities = Some(samples::densities());
-    p.ids = Some(samples::ids());
+    let mut p = samples::cloud();
     p.lifetimes = Some((0..samples::COUNT).map(|i| 0.1 * i as f32 - 0.3).collect());
     p.kinds = Some((0..samples::COUNT as u32).map(|i| i % 3).collect());
     p
@@ -25,7 +22,7 @@ fn folder(name: &str) -> std::path::PathBuf {
 fn written_particles_read_back() {
     let folder = folder("write");
     let empty = Particles::from_positions(Vec::new());
-    let bare = Particles::from_positions(samples::positions());
+    let bare = Particles::from_positions(samples::cloud().positions);
     // More than one block of VTU.
     let mut large = Particles::from_positions(
         (0..70_000).map(|i| [i as f32, 0.5, -(i as f32).sqrt()]).collect(),

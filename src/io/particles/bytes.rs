@@ -2,7 +2,6 @@
 
 use std::io::Read;
 
-use super::columns::{AttributeType, Data};
 use super::error::{Place, ReadError};
 
 /// The most that compressed content of `len` bytes may unpack to. Real particle data packs to a half or a
@@ -93,33 +92,6 @@ impl<'a> Cursor<'a> {
     pub(super) fn i32_be(&mut self, what: &str) -> Result<i32, ReadError> {
         Ok(i32::from_be_bytes(self.array(what)?))
     }
-
-    /// The next line without its end, or `None` at the end of the data.
-    pub(super) fn line(&mut self) -> Option<&'a [u8]> {
-        let rest = self.rest();
-        if rest.is_empty() {
-            return None;
-        }
-        let end = rest.iter().position(|b| *b == b'\n');
-        let line = rest.get(..end.unwrap_or(rest.len())).unwrap_or_default();
-        self.at += end.map_or(rest.len(), |end| end + 1);
-        Some(line.strip_suffix(b"\r").unwrap_or(line))
-    }
-
-    pub(super) fn skip_space(&mut self) {
-        let rest = self.rest();
-        let space = rest.iter().position(|b| !b.is_ascii_whitespace());
-        self.at += space.unwrap_or(rest.len());
-    }
-
-    /// The next word between white space, or `None` at the end of the data.
-    pub(super) fn token(&mut self) -> Option<&'a [u8]> {
-        self.skip_space();
-        let rest = self.rest();
-        let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
-        self.at += end;
-        rest.get(..end).filter(|token| !token.is_empty())
-    }
 }
 
 /// A number as text. Takes what printf writes for NaN and infinity on any platform.
@@ -143,35 +115,4 @@ pub(super) fn show(bytes: &[u8]) -> String {
     let head = bytes.get(..bytes.len().min(40)).unwrap_or(bytes);
     let dots = if head.len() < bytes.len() { "..." } else { "" };
     format!("\"{}{dots}\"", head.escape_ascii())
-}
-
-/// `count` numbers of `ty` from words of text. Without `keep` they are only passed over.
-pub(super) fn ascii_values(
-    cursor: &mut Cursor<'_>,
-    ty: AttributeType,
-    count: u64,
-    what: &str,
-    keep: bool,
-) -> Result<Data, ReadError> {
-    let mut data = Data::for_type(ty);
-    if keep {
-        // A number and its space take two bytes at least.
-        let room = (cursor.rest().len() / 2 + 1) as u64;
-        data.reserve(usize::try_from(count.min(room)).unwrap_or(0));
-    }
-    for i in 0..count {
-        let place = cursor.place();
-        let Some(token) = cursor.token() else {
-            return Err(ReadError::truncated(
-                what,
-                cursor.at(),
-                (count - i).saturating_mul(2) - 1,
-                0,
-            ));
-        };
-        if keep && !data.push_text(token) {
-            return Err(ReadError::malformed(format!("a number for {what}"), show(token), place));
-        }
-    }
-    Ok(data)
 }

@@ -127,6 +127,37 @@ impl Data {
         }
     }
 
+    /// Makes room for some more of `all` that there will be, without room for those that may never come: it grows
+    /// with what is there, and not beyond all of them.
+    pub(super) fn room(&mut self, more: usize, all: usize) {
+        let (length, capacity) = match self {
+            Self::F32(v) => (v.len(), v.capacity()),
+            Self::F64(v) => (v.len(), v.capacity()),
+            Self::Int(v) => (v.len(), v.capacity()),
+        };
+        if capacity - length < more {
+            let grown = length.min(all.saturating_sub(length)).max(more);
+            match self {
+                Self::F32(v) => v.reserve_exact(grown),
+                Self::F64(v) => v.reserve_exact(grown),
+                Self::Int(v) => v.reserve_exact(grown),
+            }
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        match self {
+            Self::F32(v) => v.clear(),
+            Self::F64(v) => v.clear(),
+            Self::Int(v) => v.clear(),
+        }
+    }
+
+    /// Whether numbers of another type can stand among these.
+    pub(super) fn takes(&self, ty: AttributeType) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(&Self::for_type(ty))
+    }
+
     /// All of them, without a copy where they are stored so.
     fn into_f32(self) -> Vec<f32> {
         match self {
@@ -220,17 +251,6 @@ impl Data {
         true
     }
 
-    /// Appends another piece of the same attribute; false where the types differ.
-    pub(super) fn append(&mut self, other: Self) -> bool {
-        match (self, other) {
-            (Self::F32(a), Self::F32(b)) => a.extend(b),
-            (Self::F64(a), Self::F64(b)) => a.extend(b),
-            (Self::Int(a), Self::Int(b)) => a.extend(b),
-            _ => return false,
-        }
-        true
-    }
-
     /// From all values of the first component, then all of the second ...: to particle after particle.
     pub(super) fn transposed(self, components: usize) -> Self {
         fn turn<T: Copy>(v: &[T], components: usize) -> Vec<T> {
@@ -310,6 +330,17 @@ pub(super) fn wanted(name: &str) -> bool {
         || triples(POSITION_BASES).chain(triples(VELOCITY)).any(|names| names.contains(&name))
 }
 
+/// Lists an attribute, and says whether its numbers are wanted.
+pub(super) fn list(
+    attributes: &mut Vec<Attribute>,
+    name: &str,
+    components: usize,
+    ty: AttributeType,
+) -> bool {
+    attributes.push(Attribute { name: name.into(), components, ty });
+    wanted(name)
+}
+
 /// Whether `name` can be one of the columns that carry positions: tells a header from data.
 pub(super) fn names_position(name: &str) -> bool {
     let name = name.trim().to_lowercase();
@@ -319,8 +350,7 @@ pub(super) fn names_position(name: &str) -> bool {
 impl Table {
     /// Lists an attribute, and says whether its numbers are wanted.
     pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
-        self.attributes.push(Attribute { name: name.into(), components, ty });
-        wanted(name)
+        list(&mut self.attributes, name, components, ty)
     }
 
     pub(super) fn push(&mut self, name: &str, components: usize, data: Data) {
@@ -335,7 +365,8 @@ impl Table {
         });
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
         let roles = Roles::find(&shapes, placed, &self.attributes)?;
-        let mut survey = Survey::new(roles.rows(&shapes)?);
+        roles.rows(&shapes)?;
+        let mut survey = Survey::default();
         let particles = survey.part(&roles, self.columns, format);
         self.warnings.extend(survey.warnings());
         Ok(Particles { attributes: self.attributes, warnings: self.warnings, ..particles })
@@ -346,6 +377,11 @@ impl Table {
 pub(super) const PLACED: &str = "positions";
 
 impl Column {
+    /// Without numbers yet.
+    pub(super) fn new(name: &str, components: usize, ty: AttributeType) -> Self {
+        Self { name: name.into(), components, data: Data::for_type(ty) }
+    }
+
     fn shape(&self) -> Shape<'_> {
         Shape { name: &self.name, components: self.components, values: self.data.len() as u64 }
     }
@@ -549,22 +585,48 @@ struct Dropped {
     particle: usize,
 }
 
+/// The most positions by which their reach is judged.
+const SAMPLES: usize = 8192;
+
 /// What is known of particles only when all were seen, whether they come at once or in parts.
 #[derive(Debug)]
 pub(super) struct Survey {
-    rows: usize,
     seen: usize,
-    /// Positions of a few thousand, evenly through the file.
+    /// Positions of a few thousand, evenly through the file, the first of each `step` particles.
     samples: Vec<[f64; 3]>,
+    step: usize,
     not_finite: usize,
     ids: Option<Dropped>,
     kinds: Option<Dropped>,
 }
 
+impl Default for Survey {
+    fn default() -> Self {
+        Self { seen: 0, samples: Vec::new(), step: 1, not_finite: 0, ids: None, kinds: None }
+    }
+}
+
 impl Survey {
-    /// `rows`: particles in all.
-    pub(super) fn new(rows: usize) -> Self {
-        Self { rows, seen: 0, samples: Vec::new(), not_finite: 0, ids: None, kinds: None }
+    /// Particles until now.
+    pub(super) fn seen(&self) -> usize {
+        self.seen
+    }
+
+    /// Which they are is told by their number in the file alone: nobody knows yet how many will come.
+    fn sample(&mut self, rows: usize, position: impl Fn(usize) -> [f64; 3]) {
+        loop {
+            let next = self.samples.len().saturating_mul(self.step);
+            let Some(i) = next.checked_sub(self.seen).filter(|i| *i < rows) else { return };
+            self.samples.push(position(i));
+            if self.samples.len() == SAMPLES {
+                let mut kept = false;
+                self.samples.retain(|_| {
+                    kept = !kept;
+                    kept
+                });
+                self.step = self.step.saturating_mul(2);
+            }
+        }
     }
 
     /// Gives the columns of the particles that come next their meaning.
@@ -576,9 +638,7 @@ impl Survey {
     ) -> Particles {
         let mut columns = Columns(columns);
         let rows = columns.rows(roles.positions);
-        let step = self.rows.div_ceil(4096).max(1);
-        let sampled = (0..rows).skip((step - self.seen % step) % step).step_by(step);
-        self.samples.extend(sampled.map(|i| columns.vector(roles.positions, i)));
+        self.sample(rows, |i| columns.vector(roles.positions, i));
         let positions = columns.take_vectors(roles.positions);
         self.not_finite += super::count_non_finite(&positions);
         let velocities = roles.velocities.map(|v| columns.take_vectors(v));
@@ -623,7 +683,7 @@ impl Survey {
         let not_finite = (self.not_finite > 0).then(|| {
             format!(
                 "{} of {} positions are not finite (NaN or infinite, or too large for 32 bits); they are not drawn",
-                self.not_finite, self.rows
+                self.not_finite, self.seen
             )
         });
         let dropped = [&self.ids, &self.kinds].into_iter().flatten().map(|dropped| {

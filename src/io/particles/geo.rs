@@ -4,15 +4,19 @@
 //! attribute (name, components, type, defaults; of an index attribute the texts), then a line for each point:
 //! `x y z w (values)`, without brackets where there are no attributes. The rest is not read.
 
-use super::bytes::{Cursor, parse_number, show};
-use super::columns::{AttributeType, Data, Table};
+use super::Format;
+use super::bytes::{parse_number, show};
+use super::columns::{self, AttributeType, Column, PLACED};
 use super::error::{Place, ReadError};
-use super::{Format, Particles};
+use super::plan::About;
+use super::source::{Content, truncated};
+use super::table::{RowReader, Table};
+use super::text::Text;
 
-pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
-    let mut cursor = Cursor::new(bytes);
+pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+    let mut text = Text::new(content.open(0, content.length())?);
     let mut number = 1_u64;
-    let first = cursor.line().unwrap_or_default();
+    let first = text.line()?.unwrap_or_default();
     if first.trim_ascii() != b"PGEOMETRY V5" {
         return Err(ReadError::malformed("`PGEOMETRY V5`", show(first), Place::Line(1)));
     }
@@ -21,13 +25,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
     let mut attributes = None;
     while points.is_none() || attributes.is_none() {
         number += 1;
-        let Some(line) = cursor.line() else {
-            return Err(ReadError::truncated(
-                "the counts NPoints and NPointAttrib",
-                cursor.at(),
-                1,
-                0,
-            ));
+        let Some(line) = text.line()? else {
+            return Err(truncated("the counts NPoints and NPointAttrib", text.at(), 1, 0));
         };
         let words: Vec<_> = words(line).collect();
         for pair in words.chunks_exact(2) {
@@ -45,14 +44,19 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
     }
     let (points, attributes) = (points.unwrap_or(0), attributes.unwrap_or(0));
 
-    let mut table = Table::default();
-    table.list("position", 3, AttributeType::F32);
-    // For each attribute: its name, its components and its numbers where they are wanted.
-    let mut columns: Vec<(String, usize, Option<Data>)> = Vec::new();
-    while (columns.len() as u64) < attributes {
+    let mut about = About {
+        placed: Some(0),
+        attributes: Vec::new(),
+        warnings: Vec::new(),
+        format: Format::Geo,
+    };
+    columns::list(&mut about.attributes, "position", 3, AttributeType::F32);
+    let mut columns = vec![Column::new(PLACED, 3, AttributeType::F32)];
+    let mut fields = Vec::new();
+    while (fields.len() as u64) < attributes {
         number += 1;
-        let Some(line) = cursor.line() else {
-            return Err(ReadError::truncated("the point attributes", cursor.at(), 1, 0));
+        let Some(line) = text.line()? else {
+            return Err(truncated("the point attributes", text.at(), 1, 0));
         };
         let words: Vec<_> = words(line).collect();
         let [name, size, ty, ..] = words.as_slice() else {
@@ -66,6 +70,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
                 Place::Line(number),
             ));
         };
+        let size = usize::from(size);
         let ty = match *ty {
             b"float" | b"vector" => AttributeType::F32,
             b"int" => AttributeType::I32,
@@ -78,58 +83,74 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
                 ));
             }
         };
-        let keep = table.list(name, usize::from(size), ty) && ty != AttributeType::Text;
-        columns.push((name.to_string(), usize::from(size), keep.then(|| Data::for_type(ty))));
+        let keep =
+            columns::list(&mut about.attributes, name, size, ty) && ty != AttributeType::Text;
+        fields.push(Field { size, column: keep.then_some(columns.len()) });
+        if keep {
+            columns.push(Column::new(name, size, ty));
+        }
     }
+    let rows = Box::new(Points { text, number, left: points, fields });
+    Ok(Table { columns, about, rows })
+}
 
-    let mut positions = Vec::new();
-    let mut read = 0;
-    while read < points {
-        number += 1;
-        let Some(line) = cursor.line() else {
-            return Err(ReadError::truncated(
-                "the points",
-                cursor.at(),
-                (points - read).saturating_mul(8),
-                0,
-            ));
-        };
-        let mut words = words(line);
-        let bad = || {
-            ReadError::malformed(
-                "a point: x y z w and its attributes",
-                show(line),
-                Place::Line(number),
-            )
-        };
-        let Some(first) = words.next() else { continue };
-        if first == b"PointAttrib" {
-            continue;
-        }
-        positions.push(parse_number(first).ok_or_else(bad)? as f32);
-        for k in 0..3 {
-            let value = words.next().and_then(parse_number).ok_or_else(bad)?;
-            if k < 2 {
-                positions.push(value as f32);
+/// An attribute in the line of a point.
+struct Field {
+    /// Words.
+    size: usize,
+    column: Option<usize>,
+}
+
+struct Points<'a> {
+    text: Text<'a>,
+    /// Of the line that was read last.
+    number: u64,
+    left: u64,
+    fields: Vec<Field>,
+}
+
+impl RowReader for Points<'_> {
+    fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError> {
+        while self.left > 0 {
+            self.number += 1;
+            let Some(line) = self.text.line()? else {
+                let needed = self.left.saturating_mul(8);
+                return Err(truncated("the points", self.text.at(), needed, 0));
+            };
+            let mut words = words(line).peekable();
+            if words.peek().is_some_and(|first| first != b"PointAttrib") {
+                let point = point(words, &self.fields, columns);
+                let expected = "a point: x y z w and its attributes";
+                let place = Place::Line(self.number);
+                point.ok_or_else(|| ReadError::malformed(expected, show(line), place))?;
+                self.left -= 1;
+                return Ok(true);
             }
         }
-        for (_, size, data) in &mut columns {
-            for _ in 0..*size {
-                let word = words.next().ok_or_else(bad)?;
-                if data.as_mut().is_some_and(|data| !data.push_text(word)) {
-                    return Err(bad());
-                }
+        Ok(false)
+    }
+}
+
+/// Appends the numbers of a point, the first column of which are the positions; none where these are no numbers.
+fn point<'l>(
+    mut words: impl Iterator<Item = &'l [u8]>,
+    fields: &[Field],
+    columns: &mut [Column],
+) -> Option<()> {
+    let positions = columns.first_mut()?;
+    for _ in 0..3 {
+        positions.data.push_text(words.next()?).then_some(())?;
+    }
+    parse_number(words.next()?)?;
+    for field in fields {
+        for _ in 0..field.size {
+            let word = words.next()?;
+            if let Some(column) = field.column.and_then(|i| columns.get_mut(i)) {
+                column.data.push_text(word).then_some(())?;
             }
         }
-        read += 1;
     }
-    table.positions = Some(Data::F32(positions));
-    for (name, size, data) in columns {
-        if let Some(data) = data {
-            table.push(&name, size, data);
-        }
-    }
-    table.assemble(Format::Geo)
+    Some(())
 }
 
 fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {

@@ -15,7 +15,8 @@
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
 //! | CSV (ParaView's names, or `x,y,z`), XYZ text, XYZ raw `f32` triples, JSON | yes | |
 //!
-//! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory.
+//! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
+//! formats but JSON.
 //!
 //! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
 //! Lengths and times are taken as they are; nothing is scaled, recentred or reordered.
@@ -25,21 +26,27 @@
 #![forbid(unsafe_code)]
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
+mod arrays;
 mod bgeo;
 mod bytes;
 mod columns;
 mod comma;
+mod encoded;
 mod error;
 mod format;
 mod geo;
+mod head;
 mod json;
 mod numpy;
 mod parts;
+mod plan;
 mod ply;
 mod rows;
 pub mod sequence;
 mod source;
 mod spacing;
+mod table;
+mod text;
 mod vtk_legacy;
 mod vtk_xml;
 mod write;
@@ -125,17 +132,21 @@ pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError>
 }
 
 fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, ReadError> {
+    let content = || source::Content::of_bytes(bytes);
     match format::detect(bytes, hint)? {
         format::Reader::Bgeo => bgeo::layout(bytes, gzip)?.read(bytes),
-        format::Reader::Geo => geo::read(bytes),
-        format::Reader::VtkLegacy => vtk_legacy::read(bytes),
-        format::Reader::VtkXml => vtk_xml::read(bytes),
-        format::Reader::Ply => ply::read(bytes),
+        format::Reader::Geo => table::plan(&content()?, geo::open)?.read(),
+        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?)?.read(),
+        format::Reader::VtkXml => vtk_xml::plan(&content()?)?.read(),
+        format::Reader::Ply => match ply::layout(bytes)?.0 {
+            Some(layout) => layout.read(bytes),
+            None => table::plan(&content()?, ply::open)?.read(),
+        },
         format::Reader::Npy => numpy::read_npy(bytes),
         format::Reader::Npz => numpy::read_npz(bytes),
-        format::Reader::Csv => comma::read(bytes),
-        format::Reader::XyzText => xyz::read_text(bytes),
-        format::Reader::XyzRaw => xyz::read_raw(bytes),
+        format::Reader::Csv => table::plan(&content()?, comma::open)?.read(),
+        format::Reader::XyzText => table::plan(&content()?, xyz::open)?.read(),
+        format::Reader::XyzRaw => xyz::raw(bytes.len() as u64)?.read(bytes),
         format::Reader::Json => json::read(bytes),
     }
 }

@@ -3,26 +3,33 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::columns::{Attribute, Column, Roles, Shape, Survey};
-use super::error::{Place, ReadError};
+use super::columns::Attribute;
+use super::error::ReadError;
 use super::format::{self, Extension};
-use super::rows::{Layout, Rows};
-use super::source::{self, Input, Piece, Source, truncated};
-use super::{Format, Particles, bgeo, numpy, ply};
+use super::plan::{About, Pass, Plan, Surveyed, changed};
+use super::rows::{self, Layout, Rows};
+use super::source::{self, Content, Input, Piece, Source};
+use super::{Format, Particles};
+use super::{bgeo, comma, geo, numpy, ply, table, vtk_legacy, vtk_xml, xyz};
 
-/// Bytes that are read at a time.
-const CHUNK: u64 = 1 << 18;
+/// Bytes that tell the format.
+const START: u64 = 1 << 16;
 
 /// The particles of a file, a part after the other: together they are those that [`read`](super::read) gives.
 ///
 /// The file is read twice. The first time finds all there is to find fault with, so that nothing has to be undone
-/// later, and what only all particles tell: whether an attribute has to be dropped, what a user should know. The second
-/// time gives the parts. Where all particles fit into one part it is kept from the first time.
+/// later, and what only all particles tell: how many there are, whether an attribute has to be dropped, what a user should
+/// know. The second time gives the parts. Where all particles fit into one part it is kept from the first time.
 ///
-/// In memory are 160 bytes at most for each particle of a part, one part that was given before among them; 2 MiB, or one
-/// particle as it lies in the file where that is larger; and the header of the file. This holds for classic BGEO, binary
-/// PLY without lists before or in its vertices, NPY and NPZ of arrays in C order; all but NPZ also within gzip. Other
-/// files are read as a whole: see [`in_memory`](Self::in_memory).
+/// In memory are 160 bytes at most for each particle of a part, one part that was given before among them; 2 MiB (of VTK
+/// within gzip 4 MiB), or one particle as it lies in the file where that is larger; and the header of the file. The
+/// header of VTK XML are its elements without the texts that are longer than 64 characters. A block that LZ4 or LZMA has
+/// packed is unpacked as a whole, by LZMA with a dictionary of 64 MiB at most.
+///
+/// This holds for all formats but JSON, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
+/// by deflate, and VTK XML whose texts have references (`&#32;`) or CDATA in them. Those are read as a whole: see
+/// [`in_memory`](Self::in_memory), but for the last, of which the header alone is as long as the file. Attributes of VTK
+/// have places of their own in the file: what gzip has packed is unpacked for each of them.
 pub struct Parts<'a> {
     about: Particles,
     total: usize,
@@ -104,15 +111,14 @@ impl<'a> Parts<'a> {
         let mut start = Vec::new();
         Source::new(input, &input.whole(false)).fill(2, &mut start)?;
         let gzip = super::bytes::is_gzip(&start);
-        let surveyed = Plan::new(input, hint, gzip).and_then(|plan| {
+        let surveyed = plan(input, hint, gzip).and_then(|plan| {
             let Some(plan) = plan else { return Ok(None) };
             let first = plan.survey(most, &mut show)?;
             Ok(Some((plan, first)))
         });
         match surveyed {
-            Ok(Some((plan, Surveyed { mut about, only }))) => {
-                let total = plan.rows;
-                about.attributes.clone_from(&plan.attributes);
+            Ok(Some((mut plan, Surveyed { about, total, only }))) => {
+                plan.expect(total);
                 let rest = match only {
                     Some(only) => Rest::Memory(only, 0),
                     None => Rest::File(Box::new((plan, None))),
@@ -177,8 +183,7 @@ impl<'a> Parts<'a> {
                 if (self.about.ids.is_some() && part.ids.is_none())
                     || (self.about.kinds.is_some() && part.kinds.is_none())
                 {
-                    let expected = "the numbers that were there a moment ago";
-                    return Err(ReadError::malformed(expected, "others", Place::Unknown));
+                    return Err(changed());
                 }
                 part.ids = part.ids.filter(|_| self.about.ids.is_some());
                 part.kinds = part.kinds.filter(|_| self.about.kinds.is_some());
@@ -231,183 +236,73 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
     }
 }
 
-/// What the header of a file says: where its particles are, and what they have.
-struct Plan<'a> {
-    input: Input<'a>,
-    /// The rows of a file, or the arrays of a zip, side by side.
-    streams: Vec<(Piece, Rows)>,
-    roles: Roles,
-    rows: usize,
+/// Where the particles of a file are; none of a file that can't be read in parts.
+fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Plan<'a>>, ReadError> {
+    let piece = input.whole(gzip);
+    let mut start = Vec::new();
+    Source::new(input, &piece).fill(START, &mut start)?;
+    let all = (start.len() as u64) < START;
+    // What that is not enough to tell is nothing that comes in parts.
+    if !all && start.trim_ascii_start().len() < start.len() / 2 {
+        return Ok(None);
+    }
+    let Ok(reader) = format::detect(&start, hint) else { return Ok(None) };
+    drop(start);
+    let mut source = Source::new(input, &piece);
+    let layout = match reader {
+        format::Reader::Bgeo => Some(source::header(&mut source, |head| {
+            let layout = bgeo::layout(head, gzip)?;
+            let length = layout.rows.header;
+            Ok((layout, length))
+        })?),
+        format::Reader::Ply => source::header(&mut source, ply::layout)?,
+        format::Reader::Npy => source::header(&mut source, numpy::layout)?,
+        format::Reader::Npz if !gzip => {
+            let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
+            let numpy::Arrays { rows, attributes } = arrays;
+            return of_rows(input, rows, None, attributes, Format::Npz).map(Some);
+        }
+        _ => None,
+    };
+    if let Some(Layout { rows, placed, attributes, format }) = layout {
+        let placed = placed.then_some(0);
+        return of_rows(input, vec![(piece, rows)], placed, attributes, format).map(Some);
+    }
+    let content = || Content::new(input, gzip);
+    Ok(Some(match reader {
+        format::Reader::Csv => table::plan(&content()?, comma::open)?,
+        format::Reader::XyzText => table::plan(&content()?, xyz::open)?,
+        format::Reader::XyzRaw => {
+            let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length())?;
+            of_rows(input, vec![(piece, rows)], Some(0), attributes, format)?
+        }
+        format::Reader::Geo => table::plan(&content()?, geo::open)?,
+        format::Reader::Ply => table::plan(&content()?, ply::open)?,
+        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?)?,
+        format::Reader::VtkXml => vtk_xml::plan(&content()?)?,
+        _ => return Ok(None),
+    }))
+}
+
+/// Rows of one length, or arrays of a zip side by side.
+fn of_rows<'a>(
+    input: &Input<'a>,
+    rows: Vec<(Piece, Rows)>,
+    placed: Option<usize>,
     attributes: Vec<Attribute>,
     format: Format,
-}
-
-/// What was found when a file was read for the first time.
-struct Surveyed {
-    about: Particles,
-    /// All particles, where they are one part.
-    only: Option<Particles>,
-}
-
-impl<'a> Plan<'a> {
-    /// None of a file that can't be read in parts.
-    fn new(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Self>, ReadError> {
-        let piece = input.whole(gzip);
-        let mut source = Source::new(input, &piece);
-        let mut start = Vec::new();
-        source.fill(1 << 16, &mut start)?;
-        // What that is not enough to tell is no file of rows.
-        let Ok(reader) = format::detect(&start, hint) else { return Ok(None) };
-        drop(start);
-        let mut source = Source::new(input, &piece);
-        let layout = match reader {
-            format::Reader::Bgeo => Some(source::header(&mut source, |head| {
-                let layout = bgeo::layout(head, gzip)?;
-                let length = layout.rows.header;
-                Ok((layout, length))
-            })?),
-            format::Reader::Ply => source::header(&mut source, ply::layout)?,
-            format::Reader::Npy => source::header(&mut source, numpy::layout)?,
-            format::Reader::Npz if !gzip => {
-                let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
-                let numpy::Arrays { rows, attributes } = arrays;
-                return Self::of(input, rows, None, attributes, Format::Npz).map(Some);
-            }
-            _ => None,
-        };
-        let Some(Layout { rows, placed, attributes, format }) = layout else { return Ok(None) };
-        Self::of(input, vec![(piece, rows)], placed.then_some(0), attributes, format).map(Some)
-    }
-
-    fn of(
-        input: &Input<'a>,
-        mut streams: Vec<(Piece, Rows)>,
-        placed: Option<usize>,
-        attributes: Vec<Attribute>,
-        format: Format,
-    ) -> Result<Self, ReadError> {
-        let shapes: Vec<Shape<'_>> = streams.iter().flat_map(|(_, rows)| rows.shapes()).collect();
-        let roles = Roles::find(&shapes, placed, &attributes)?;
-        let rows = roles.rows(&shapes)?;
-        let used: Vec<_> = roles.used().collect();
-        let fields = streams.iter_mut().flat_map(|(_, rows)| &mut rows.fields);
-        for (i, field) in fields.enumerate() {
-            field.wanted = used.contains(&i);
-        }
-        Ok(Self { input: input.clone(), streams, roles, rows, attributes, format })
-    }
-
-    /// From the first row on.
-    fn start(&self) -> Result<Pass<'a>, ReadError> {
-        let streams = self.streams.iter().map(|(piece, rows)| {
-            let mut source = Source::new(&self.input, piece);
+) -> Result<Plan<'a>, ReadError> {
+    let tracks = rows.into_iter().map(|(piece, rows)| {
+        let input = input.clone();
+        rows::track(rows, move |rows| {
+            let mut source = Source::new(&input, &piece);
             source.skip(rows.header, "the header")?;
             for (what, length) in &rows.between {
                 source.skip(*length, what)?;
             }
-            source.require(rows.bytes(), &rows.what)?;
-            Ok::<_, ReadError>(Stream { first: source.at(), source })
-        });
-        let streams = streams.collect::<Result<_, _>>()?;
-        Ok(Pass { streams, left: self.rows, survey: Survey::new(self.rows), raw: Vec::new() })
-    }
-
-    /// Reads all of it.
-    fn survey(&self, most: usize, mut show: impl FnMut(&Particles)) -> Result<Surveyed, ReadError> {
-        let columns = self.streams.iter().flat_map(|(_, rows)| rows.columns()).collect();
-        let mut about = Survey::new(0).part(&self.roles, columns, self.format);
-        let mut pass = self.start()?;
-        let mut only = (self.rows == 0).then(|| about.clone());
-        while let Some(part) = pass.part(self, most)? {
-            show(&part);
-            only = (self.rows <= most).then_some(part);
-        }
-        pass.finish(self)?;
-        pass.survey.drop_from(&mut about);
-        about.warnings = pass.survey.warnings();
-        Ok(Surveyed { about, only })
-    }
-}
-
-/// The rows of one piece, on the way.
-struct Stream<'a> {
-    source: Source<'a>,
-    /// Where the rows begin.
-    first: u64,
-}
-
-impl Stream<'_> {
-    /// The numbers of the next rows; `raw`: room for their bytes.
-    fn columns(
-        &mut self,
-        rows: &Rows,
-        count: usize,
-        raw: &mut Vec<u8>,
-    ) -> Result<Vec<Column>, ReadError> {
-        let mut columns = rows.columns();
-        if !rows.fields.iter().any(|field| field.wanted) {
-            return Ok(columns);
-        }
-        let stride = rows.stride.max(1);
-        // A header that lies about more than the file can hold gets no room for it.
-        let most = usize::try_from(self.source.most_left() / stride).unwrap_or(usize::MAX);
-        let mut left = count as u64;
-        while left > 0 {
-            let taken = left.min((CHUNK / stride).max(1));
-            let bytes = taken.saturating_mul(stride);
-            raw.clear();
-            self.source.fill(bytes, raw)?;
-            if (raw.len() as u64) < bytes {
-                return Err(self.ended(rows));
-            }
-            rows.decode(raw, count.min(most), &mut columns);
-            left -= taken;
-        }
-        Ok(columns)
-    }
-
-    fn ended(&self, rows: &Rows) -> ReadError {
-        truncated(&rows.what, self.first, rows.bytes(), self.source.at() - self.first)
-    }
-}
-
-/// Once through a file.
-struct Pass<'a> {
-    streams: Vec<Stream<'a>>,
-    /// Particles that are still to come.
-    left: usize,
-    survey: Survey,
-    raw: Vec<u8>,
-}
-
-impl Pass<'_> {
-    fn part(&mut self, plan: &Plan<'_>, most: usize) -> Result<Option<Particles>, ReadError> {
-        let count = most.min(self.left);
-        if count == 0 {
-            return Ok(None);
-        }
-        let mut columns = Vec::new();
-        for (stream, (_, rows)) in self.streams.iter_mut().zip(&plan.streams) {
-            columns.extend(stream.columns(rows, count, &mut self.raw)?);
-        }
-        self.left -= count;
-        Ok(Some(self.survey.part(&plan.roles, columns, plan.format)))
-    }
-
-    /// After the last part: what comes behind it has to be sound too.
-    fn finish(&mut self, plan: &Plan<'_>) -> Result<(), ReadError> {
-        let mut unpacked = 0_u64;
-        for (stream, (piece, rows)) in self.streams.iter_mut().zip(&plan.streams) {
-            // Of an array that has no meaning nothing was read yet.
-            let unread = rows.bytes().saturating_sub(stream.source.at() - stream.first);
-            stream.source.skip(unread, &rows.what)?;
-            stream.source.finish()?;
-            unpacked = unpacked.saturating_add(stream.source.at());
-            let limit = plan.input.unpack_limit();
-            if unpacked > limit && plan.streams.len() > 1 {
-                return Err(ReadError::TooLarge { what: piece.what.clone(), limit });
-            }
-        }
-        Ok(())
-    }
+            Ok(source)
+        })
+    });
+    let about = About { placed, attributes, warnings: Vec::new(), format };
+    Plan::new(tracks.collect(), about, input.unpack_limit())
 }

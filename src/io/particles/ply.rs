@@ -7,13 +7,18 @@
 //! Own, since the crate for it (ply-rs-bw 4.0) keeps a map of names for each vertex where the properties are not
 //! known when it is compiled: 870 bytes for one that has 28 in the file.
 
+use super::Format;
 use super::bytes::{Cursor, parse_number, show};
-use super::columns::{AttributeType, Data, Table};
+use super::columns::{self, AttributeType, Column, Data};
 use super::error::{Place, ReadError};
+use super::plan::About;
 use super::rows::{Field, Layout, Rows};
-use super::{Format, Particles};
+use super::source::{self, Content, truncated};
+use super::table::{RowReader, Table};
+use super::text::Text;
 
 /// One property: a number, or a list with the type of its length.
+#[derive(Clone)]
 struct Property {
     name: String,
     ty: AttributeType,
@@ -44,19 +49,6 @@ enum Encoding {
     Big,
 }
 
-pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
-    if let Some(layout) = layout(bytes)?.0 {
-        return layout.read(bytes);
-    }
-    let mut cursor = Cursor::new(bytes);
-    let (encoding, elements) = header(&mut cursor)?;
-    let (before, vertex) = split(&elements)?;
-    for element in before {
-        rows(&mut cursor, encoding, element, &mut [])?;
-    }
-    vertices(&mut cursor, encoding, vertex)
-}
-
 /// What the header says and its length, of a file or the beginning of one; none where rows differ in length: of text,
 /// and where there are lists up to the vertices.
 pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
@@ -71,11 +63,11 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
     else {
         return Ok((None, header));
     };
-    let mut table = Table::default();
+    let mut attributes = Vec::new();
     let mut fields = Vec::new();
     let mut offset = 0;
     for property in &vertex.properties {
-        if table.list(&property.name, 1, property.ty) {
+        if columns::list(&mut attributes, &property.name, 1, property.ty) {
             fields.push(Field::new(&property.name, 1, property.ty, offset)?);
         }
         offset += property.ty.size().unwrap_or(0);
@@ -92,7 +84,7 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
             fields,
         },
         placed: false,
-        attributes: table.attributes,
+        attributes,
         format: Format::PlyBinary { big_endian },
     };
     Ok((Some(layout), header))
@@ -191,84 +183,156 @@ fn scalar(name: &str) -> Option<AttributeType> {
     })
 }
 
-fn vertices(
-    cursor: &mut Cursor<'_>,
-    encoding: Encoding,
-    element: &Element,
-) -> Result<Particles, ReadError> {
-    let mut table = Table::default();
-    let mut columns: Vec<Option<Data>> = Vec::new();
-    for property in &element.properties {
-        let ty = property.list.map_or(property.ty, |_| AttributeType::List);
-        let keep = table.list(&property.name, 1, ty) && property.list.is_none();
-        columns.push(keep.then(|| Data::for_type(property.ty)));
+/// Vertices of a file that is no rows of one length.
+pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+    let header = |head: &[u8]| {
+        let mut cursor = Cursor::new(head);
+        let header = header(&mut cursor)?;
+        let length = cursor.at() as u64;
+        Ok(((header, length), length))
+    };
+    let ((encoding, elements), length) =
+        source::header(&mut content.open(0, content.length())?, header)?;
+    let (before, vertex) = split(&elements)?;
+    let mut text = Text::new(content.open(length, content.length())?);
+    for element in before {
+        let mut rows = ElementRows::new(element, encoding, &text)?;
+        while rows.next(&mut text, &[], &mut [])? {}
     }
-    rows(cursor, encoding, element, &mut columns)?;
-    for (property, data) in element.properties.iter().zip(columns) {
-        if let Some(data) = data {
-            table.push(&property.name, 1, data);
-        }
-    }
-    table.assemble(match encoding {
+    let format = match encoding {
         Encoding::Ascii => Format::PlyAscii,
         encoding => Format::PlyBinary { big_endian: encoding == Encoding::Big },
-    })
+    };
+    let mut about = About { placed: None, attributes: Vec::new(), warnings: Vec::new(), format };
+    let (mut columns, mut taken) = (Vec::new(), Vec::new());
+    for property in &vertex.properties {
+        let ty = property.list.map_or(property.ty, |_| AttributeType::List);
+        let keep =
+            columns::list(&mut about.attributes, &property.name, 1, ty) && property.list.is_none();
+        taken.push(keep.then_some(columns.len()));
+        if keep {
+            columns.push(Column::new(&property.name, 1, property.ty));
+        }
+    }
+    let rows = ElementRows::new(vertex, encoding, &text)?;
+    Ok(Table { columns, about, rows: Box::new(Vertices { text, rows, taken }) })
 }
 
-/// Reads all rows of an element into the columns that are wanted; all are passed over where there are none.
-fn rows(
-    cursor: &mut Cursor<'_>,
+struct Vertices<'a> {
+    text: Text<'a>,
+    rows: ElementRows,
+    /// For each property the column that takes its numbers.
+    taken: Vec<Option<usize>>,
+}
+
+impl RowReader for Vertices<'_> {
+    fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError> {
+        self.rows.next(&mut self.text, &self.taken, columns)
+    }
+}
+
+/// The rows of an element on the way.
+struct ElementRows {
+    properties: Vec<Property>,
     encoding: Encoding,
-    element: &Element,
-    columns: &mut [Option<Data>],
-) -> Result<(), ReadError> {
-    let what = || element.what();
-    // Without properties a row takes no room, and a count could be anything.
-    if element.properties.is_empty() {
-        return Ok(());
-    }
-    if encoding == Encoding::Ascii {
-        // A number and a space each, so a count that lies ends here.
-        let least = element
-            .count
-            .saturating_mul(element.properties.len() as u64)
-            .saturating_mul(2)
-            .saturating_sub(1);
-        let rest = cursor.rest().len();
-        if least > rest as u64 {
-            return Err(ReadError::truncated(what(), cursor.at(), least, rest));
-        }
-        for _ in 0..element.count {
-            ascii_row(cursor, element, columns)?;
-        }
-        return Ok(());
-    }
-    let big_endian = encoding == Encoding::Big;
-    for _ in 0..element.count {
-        for (i, property) in element.properties.iter().enumerate() {
-            let size = property.ty.size().unwrap_or(0);
-            if let Some(length) = property.list {
-                let place = cursor.place();
-                let raw = cursor.take(length.size().unwrap_or(0), &what())?;
-                let mut number = Data::for_type(length);
-                number.push_bytes(length, raw, big_endian);
-                let length = list_length(&number).ok_or_else(|| {
-                    ReadError::malformed(
-                        format!("the length of the list `{}`", property.name),
-                        show(raw),
-                        place,
-                    )
-                })?;
-                cursor.take(length.saturating_mul(size), &what())?;
-            } else {
-                let raw = cursor.take(size, &what())?;
-                if let Some(Some(data)) = columns.get_mut(i) {
-                    data.push_bytes(property.ty, raw, big_endian);
-                }
+    what: String,
+    left: u64,
+}
+
+impl ElementRows {
+    fn new(element: &Element, encoding: Encoding, text: &Text<'_>) -> Result<Self, ReadError> {
+        let (properties, what) = (element.properties.clone(), element.what());
+        // Without properties a row takes no room, and a count could be anything.
+        let left = if properties.is_empty() { 0 } else { element.count };
+        if encoding == Encoding::Ascii {
+            // A number and a space each, so a count that lies ends here.
+            let numbers = left.saturating_mul(properties.len() as u64);
+            let (least, there) = (numbers.saturating_mul(2).saturating_sub(1), text.left());
+            if least > there {
+                return Err(truncated(&what, text.at(), least, there));
             }
         }
+        Ok(Self { properties, encoding, what, left })
     }
-    Ok(())
+
+    /// Reads a row into the columns that take its numbers; false after the last.
+    fn next(
+        &mut self,
+        text: &mut Text<'_>,
+        taken: &[Option<usize>],
+        columns: &mut [Column],
+    ) -> Result<bool, ReadError> {
+        if self.left == 0 {
+            return Ok(false);
+        }
+        self.left -= 1;
+        for (i, property) in self.properties.iter().enumerate() {
+            let column = taken.get(i).copied().flatten().and_then(|i| columns.get_mut(i));
+            let data = column.map(|column| &mut column.data);
+            match self.encoding {
+                Encoding::Ascii => property.read_text(text, &self.what, data)?,
+                encoding => property.read_binary(text, &self.what, encoding, data)?,
+            }
+        }
+        Ok(true)
+    }
+}
+
+impl Property {
+    fn read_binary(
+        &self,
+        text: &mut Text<'_>,
+        what: &str,
+        encoding: Encoding,
+        data: Option<&mut Data>,
+    ) -> Result<(), ReadError> {
+        let big_endian = encoding == Encoding::Big;
+        let size = self.ty.size().unwrap_or(0);
+        let Some(length) = self.list else {
+            let raw = text.take(size, what)?;
+            if let Some(data) = data {
+                data.push_bytes(self.ty, raw, big_endian);
+            }
+            return Ok(());
+        };
+        let place = text.place();
+        let raw = text.take(length.size().unwrap_or(0), what)?;
+        let mut number = Data::for_type(length);
+        number.push_bytes(length, raw, big_endian);
+        let length = list_length(&number).ok_or_else(|| {
+            let expected = format!("the length of the list `{}`", self.name);
+            ReadError::malformed(expected, show(raw), place)
+        })?;
+        text.skip(length.saturating_mul(size), what)
+    }
+
+    fn read_text(
+        &self,
+        text: &mut Text<'_>,
+        what: &str,
+        data: Option<&mut Data>,
+    ) -> Result<(), ReadError> {
+        text.skip_space()?;
+        let (place, at) = (text.place(), text.at());
+        let token = text.token()?.ok_or_else(|| truncated(what, at, 1, 0))?;
+        let bad = |expected: &str| {
+            ReadError::malformed(format!("{expected} of `{}`", self.name), show(token), place)
+        };
+        if self.list.is_some() {
+            let length = std::str::from_utf8(token).ok().and_then(|t| t.parse::<u64>().ok());
+            for _ in 0..length.ok_or_else(|| bad("the length of the list"))? {
+                if text.token()?.is_none() {
+                    return Err(truncated(what, text.at(), 1, 0));
+                }
+            }
+            return Ok(());
+        }
+        let number = match data {
+            Some(data) => data.push_text(token),
+            None => parse_number(token).is_some(),
+        };
+        if number { Ok(()) } else { Err(bad("a number as the value")) }
+    }
 }
 
 fn list_length(number: &Data) -> Option<u64> {
@@ -276,38 +340,4 @@ fn list_length(number: &Data) -> Option<u64> {
         Data::Int(v) => v.first().and_then(|n| u64::try_from(*n).ok()),
         _ => None,
     }
-}
-
-fn ascii_row(
-    cursor: &mut Cursor<'_>,
-    element: &Element,
-    columns: &mut [Option<Data>],
-) -> Result<(), ReadError> {
-    for (i, property) in element.properties.iter().enumerate() {
-        let mut next = || {
-            cursor.skip_space();
-            let place = cursor.place();
-            let token = cursor
-                .token()
-                .ok_or_else(|| ReadError::truncated(element.what(), cursor.at(), 1, 0))?;
-            Ok::<_, ReadError>((token, place))
-        };
-        let (token, place) = next()?;
-        let bad = |expected: &str| {
-            ReadError::malformed(format!("{expected} of `{}`", property.name), show(token), place)
-        };
-        if property.list.is_some() {
-            let length = std::str::from_utf8(token).ok().and_then(|t| t.parse::<u64>().ok());
-            for _ in 0..length.ok_or_else(|| bad("the length of the list"))? {
-                next()?;
-            }
-        } else if let Some(Some(data)) = columns.get_mut(i) {
-            if !data.push_text(token) {
-                return Err(bad("a number as the value"));
-            }
-        } else if parse_number(token).is_none() {
-            return Err(bad("a number as the value"));
-        }
-    }
-    Ok(())
 }

@@ -1,9 +1,14 @@
-//! Particles as rows of one length, each attribute at its place in them: how BGEO, binary PLY and arrays of NumPy
-//! lie in a file. The header says where the rows are; whoever has some of them, all or a part, gets their numbers.
+//! Particles as rows of one length, each attribute at its place in them: how BGEO, binary PLY, arrays of NumPy and of
+//! legacy VTK, and raw triples lie in a file. The header says where the rows are; whoever has some of them, all or a
+//! part, gets their numbers.
+
+use std::sync::Arc;
 
 use super::bytes::Cursor;
-use super::columns::{Attribute, AttributeType, Column, Data, Shape, Table};
+use super::columns::{Attribute, AttributeType, Column, Table};
 use super::error::ReadError;
+use super::plan::{CHUNK, Stream, Track};
+use super::source::{Source, truncated};
 use super::{Format, Particles};
 
 /// One attribute of a row.
@@ -13,8 +18,6 @@ pub(super) struct Field {
     pub(super) ty: AttributeType,
     /// Bytes from the start of the row.
     pub(super) offset: usize,
-    /// Else its numbers are passed over, and its column stays empty.
-    pub(super) wanted: bool,
 }
 
 impl Field {
@@ -28,7 +31,7 @@ impl Field {
             what: "a row of attributes".into(),
             limit: usize::MAX as u64,
         })?;
-        Ok(Self { name: name.into(), components, ty, offset, wanted: true })
+        Ok(Self { name: name.into(), components, ty, offset })
     }
 
     fn size(&self) -> usize {
@@ -57,30 +60,18 @@ impl Rows {
         self.count.saturating_mul(self.stride)
     }
 
-    pub(super) fn shapes(&self) -> impl Iterator<Item = Shape<'_>> {
-        self.fields.iter().map(|field| Shape {
-            name: &field.name,
-            components: field.components,
-            values: self.count.saturating_mul(field.components as u64),
-        })
-    }
-
     /// A column for each field, without numbers yet.
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let column = |field: &Field| Column {
-            name: field.name.clone(),
-            components: field.components,
-            data: Data::for_type(field.ty),
-        };
-        self.fields.iter().map(column).collect()
+    fn columns(&self) -> Vec<Column> {
+        self.fields.iter().map(|f| Column::new(&f.name, f.components, f.ty)).collect()
     }
 
-    /// Appends the numbers of some rows; `coming`: how many there will be in the columns, these included.
-    pub(super) fn decode(&self, raw: &[u8], coming: usize, columns: &mut [Column]) {
+    /// Appends the numbers of some rows to the columns that are used; `coming`: how many there will be in them, these
+    /// included.
+    fn decode(&self, raw: &[u8], coming: usize, used: &[bool], columns: &mut [Column]) {
         let stride = self.stride as usize;
-        for (field, column) in self.fields.iter().zip(columns) {
+        for ((field, column), used) in self.fields.iter().zip(columns).zip(used) {
             let size = field.size();
-            if !field.wanted || size == 0 {
+            if !used || size == 0 {
                 continue;
             }
             let data = &mut column.data;
@@ -96,6 +87,73 @@ impl Rows {
                 data.push_bytes(field.ty, values, self.big_endian);
             }
         }
+    }
+}
+
+/// Rows as they are read; `open` gives their source, at the first of them.
+pub(super) fn track<'a>(
+    rows: Rows,
+    open: impl Fn(&Rows) -> Result<Source<'a>, ReadError> + Send + 'a,
+) -> Track<'a> {
+    let columns = rows.columns();
+    let lengths = columns.iter().map(|c| rows.count.saturating_mul(c.components as u64));
+    let (lengths, what) = (Some(lengths.collect()), rows.what.clone());
+    let rows = Arc::new(rows);
+    let open = move |used: &[bool]| {
+        let source = open(&rows)?;
+        source.require(rows.bytes(), &rows.what)?;
+        let stream =
+            RowStream { rows: rows.clone(), used: used.to_vec(), first: source.at(), source };
+        Ok(Box::new(stream) as Box<dyn Stream + 'a>)
+    };
+    Track { columns, lengths, what, open: Box::new(open) }
+}
+
+/// Rows on the way.
+struct RowStream<'a> {
+    rows: Arc<Rows>,
+    used: Vec<bool>,
+    source: Source<'a>,
+    /// Where the rows begin.
+    first: u64,
+}
+
+impl Stream for RowStream<'_> {
+    fn read(
+        &mut self,
+        count: usize,
+        columns: &mut [Column],
+        room: &mut Vec<u8>,
+    ) -> Result<usize, ReadError> {
+        let rows = &*self.rows;
+        if !self.used.contains(&true) {
+            return Ok(count);
+        }
+        let stride = rows.stride.max(1);
+        // A header that lies about more than the file can hold gets no room for it.
+        let most = usize::try_from(self.source.most_left() / stride).unwrap_or(usize::MAX);
+        let mut left = count as u64;
+        while left > 0 {
+            let taken = left.min((CHUNK / stride).max(1));
+            let bytes = taken.saturating_mul(stride);
+            room.clear();
+            self.source.fill(bytes, room)?;
+            if (room.len() as u64) < bytes {
+                let found = self.source.at() - self.first;
+                return Err(truncated(&rows.what, self.first, rows.bytes(), found));
+            }
+            rows.decode(room, count.min(most), &self.used, columns);
+            left -= taken;
+        }
+        Ok(count)
+    }
+
+    fn finish(&mut self) -> Result<u64, ReadError> {
+        // Of an array that has no meaning nothing was read yet.
+        let read = self.source.at() - self.first;
+        self.source.skip(self.rows.bytes().saturating_sub(read), &self.rows.what)?;
+        self.source.finish()?;
+        Ok(self.rows.bytes())
     }
 }
 
@@ -119,7 +177,8 @@ impl Layout {
         }
         let raw = cursor.take(rows.bytes(), &rows.what)?;
         let mut columns = rows.columns();
-        rows.decode(raw, rows.count as usize, &mut columns);
+        let used = vec![true; columns.len()];
+        rows.decode(raw, rows.count as usize, &used, &mut columns);
         let positions = self.placed.then(|| columns.remove(0).data);
         let Self { attributes, format, .. } = self;
         Table { positions, columns, attributes, warnings: Vec::new() }.assemble(format)

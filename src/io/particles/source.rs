@@ -1,5 +1,5 @@
 //! Bytes of a file one after the other, as they lie there or unpacked on the way: no more of them are in memory at a
-//! time than whoever reads has room for.
+//! time than whoever reads has room for. From the first on, or from any place where all that is packed was measured.
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::PathBuf;
@@ -43,9 +43,77 @@ impl<'a> Input<'a> {
     }
 }
 
+/// The bytes of a file, unpacked, of which any may be read next.
+#[derive(Clone)]
+pub(super) struct Content<'a> {
+    input: Input<'a>,
+    piece: Piece,
+    length: u64,
+}
+
+impl<'a> Content<'a> {
+    /// What is packed is unpacked once, which alone tells its length and whether it is sound.
+    pub(super) fn new(input: &Input<'a>, gzip: bool) -> Result<Self, ReadError> {
+        let piece = input.whole(gzip);
+        let mut length = input.length;
+        if gzip {
+            let mut source = Source::new(input, &piece);
+            source.finish()?;
+            length = source.at();
+        }
+        Ok(Self { input: input.clone(), piece, length })
+    }
+
+    /// Bytes that lie in memory.
+    pub(super) fn of_bytes(bytes: impl AsRef<[u8]> + Send + 'a) -> Result<Self, ReadError> {
+        Self::new(&Input::new(io::Cursor::new(bytes))?, false)
+    }
+
+    pub(super) fn length(&self) -> u64 {
+        self.length
+    }
+
+    /// The most that numbers which are packed in it may unpack to.
+    pub(super) fn unpack_limit(&self) -> u64 {
+        unpack_limit(usize::try_from(self.length).unwrap_or(usize::MAX)) as u64
+    }
+
+    /// Its bytes from one place to another. What is packed is unpacked up to there.
+    pub(super) fn open(&self, start: u64, end: u64) -> Result<Source<'a>, ReadError> {
+        self.reach(None, start, end)
+    }
+
+    /// A source of it that is not needed any more, where it is of use to [`reach`](Self::reach) another place: of what is
+    /// packed, which is the file.
+    pub(super) fn spare(&self, source: Source<'a>) -> Option<Source<'a>> {
+        Some(source).filter(|_| self.piece.packing != Packing::None)
+    }
+
+    /// Opens it; `spare`: one that gets there without beginning anew where it can.
+    pub(super) fn reach(
+        &self,
+        spare: Option<Source<'a>>,
+        start: u64,
+        end: u64,
+    ) -> Result<Source<'a>, ReadError> {
+        let packed = self.piece.packing != Packing::None;
+        let spare = spare.filter(|spare| packed && spare.at <= start);
+        let mut source = spare.unwrap_or_else(|| Source::new(&self.input, &self.piece));
+        let end = end.min(self.length);
+        source.length = Some(end);
+        source.skip(start.min(end) - source.at.min(end), &self.piece.what)?;
+        Ok(source)
+    }
+}
+
 /// The name of the file is put in where it is known.
 pub(super) fn io_error(reason: io::Error) -> ReadError {
     ReadError::Io { path: PathBuf::new(), reason }
+}
+
+/// What is at fault where bytes went through a reader that knows of the system's errors alone.
+pub(super) fn inner_error(reason: io::Error) -> ReadError {
+    reason.downcast::<ReadError>().unwrap_or_else(io_error)
 }
 
 /// A stretch of a file, with a place of its own in it.
@@ -160,15 +228,20 @@ impl<'a> Source<'a> {
     /// Appends the next `count` bytes, or all there are left where that is less.
     pub(super) fn fill(&mut self, count: u64, out: &mut Vec<u8>) -> Result<(), ReadError> {
         let before = out.len();
+        let mut count = count;
         if let Some(length) = self.length {
-            let there = count.min(length.saturating_sub(self.at));
-            out.reserve_exact(usize::try_from(there).unwrap_or(0));
+            count = count.min(length.saturating_sub(self.at));
+            out.reserve_exact(usize::try_from(count).unwrap_or(0));
         }
         let read = match &mut self.reader {
             Reader::Plain(section) => section.take(count).read_to_end(out),
             Reader::Unpacked(reader) => reader.take(count).read_to_end(out),
         };
-        let new = out.get(before..).unwrap_or_default();
+        self.came(out.get(before..).unwrap_or_default(), read)
+    }
+
+    /// Counts and checks new bytes.
+    fn came(&mut self, new: &[u8], read: io::Result<usize>) -> Result<(), ReadError> {
         self.at += new.len() as u64;
         if let Some((crc, _)) = &mut self.check {
             crc.update(new);
@@ -237,6 +310,25 @@ impl<'a> Source<'a> {
 
     fn unsound(&self, found: &str) -> ReadError {
         ReadError::malformed(format!("sound {}", self.what), found, Place::Byte(0))
+    }
+}
+
+impl Read for Source<'_> {
+    /// Errors are what [`inner_error`] takes.
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let left = self.length.map_or(u64::MAX, |length| length.saturating_sub(self.at));
+        let room = usize::try_from(left).unwrap_or(usize::MAX).min(out.len());
+        let out = out.get_mut(..room).unwrap_or_default();
+        let read = match &mut self.reader {
+            Reader::Plain(section) => section.read(out),
+            Reader::Unpacked(reader) => reader.read(out),
+        };
+        let count = match &read {
+            Err(again) if again.kind() == io::ErrorKind::Interrupted => return read,
+            read => *read.as_ref().unwrap_or(&0),
+        };
+        self.came(out.get(..count).unwrap_or_default(), read).map_err(io::Error::other)?;
+        Ok(count)
     }
 }
 

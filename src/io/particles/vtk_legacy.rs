@@ -9,50 +9,72 @@
 //! Own, since the crate for it (vtkio 0.6) refuses the cells of version 5.1, as VTK 9 and meshio write them
 //! (`OFFSETS vtktypeint64`).
 
-use super::bytes::{Cursor, ascii_values, show};
-use super::columns::{AttributeType, Data, Table};
+use super::Format;
+use super::arrays::{self, Array, Segment, Stored};
+use super::bytes::show;
+use super::columns::{self, Attribute, AttributeType, Column, PLACED};
 use super::error::{Place, ReadError};
-use super::{Format, Particles};
+use super::plan::{About, Plan, Track};
+use super::rows::{self, Field, Rows};
+use super::source::{Content, truncated};
+use super::text::Text;
 
-pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
-    let mut cursor = Cursor::new(bytes);
-    let first = cursor.line().unwrap_or_default();
-    let version = version(first).ok_or_else(|| {
-        ReadError::malformed("`# vtk DataFile Version x.y`", show(first), Place::Line(1))
+pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
+    let found = Reader::read(content, false).map_err(|error| {
+        // Where a number is missing, lines are taken for what they are not: that number is at fault.
+        Reader::read(content, true).err().unwrap_or(error)
     })?;
-    cursor.line();
-    let kind = cursor.line().unwrap_or_default().trim_ascii();
-    let binary = match kind.to_ascii_uppercase().as_slice() {
-        b"ASCII" => false,
-        b"BINARY" => true,
-        _ => {
-            return Err(ReadError::malformed("`ASCII` or `BINARY`", show(kind), Place::Line(3)));
-        }
-    };
-    let mut reader = Reader {
-        cursor,
-        binary,
-        version,
-        table: Table::default(),
-        rows: None,
-        wanted: false,
-        has_points: false,
-    };
-    while let Some(line) = reader.keyword_line() {
-        if !reader.section(line)? {
-            let place = reader.words(line).place;
-            reader.table.warnings.push(format!(
-                "legacy VTK: unknown section {}{place}; it and what follows is not read",
-                show(line)
-            ));
-            break;
-        }
-    }
-    if !reader.has_points {
+    let Reader { binary, version, attributes, warnings, mut found, points, .. } = found;
+    let Some(points) = points else {
         return Err(ReadError::malformed("a POINTS section", "none", Place::Unknown));
-    }
-    reader.table.assemble(Format::VtkLegacy { version, binary })
+    };
+    found.insert(0, points);
+    let tracks = found.into_iter().map(|found| found.track(content, binary));
+    let tracks = tracks.collect::<Result<_, _>>()?;
+    let format = Format::VtkLegacy { version, binary };
+    let about = About { placed: Some(0), attributes, warnings, format };
+    Plan::new(tracks, about, content.unpack_limit())
 }
+
+/// An array that may be used.
+struct Found {
+    name: String,
+    /// For errors.
+    what: String,
+    components: usize,
+    ty: AttributeType,
+    /// Particles.
+    rows: u64,
+    /// Where its numbers begin.
+    start: u64,
+}
+
+impl Found {
+    fn track<'a>(self, content: &Content<'a>, binary: bool) -> Result<Track<'a>, ReadError> {
+        let Self { name, what, components, ty, rows, start } = self;
+        let content = content.clone();
+        let end = content.length();
+        if !binary {
+            let count = rows.saturating_mul(components as u64);
+            let segment = Segment { content, start, end, count, ty, stored: Stored::Words };
+            let array = Array { name: what, components, segments: vec![segment] };
+            return Ok(arrays::track(Column::new(&name, components, ty), array));
+        }
+        let rows = Rows {
+            what,
+            header: start,
+            between: Vec::new(),
+            count: rows,
+            stride: ty.size().unwrap_or(0).saturating_mul(components as u64),
+            big_endian: true,
+            fields: vec![Field::new(&name, components, ty, 0)?],
+        };
+        Ok(rows::track(rows, move |_| content.open(start, end)))
+    }
+}
+
+/// Bytes in which a line for the colours of numbers is looked for, behind the line of these.
+const LOOKUP: usize = 1 << 12;
 
 fn version(line: &[u8]) -> Option<(u8, u8)> {
     let line = std::str::from_utf8(line).ok()?;
@@ -61,26 +83,30 @@ fn version(line: &[u8]) -> Option<(u8, u8)> {
 }
 
 struct Reader<'a> {
-    cursor: Cursor<'a>,
+    text: Text<'a>,
     binary: bool,
     version: (u8, u8),
-    table: Table,
+    /// Whether numbers that may be used are looked at, not only passed over.
+    check: bool,
+    attributes: Vec<Attribute>,
+    warnings: Vec<String>,
+    found: Vec<Found>,
+    points: Option<Found>,
     /// Of the current POINT_DATA or CELL_DATA.
     rows: Option<u64>,
     /// Whether the current attributes are those of the points.
     wanted: bool,
-    has_points: bool,
 }
 
-/// The words of a section's first line after its keyword.
-struct Words<'a> {
-    line: &'a [u8],
-    words: Vec<&'a [u8]>,
+/// The words of a section's first line, its keyword among them.
+struct Words<'l> {
+    line: &'l [u8],
+    words: Vec<&'l [u8]>,
     place: Place,
 }
 
-impl<'a> Words<'a> {
-    fn text(&self, i: usize, what: &str) -> Result<&'a str, ReadError> {
+impl<'l> Words<'l> {
+    fn text(&self, i: usize, what: &str) -> Result<&'l str, ReadError> {
         self.words
             .get(i)
             .and_then(|word| std::str::from_utf8(word).ok())
@@ -118,21 +144,66 @@ impl<'a> Words<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn keyword_line(&mut self) -> Option<&'a [u8]> {
-        self.cursor.skip_space();
-        self.cursor.line()
+    /// Finds what there is, to the end of the file.
+    fn read(content: &Content<'a>, check: bool) -> Result<Self, ReadError> {
+        let mut text = Text::new(content.open(0, content.length())?);
+        let first = text.line()?.unwrap_or_default();
+        let version = version(first).ok_or_else(|| {
+            ReadError::malformed("`# vtk DataFile Version x.y`", show(first), Place::Line(1))
+        })?;
+        text.line()?;
+        let kind = text.line()?.unwrap_or_default().trim_ascii();
+        let binary = match kind.to_ascii_uppercase().as_slice() {
+            b"ASCII" => false,
+            b"BINARY" => true,
+            _ => {
+                return Err(ReadError::malformed(
+                    "`ASCII` or `BINARY`",
+                    show(kind),
+                    Place::Line(3),
+                ));
+            }
+        };
+        let mut reader = Self {
+            text,
+            binary,
+            version,
+            check,
+            attributes: Vec::new(),
+            warnings: Vec::new(),
+            found: Vec::new(),
+            points: None,
+            rows: None,
+            wanted: false,
+        };
+        while let Some(line) = reader.keyword_line()? {
+            if !reader.section(&line)? {
+                let place = reader.words(&line).place;
+                reader.warnings.push(format!(
+                    "legacy VTK: unknown section {}{place}; it and what follows is not read",
+                    show(&line)
+                ));
+                break;
+            }
+        }
+        Ok(reader)
     }
 
-    fn words(&self, line: &'a [u8]) -> Words<'a> {
+    fn keyword_line(&mut self) -> Result<Option<Vec<u8>>, ReadError> {
+        self.text.skip_space()?;
+        Ok(self.text.line()?.map(<[u8]>::to_vec))
+    }
+
+    fn words<'l>(&self, line: &'l [u8]) -> Words<'l> {
         Words {
             line,
             words: line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty()).collect(),
-            place: Place::Byte(self.cursor.at().saturating_sub(line.len() + 1) as u64),
+            place: Place::Byte(self.text.at().saturating_sub(line.len() as u64 + 1)),
         }
     }
 
     /// Reads one section. False where it is not known.
-    fn section(&mut self, line: &'a [u8]) -> Result<bool, ReadError> {
+    fn section(&mut self, line: &[u8]) -> Result<bool, ReadError> {
         let w = self.words(line);
         let keyword = w.text(0, "a keyword")?.to_ascii_uppercase();
         let rows = || self.rows.ok_or_else(|| w.bad("POINT_DATA or CELL_DATA before an attribute"));
@@ -153,19 +224,19 @@ impl<'a> Reader<'a> {
                 if ty.size().is_none() {
                     return Err(w.bad("a type of numbers for the points"));
                 }
-                self.table.list("Points", 3, ty);
-                self.table.positions =
-                    Some(self.values(ty, n.saturating_mul(3), "POINTS", true)?);
-                self.has_points = true;
+                columns::list(&mut self.attributes, "Points", 3, ty);
+                let (name, what, start) = (PLACED.into(), "POINTS".into(), self.text.at());
+                self.values(ty, n.saturating_mul(3), "POINTS", true)?;
+                self.points = Some(Found { name, what, components: 3, ty, rows: n, start });
             }
             "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" | "CELLS" => {
                 let (first, second) = (w.count(1, "a number of cells")?, w.count(2, "a size")?);
                 if self.version.0 >= 5 {
                     for (part, count) in [("OFFSETS", first), ("CONNECTIVITY", second)] {
-                        let Some(line) = self.keyword_line() else {
-                            return Err(ReadError::truncated(part, self.cursor.at(), 1, 0));
+                        let Some(line) = self.keyword_line()? else {
+                            return Err(truncated(part, self.text.at(), 1, 0));
                         };
-                        let w = self.words(line);
+                        let w = self.words(&line);
                         if w.text(0, part)? != part {
                             return Err(w.bad(part));
                         }
@@ -183,7 +254,7 @@ impl<'a> Reader<'a> {
                 self.rows = Some(w.count(1, "a number of values")?);
                 self.wanted = keyword == "POINT_DATA";
             }
-            "METADATA" => self.skip_metadata(),
+            "METADATA" => self.skip_metadata()?,
             "SCALARS" => {
                 let rows = rows()?;
                 let components = match w.words.len() {
@@ -191,10 +262,10 @@ impl<'a> Reader<'a> {
                     _ => w.count(3, "a number of components")?,
                 };
                 let (name, ty) = (w.text(1, "a name")?, w.ty(2)?);
-                let here = self.cursor;
-                let table = self.keyword_line().unwrap_or_default();
-                if !table.starts_with(b"LOOKUP_TABLE") {
-                    self.cursor = here;
+                // Without one the numbers follow, which may begin with what looks like space.
+                let ahead = self.text.ahead(LOOKUP)?.trim_ascii_start();
+                if ahead.starts_with(b"LOOKUP_TABLE") {
+                    self.keyword_line()?;
                 }
                 self.attribute(name, ty, rows, components)?;
             }
@@ -239,14 +310,14 @@ impl<'a> Reader<'a> {
 
     fn field_array(&mut self) -> Result<(), ReadError> {
         loop {
-            let Some(line) = self.keyword_line() else {
-                return Err(ReadError::truncated("the arrays of a FIELD", self.cursor.at(), 1, 0));
+            let Some(line) = self.keyword_line()? else {
+                return Err(truncated("the arrays of a FIELD", self.text.at(), 1, 0));
             };
             if line.trim_ascii() == b"METADATA" {
-                self.skip_metadata();
+                self.skip_metadata()?;
                 continue;
             }
-            let w = self.words(line);
+            let w = self.words(&line);
             let name = w.text(0, "an array: name, components, tuples, type")?;
             let components = w.count(1, "an array: name, components, tuples, type")?;
             let rows = w.count(2, "an array: name, components, tuples, type")?;
@@ -263,50 +334,52 @@ impl<'a> Reader<'a> {
     ) -> Result<(), ReadError> {
         let name = percent_decoded(name);
         let size = usize::try_from(components).unwrap_or(usize::MAX);
-        let keep = self.wanted && self.table.list(&name, size, ty) && ty.size().is_some();
-        let data = self.values(ty, rows.saturating_mul(components), &name, keep)?;
+        let keep = self.wanted
+            && columns::list(&mut self.attributes, &name, size, ty)
+            && ty.size().is_some();
+        let start = self.text.at();
+        self.values(ty, rows.saturating_mul(components), &name, keep)?;
         if keep {
-            self.table.push(&name, size, data);
+            let what = name.clone();
+            self.found.push(Found { name, what, components: size, ty, rows, start });
         }
         Ok(())
     }
 
+    /// Passes over numbers; `keep`: those that may be used.
     fn values(
         &mut self,
         ty: AttributeType,
         count: u64,
         what: &str,
         keep: bool,
-    ) -> Result<Data, ReadError> {
+    ) -> Result<(), ReadError> {
         if ty == AttributeType::Text {
-            self.skip_texts(count, what)?;
-            return Ok(Data::Int(Vec::new()));
+            return self.skip_texts(count, what);
         }
         if !self.binary {
-            return ascii_values(&mut self.cursor, ty, count, what, keep);
+            return match keep && self.check {
+                true => self.text.check_numbers(ty, count, what),
+                false => self.text.skip_words(count, what),
+            };
         }
         let bytes = match ty.size() {
             Some(size) => count.saturating_mul(size),
             None => count.div_ceil(8), // bits
         };
-        let raw = self.cursor.take(bytes, what)?;
-        let mut data = Data::for_type(ty);
-        if keep {
-            data.push_bytes(ty, raw, true);
-        }
-        Ok(data)
+        self.text.skip(bytes, what)
     }
 
     /// Texts stand one a line, or with their length before them: its two top bits tell its size.
     fn skip_texts(&mut self, count: u64, what: &str) -> Result<(), ReadError> {
         for _ in 0..count {
             if !self.binary {
-                if self.cursor.line().is_none() {
-                    return Err(ReadError::truncated(what, self.cursor.at(), 1, 0));
+                if self.text.line()?.is_none() {
+                    return Err(truncated(what, self.text.at(), 1, 0));
                 }
                 continue;
             }
-            let [first] = self.cursor.array::<1>(what)?;
+            let first = self.text.take(1, what)?.first().copied().unwrap_or(0);
             let more = match first >> 6 {
                 3 => 0,
                 2 => 1,
@@ -314,20 +387,21 @@ impl<'a> Reader<'a> {
                 _ => 7,
             };
             let mut length = u64::from(first & 0x3f);
-            for byte in self.cursor.take(more, what)? {
+            for byte in self.text.take(more, what)? {
                 length = length << 8 | u64::from(*byte);
             }
-            self.cursor.take(length, what)?;
+            self.text.skip(length, what)?;
         }
         Ok(())
     }
 
-    fn skip_metadata(&mut self) {
-        while let Some(line) = self.cursor.line() {
+    fn skip_metadata(&mut self) -> Result<(), ReadError> {
+        while let Some(line) = self.text.line()? {
             if line.trim_ascii().is_empty() {
-                return;
+                break;
             }
         }
+        Ok(())
     }
 }
 

@@ -8,40 +8,40 @@ mod vtk;
 use std::io::Write;
 use whitewater::io::particles::{Compression, Extension, Format, Particles, Storage};
 
-use houdini::geo;
 use plain::{numpy_samples, text_samples};
 
-pub use houdini::bgeo;
+pub use houdini::{bgeo, geo};
 pub use plain::{npy, npz, ply};
 pub use vtk::{Xml, vtk};
 
 pub const COUNT: usize = 11;
 
-/// Positions that 32-bit floats, and text of seven digits, hold exactly.
-pub fn positions() -> Vec<[f32; 3]> {
-    (0..COUNT)
-        .map(|i| {
-            let t = i as f32;
-            [0.25 * t - 1.0, 0.5 + 0.125 * (t * 3.0 % 7.0), -0.375 * t]
-        })
-        .collect()
+/// The cloud that all samples have, with positions that 32-bit floats, and text of seven digits, hold exactly.
+pub fn cloud() -> Particles {
+    let of = |f: fn(f32) -> [f32; 3]| (0..COUNT).map(|i| f(i as f32)).collect::<Vec<_>>();
+    let mut cloud = Particles::from_positions(of(|t| {
+        [0.25 * t - 1.0, 0.5 + 0.125 * (t * 3.0 % 7.0), -0.375 * t]
+    }));
+    cloud.velocities = Some(of(|t| [1.5 - t, 0.0625 * t, -2.0]));
+    cloud.densities = Some((0..COUNT).map(|i| 1000.0 + 0.5 * i as f32).collect());
+    cloud.ids = Some((0..COUNT as u32).map(|i| 500 - 40 * i).collect());
+    cloud
 }
 
-pub fn velocities() -> Vec<[f32; 3]> {
-    (0..COUNT)
-        .map(|i| {
-            let t = i as f32;
-            [1.5 - t, 0.0625 * t, -2.0]
-        })
-        .collect()
+fn positions(of: &Particles) -> &[[f32; 3]] {
+    &of.positions
 }
 
-pub fn densities() -> Vec<f32> {
-    (0..COUNT).map(|i| 1000.0 + 0.5 * i as f32).collect()
+fn velocities(of: &Particles) -> &[[f32; 3]] {
+    of.velocities.as_ref().unwrap()
 }
 
-pub fn ids() -> Vec<u32> {
-    (0..COUNT as u32).map(|i| 500 - 40 * i).collect()
+fn densities(of: &Particles) -> &[f32] {
+    of.densities.as_ref().unwrap()
+}
+
+fn ids(of: &Particles) -> &[u32] {
+    of.ids.as_ref().unwrap()
 }
 
 /// What a sample has beside positions.
@@ -71,16 +71,17 @@ fn sample(
 
 /// Fails unless the particles are those of this file.
 pub fn check(name: &str, particles: &Particles, has: Has) {
-    assert_eq!(particles.positions, positions(), "{name}: positions");
+    let cloud = cloud();
+    assert_eq!(particles.positions, cloud.positions, "{name}: positions");
     match has {
         Has::Positions => {
             assert_eq!(particles.velocities, None, "{name}: velocities");
             assert_eq!(particles.ids, None, "{name}: ids");
         }
         Has::All => {
-            assert_eq!(particles.velocities, Some(velocities()), "{name}: velocities");
-            assert_eq!(particles.densities, Some(densities()), "{name}: densities");
-            assert_eq!(particles.ids, Some(ids()), "{name}: ids");
+            assert_eq!(particles.velocities, cloud.velocities, "{name}: velocities");
+            assert_eq!(particles.densities, cloud.densities, "{name}: densities");
+            assert_eq!(particles.ids, cloud.ids, "{name}: ids");
         }
     }
     assert!(!particles.attributes.is_empty(), "{name}: attributes");
@@ -122,14 +123,16 @@ pub fn gzip(bytes: &[u8]) -> Vec<u8> {
     out.finish().unwrap()
 }
 
+/// The cloud in every format and encoding.
 pub fn all() -> Vec<Sample> {
+    let of = &cloud();
     use Extension as E;
     use Has::All;
     let mut list = vec![
-        sample("bgeo", E::Bgeo, bgeo(), All, Format::Bgeo { gzip: false }),
-        sample("bgeo gzip", E::Bgeo, gzip(&bgeo()), All, Format::Bgeo { gzip: true }),
-        sample("geo", E::Geo, geo(), All, Format::Geo),
-        sample("bgeo named .ply", E::Ply, bgeo(), All, Format::Bgeo { gzip: false }),
+        sample("bgeo", E::Bgeo, bgeo(of), All, Format::Bgeo { gzip: false }),
+        sample("bgeo gzip", E::Bgeo, gzip(&bgeo(of)), All, Format::Bgeo { gzip: true }),
+        sample("geo", E::Geo, geo(of), All, Format::Geo),
+        sample("bgeo named .ply", E::Ply, bgeo(of), All, Format::Bgeo { gzip: false }),
     ];
     for (version, number) in
         [("2.0", (2, 0)), ("3.0", (3, 0)), ("4.1", (4, 1)), ("4.2", (4, 2)), ("5.1", (5, 1))]
@@ -144,7 +147,7 @@ pub fn all() -> Vec<Sample> {
                     list.push(sample(
                         &name,
                         E::Vtk,
-                        vtk(version, binary, polydata, double),
+                        vtk(of, version, binary, polydata, double),
                         All,
                         format,
                     ));
@@ -169,7 +172,7 @@ pub fn all() -> Vec<Sample> {
                 list.push(sample(
                     &name,
                     if vtp { E::Vtp } else { E::Vtu },
-                    xml.bytes(),
+                    xml.bytes(of),
                     All,
                     format,
                 ));
@@ -192,13 +195,13 @@ pub fn all() -> Vec<Sample> {
                 ("binary_big_endian", Format::PlyBinary { big_endian: true }),
             ] {
                 let name = format!("ply {format} double {double} lists {lists}");
-                list.push(sample(&name, E::Ply, ply(format, double, lists), All, expected));
+                list.push(sample(&name, E::Ply, ply(of, format, double, lists), All, expected));
             }
         }
     }
-    let cr = String::from_utf8(ply("ascii", false, true)).unwrap().replace('\n', "\r\n");
+    let cr = String::from_utf8(ply(of, "ascii", false, true)).unwrap().replace('\n', "\r\n");
     list.push(sample("ply with carriage returns", E::Ply, cr, All, Format::PlyAscii));
-    numpy_samples(&mut list);
-    text_samples(&mut list);
+    numpy_samples(&mut list, of);
+    text_samples(&mut list, of);
     list
 }

@@ -1,20 +1,19 @@
 //! PLY, NPY and NPZ, and tables as text.
 
 use std::io::Write;
-use whitewater::io::particles::{Extension, Format};
+use whitewater::io::particles::{Extension, Format, Particles};
 
-use super::{
-    COUNT, Has, Sample, densities, floats, ids, ints, positions, sample, velocities, words,
-};
+use super::{Has, Sample, densities, floats, ids, ints, positions, sample, velocities, words};
 
 /// PLY with an element and a list before and among the vertices.
-pub fn ply(format: &str, double: bool, lists: bool) -> Vec<u8> {
+pub fn ply(of: &Particles, format: &str, double: bool, lists: bool) -> Vec<u8> {
+    let count = of.positions.len();
     let real = if double { "double" } else { "float32" };
     let mut out = format!("ply\nformat {format} 1.0\ncomment by hand\n");
     if lists {
         out += "element camera 2\nproperty uchar kind\nproperty list uchar float matrix\nelement empty 99999999999\n";
     }
-    out += &format!("element vertex {COUNT}\n");
+    out += &format!("element vertex {count}\n");
     for name in ["x", "y", "z", "vx", "vy", "vz", "density"] {
         out += &format!("property {real} {name}\n");
     }
@@ -28,10 +27,10 @@ pub fn ply(format: &str, double: bool, lists: bool) -> Vec<u8> {
         if lists {
             out.extend(b"1 2 0.5 0.5\n1 0\n");
         }
-        for i in 0..COUNT {
-            let (p, v, d) = (positions()[i], velocities()[i], densities()[i]);
+        for i in 0..count {
+            let (p, v, d) = (positions(of)[i], velocities(of)[i], densities(of)[i]);
             let list = if lists { " 2 7 7" } else { "" };
-            out.extend(format!("{} {} {d}{list} {}\n", words(p), words(v), ids()[i]).as_bytes());
+            out.extend(format!("{} {} {d}{list} {}\n", words(p), words(v), ids(of)[i]).as_bytes());
         }
         return out;
     }
@@ -40,15 +39,15 @@ pub fn ply(format: &str, double: bool, lists: bool) -> Vec<u8> {
         out.extend(floats(&[0.5, 0.5], 4, big));
         out.extend([1, 0]);
     }
-    for i in 0..COUNT {
-        out.extend(floats(&positions()[i], size, big));
-        out.extend(floats(&velocities()[i], size, big));
-        out.extend(floats(&densities()[i..=i], size, big));
+    for i in 0..count {
+        out.extend(floats(&positions(of)[i], size, big));
+        out.extend(floats(&velocities(of)[i], size, big));
+        out.extend(floats(&densities(of)[i..=i], size, big));
         if lists {
             out.extend(ints(&[1], 4, big));
             out.extend([9, 9]);
         }
-        out.extend(ints(&ids()[i..=i], 4, big));
+        out.extend(ints(&ids(of)[i..=i], 4, big));
     }
     out
 }
@@ -86,40 +85,42 @@ pub fn columns(vectors: &[[f32; 3]]) -> Vec<f32> {
     (0..3).flat_map(|c| vectors.iter().map(move |v| v[c])).collect()
 }
 
-fn csv(header: &str, separator: &str, quote: &str) -> String {
+fn csv(of: &Particles, header: &str, separator: &str, quote: &str) -> String {
+    let count = of.positions.len();
     let mut out = String::new();
     if !header.is_empty() {
         let names: Vec<_> = header.split(' ').map(|n| format!("{quote}{n}{quote}")).collect();
         out += &(names.join(separator) + "\r\n");
     }
-    for i in 0..COUNT {
+    for i in 0..count {
         let row = format!(
             "{} {} {} {}",
-            words(velocities()[i]),
-            densities()[i],
-            ids()[i],
-            words(positions()[i])
+            words(velocities(of)[i]),
+            densities(of)[i],
+            ids(of)[i],
+            words(positions(of)[i])
         );
         out += &(row.replace(' ', separator) + "\r\n");
     }
     out
 }
 
-fn rows() -> String {
-    positions().iter().map(|p| words(p) + "\n").collect()
+fn rows(of: &Particles) -> String {
+    positions(of).iter().map(|p| words(p) + "\n").collect()
 }
 
-pub fn numpy_samples(list: &mut Vec<Sample>) {
-    let p = positions();
+pub fn numpy_samples(list: &mut Vec<Sample>, of: &Particles) {
+    let count = of.positions.len();
+    let p = positions(of);
     let p = p.as_flattened();
-    let shape = format!("({COUNT}, 3)");
+    let shape = format!("({count}, 3)");
     let arrays = [
         ("<f4, C", npy("<f4", &shape, false, 1, &floats(p, 4, false))),
         (">f8, C, version 2", npy(">f8", &shape, false, 2, &floats(p, 8, true))),
-        ("<f4, Fortran", npy("<f4", &shape, true, 1, &floats(&columns(&positions()), 4, false))),
+        ("<f4, Fortran", npy("<f4", &shape, true, 1, &floats(&columns(positions(of)), 4, false))),
         (
             ">f4, Fortran, version 3",
-            npy(">f4", &shape, true, 3, &floats(&columns(&positions()), 4, true)),
+            npy(">f4", &shape, true, 3, &floats(&columns(positions(of)), 4, true)),
         ),
     ];
     for (name, bytes) in arrays {
@@ -131,11 +132,11 @@ pub fn numpy_samples(list: &mut Vec<Sample>) {
             Format::Npy,
         ));
     }
-    let row = format!("({COUNT},)");
-    let velocity = velocities();
+    let row = format!("({count},)");
+    let velocity = velocities(of);
     let common = [
-        ("rho", npy("<f8", &row, false, 1, &floats(&densities(), 8, false))),
-        ("ids", npy("<i8", &row, false, 1, &ints(&ids(), 8, false))),
+        ("rho", npy("<f8", &row, false, 1, &floats(densities(of), 8, false))),
+        ("ids", npy("<i8", &row, false, 1, &ints(ids(of), 8, false))),
         ("time", npy("<f8", "()", false, 1, &floats(&[0.5], 8, false))),
     ];
     for deflate in [false, true] {
@@ -156,8 +157,8 @@ pub fn numpy_samples(list: &mut Vec<Sample>) {
     let mut arrays = common.to_vec();
     for (c, (pos, vel)) in [("x", "vx"), ("y", "vy"), ("z", "vz")].into_iter().enumerate() {
         let pick = |v: &[[f32; 3]]| floats(&v.iter().map(|v| v[c]).collect::<Vec<_>>(), 4, false);
-        arrays.push((pos, npy("<f4", &row, false, 1, &pick(&positions()))));
-        arrays.push((vel, npy("<f4", &row, false, 1, &pick(&velocity))));
+        arrays.push((pos, npy("<f4", &row, false, 1, &pick(positions(of)))));
+        arrays.push((vel, npy("<f4", &row, false, 1, &pick(velocity))));
     }
     list.push(sample(
         "npz of components",
@@ -168,7 +169,8 @@ pub fn numpy_samples(list: &mut Vec<Sample>) {
     ));
 }
 
-pub fn text_samples(list: &mut Vec<Sample>) {
+pub fn text_samples(list: &mut Vec<Sample>, of: &Particles) {
+    let count = of.positions.len();
     use Has::{All, Positions};
     let csvs = [
         (
@@ -191,50 +193,50 @@ pub fn text_samples(list: &mut Vec<Sample>) {
         list.push(sample(
             &format!("csv {name}"),
             Extension::Csv,
-            csv(header, separator, quote),
+            csv(of, header, separator, quote),
             All,
             Format::Csv,
         ));
     }
-    let hashed = format!("# {}", csv("vx vy vz rho id x y z", ",", ""));
+    let hashed = format!("# {}", csv(of, "vx vy vz rho id x y z", ",", ""));
     list.push(sample("csv with a hashed header", Extension::Csv, hashed, All, Format::Csv));
-    let named_csv = csv("vx vy vz rho id x y z", ",", "");
+    let named_csv = csv(of, "vx vy vz rho id x y z", ",", "");
     list.push(sample("csv named .xyz", Extension::Xyz, named_csv, All, Format::Csv));
     list.push(sample(
         "csv without names",
         Extension::Csv,
-        rows().replace(' ', ","),
+        rows(of).replace(' ', ","),
         Positions,
         Format::Csv,
     ));
-    list.push(sample("xyz", Extension::Xyz, rows(), Positions, Format::Xyz));
+    list.push(sample("xyz", Extension::Xyz, rows(of), Positions, Format::Xyz));
     let variants = [
-        ("with comments", format!("# x y z\n% more\n\n{}\n", rows())),
-        ("with a count", format!("{COUNT}\n{}", rows())),
-        ("with a count and a comment", format!("{COUNT}\ntime 0.5 s\n{}", rows())),
-        ("with commas", rows().replace(' ', ", ")),
-        ("with more columns", rows().replace('\n', " 9 9\n")),
-        ("with a byte order mark", format!("\u{feff}{}", rows())),
+        ("with comments", format!("# x y z\n% more\n\n{}\n", rows(of))),
+        ("with a count", format!("{count}\n{}", rows(of))),
+        ("with a count and a comment", format!("{count}\ntime 0.5 s\n{}", rows(of))),
+        ("with commas", rows(of).replace(' ', ", ")),
+        ("with more columns", rows(of).replace('\n', " 9 9\n")),
+        ("with a byte order mark", format!("\u{feff}{}", rows(of))),
     ];
     for (name, text) in variants {
         list.push(sample(&format!("xyz {name}"), Extension::Xyz, text, Positions, Format::Xyz));
     }
-    let table = csv("vx vy vz rho id x y z", "  ", "");
+    let table = csv(of, "vx vy vz rho id x y z", "  ", "");
     list.push(sample("xyz with names", Extension::Xyz, table, All, Format::Xyz));
-    let raw = floats(positions().as_flattened(), 4, false);
+    let raw = floats(positions(of).as_flattened(), 4, false);
     list.push(sample("xyz raw", Extension::Xyz, raw, Positions, Format::RawF32));
     let array = |v: &[[f32; 3]]| {
         let rows: Vec<_> = v.iter().map(|p| format!("[{}]", words(p).replace(' ', ","))).collect();
         format!("[{}]", rows.join(", "))
     };
     let flat = |text: String| format!("[{}]", text.replace(' ', ", "));
-    list.push(sample("json array", Extension::Json, array(&positions()), Positions, Format::Json));
+    list.push(sample("json array", Extension::Json, array(positions(of)), Positions, Format::Json));
     let object = format!(
         "{{\"time\": 0.5, \"Positions\": {}, \"v\": {}, \"density\": {}, \"id\": {}, \"p\": [1]}}",
-        array(&positions()),
-        array(&velocities()),
-        flat(words(densities())),
-        flat(words(ids()))
+        array(positions(of)),
+        array(velocities(of)),
+        flat(words(densities(of))),
+        flat(words(ids(of)))
     );
     list.push(sample("json object", Extension::Unknown, object, All, Format::Json));
 }

@@ -2,12 +2,13 @@
 
 use base64::Engine;
 use std::io::Write;
-use whitewater::io::particles::{Compression, Storage};
+use whitewater::io::particles::{Compression, Particles, Storage};
 
-use super::{COUNT, densities, floats, ids, ints, positions, velocities, words};
+use super::{densities, floats, ids, ints, positions, velocities, words};
 
 /// Legacy VTK. `double` writes double and 64-bit ids.
-pub fn vtk(version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8> {
+pub fn vtk(of: &Particles, version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8> {
+    let count = of.positions.len();
     let mut out = format!(
         "# vtk DataFile Version {version}\na title\n{}\nDATASET {}\n",
         if binary { "BINARY" } else { "ASCII" },
@@ -27,7 +28,7 @@ pub fn vtk(version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8>
         out.extend(if binary { raw } else { text.into_bytes() });
         out.push(b'\n');
     };
-    let numbers: Vec<u32> = (0..COUNT as u32).collect();
+    let numbers: Vec<u32> = (0..count as u32).collect();
     // Something of no use before the points, as ParaView has with time values.
     put(
         &mut out,
@@ -37,17 +38,17 @@ pub fn vtk(version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8>
     );
     put(
         &mut out,
-        format!("POINTS {COUNT} {real}\n"),
-        floats(positions().as_flattened(), size, true),
-        words(positions().as_flattened()),
+        format!("POINTS {count} {real}\n"),
+        floats(positions(of).as_flattened(), size, true),
+        words(positions(of).as_flattened()),
     );
     out.extend(
         b"METADATA\nINFORMATION 1\nNAME L2_NORM_RANGE LOCATION vtkDataArray\nDATA 2 0 2\n\n",
     );
     let cells = if polydata { "VERTICES" } else { "CELLS" };
     if version.starts_with('5') {
-        let offsets: Vec<u32> = (0..=COUNT as u32).collect();
-        out.extend(format!("{cells} {} {COUNT}\n", COUNT + 1).as_bytes());
+        let offsets: Vec<u32> = (0..=count as u32).collect();
+        out.extend(format!("{cells} {} {count}\n", count + 1).as_bytes());
         put(&mut out, "OFFSETS vtktypeint64\n".into(), ints(&offsets, 8, true), words(&offsets));
         put(
             &mut out,
@@ -59,46 +60,51 @@ pub fn vtk(version: &str, binary: bool, polydata: bool, double: bool) -> Vec<u8>
         let list: Vec<u32> = numbers.iter().flat_map(|i| [1, *i]).collect();
         put(
             &mut out,
-            format!("{cells} {COUNT} {}\n", 2 * COUNT),
+            format!("{cells} {count} {}\n", 2 * count),
             ints(&list, 4, true),
             words(&list),
         );
     }
     if !polydata {
-        let types = [1_u32; COUNT];
-        put(&mut out, format!("CELL_TYPES {COUNT}\n"), ints(&types, 4, true), words(types));
+        let types = vec![1_u32; count];
+        put(&mut out, format!("CELL_TYPES {count}\n"), ints(&types, 4, true), words(types));
     }
     // Of the cells: must not be taken for those of the points.
-    out.extend(format!("CELL_DATA {COUNT}\n").as_bytes());
+    out.extend(format!("CELL_DATA {count}\n").as_bytes());
     put(
         &mut out,
         "SCALARS density float 1\nLOOKUP_TABLE default\n".into(),
-        floats(&[1.0; COUNT], 4, true),
-        words([1.0; COUNT]),
+        floats(&vec![1.0; count], 4, true),
+        words(vec![1.0; count]),
     );
-    out.extend(format!("POINT_DATA {COUNT}\n").as_bytes());
+    out.extend(format!("POINT_DATA {count}\n").as_bytes());
     put(
         &mut out,
         format!("SCALARS id {id} 1\nLOOKUP_TABLE id_table\n"),
-        ints(&ids(), size, true),
-        words(ids()),
+        ints(ids(of), size, true),
+        words(ids(of)),
     );
     put(
         &mut out,
         format!("VECTORS velocity {real}\n"),
-        floats(velocities().as_flattened(), size, true),
-        words(velocities().as_flattened()),
+        floats(velocities(of).as_flattened(), size, true),
+        words(velocities(of).as_flattened()),
     );
     out.extend(b"FIELD FieldData 3\n");
-    put(&mut out, "my%20flags 1 11 bit\n".into(), vec![0xff, 0xe0], words([1; COUNT]));
-    out.extend(b"METADATA\nCOMPONENT_NAMES\nflag\n\n");
-    let texts: Vec<u8> = (0..COUNT).flat_map(|i| [0xc0 | 2, b'a', b'a' + i as u8]).collect();
-    put(&mut out, format!("label 1 {COUNT} string\n"), texts, ["ab"; COUNT].join("\n"));
     put(
         &mut out,
-        format!("density 1 {COUNT} {real}\n"),
-        floats(&densities(), size, true),
-        words(densities()),
+        format!("my%20flags 1 {count} bit\n"),
+        vec![0xff; count.div_ceil(8)],
+        words(vec![1; count]),
+    );
+    out.extend(b"METADATA\nCOMPONENT_NAMES\nflag\n\n");
+    let texts: Vec<u8> = (0..count).flat_map(|i| [0xc0 | 2, b'a', b'a' + (i % 26) as u8]).collect();
+    put(&mut out, format!("label 1 {count} string\n"), texts, vec!["ab"; count].join("\n"));
+    put(
+        &mut out,
+        format!("density 1 {count} {real}\n"),
+        floats(densities(of), size, true),
+        words(densities(of)),
     );
     out
 }
@@ -124,10 +130,13 @@ fn pack(block: &[u8], compression: Compression) -> Vec<u8> {
         // One run of literals.
         Compression::Lz4 => {
             let mut out = Vec::new();
-            if block.len() < 15 {
-                out.push((block.len() as u8) << 4);
-            } else {
-                out.extend([0xf0, (block.len() - 15) as u8]);
+            match block.len().checked_sub(15) {
+                None => out.push((block.len() as u8) << 4),
+                Some(more) => {
+                    out.push(0xf0);
+                    out.extend(std::iter::repeat_n(255, more / 255));
+                    out.push((more % 255) as u8);
+                }
             }
             out.extend(block);
             out
@@ -146,10 +155,11 @@ impl Xml {
         let (head, data) = if self.compression == Compression::None {
             (self.word(raw.len()), raw.to_vec())
         } else {
-            const BLOCK: usize = 48;
-            let blocks: Vec<_> = raw.chunks(BLOCK).map(|b| pack(b, self.compression)).collect();
+            // As VTK makes them, or so that there are some of them.
+            let block = if raw.len() > 1 << 12 { 1 << 15 } else { 48 };
+            let blocks: Vec<_> = raw.chunks(block).map(|b| pack(b, self.compression)).collect();
             let mut head =
-                [self.word(blocks.len()), self.word(BLOCK), self.word(raw.len() % BLOCK)].concat();
+                [self.word(blocks.len()), self.word(block), self.word(raw.len() % block)].concat();
             blocks.iter().for_each(|b| head.extend(self.word(b.len())));
             (head, blocks.concat())
         };
@@ -186,7 +196,8 @@ impl Xml {
         }
     }
 
-    pub fn bytes(&self) -> Vec<u8> {
+    pub fn bytes(&self, of: &Particles) -> Vec<u8> {
+        let count = of.positions.len();
         let kind = if self.vtp { "PolyData" } else { "UnstructuredGrid" };
         let compressor = match self.compression {
             Compression::Zlib => " compressor=\"vtkZLibDataCompressor\"",
@@ -201,14 +212,14 @@ impl Xml {
         let (size, real, id) =
             if self.double { (8, "Float64", "UInt64") } else { (4, "Float32", "Int32") };
         let mut appended = Vec::new();
-        let cuts: &[usize] = if self.pieces { &[0, 4, 4, COUNT] } else { &[0, COUNT] };
+        let cuts: &[usize] = if self.pieces { &[0, 4, 4, count] } else { &[0, count] };
         for (from, to) in cuts.iter().zip(&cuts[1..]) {
             let range = *from..*to;
             out += &format!(
                 "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"0\">\n<PointData>\n",
                 range.len()
             );
-            let v = &velocities()[range.clone()];
+            let v = &velocities(of)[range.clone()];
             let v = v.as_flattened();
             out += &self.array(
                 &mut appended,
@@ -227,7 +238,7 @@ impl Xml {
                 &floats(&unused, size, self.big),
                 &words(&unused),
             );
-            let d = &densities()[range.clone()];
+            let d = &densities(of)[range.clone()];
             out += &self.array(
                 &mut appended,
                 real,
@@ -236,9 +247,9 @@ impl Xml {
                 &floats(d, size, self.big),
                 &words(d),
             );
-            let i = &ids()[range.clone()];
+            let i = &ids(of)[range.clone()];
             out += &self.array(&mut appended, id, "id", 1, &ints(i, size, self.big), &words(i));
-            let p = &positions()[range];
+            let p = &positions(of)[range];
             let p = p.as_flattened();
             out += "</PointData>\n<CellData/>\n<Points>\n";
             out += &self.array(

@@ -57,6 +57,12 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         }
         // Positions in twice, both maps cleared.
         "light" => 24 * u64::from(drawn.particles) + 20 * texels,
+        // Four words a texel out and in again, front in, a texel of four halves out; positions, kinds, ages and ids in.
+        // What atomics move is not counted. Without particles the map is cleared.
+        "diffuse" => match u64::from(drawn.diffuse) {
+            0 => 8 * texels,
+            diffuse => (16 + 16 + 4 + 8) * texels + 24 * diffuse,
+        },
         // Front in and smoothed twice, thickness in, photons cleared, added to and read, caustics out.
         "caustics" => (4 * 4 + 4 + 16 + 12 + 4 + 4) * texels,
         // The map in for its span and for each page; a page of half floats out and in twice, and into the basis.
@@ -118,4 +124,26 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         }
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use whitewater::Config;
+    use whitewater::ash::vk;
+    use whitewater::headless::COLOR_FORMAT;
+
+    use super::*;
+
+    #[test]
+    fn diffuse_particles_cast_by_particle_and_texel() {
+        let extent = vk::Extent2D { width: 64, height: 48 };
+        let mut config = Config::new(extent, COLOR_FORMAT, 64);
+        config.cast = Some(512);
+        let none = Drawn::nothing(config);
+        let map = 512 * 512;
+        assert_eq!(moved("diffuse", &none), Some(8 * map));
+        let some = Drawn { diffuse: 1000, ..none };
+        assert_eq!(moved("diffuse", &some), Some(44 * map + 24_000));
+        assert_eq!(moved("no such pass", &some), None);
+    }
 }

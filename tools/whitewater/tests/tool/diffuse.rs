@@ -95,25 +95,37 @@ fn what_is_read_in_parts_is_what_is_read_at_once() {
     );
     particles.kinds = Some((0..count).map(|i| i / 7 % 3).collect());
     particles.lifetimes = Some((0..count).map(|i| (i % 64) as f32 / 16.0 - 0.25).collect());
+    let lifetimes = particles.lifetimes.clone().unwrap();
     let rows = |ids: bool, range: std::ops::Range<usize>| {
         let of = |i: usize| {
-            let [x, y, z] = particles.positions[i];
-            let life = particles.lifetimes.as_ref().unwrap()[i];
+            let ([x, y, z], life) = (particles.positions[i], lifetimes[i]);
             let id = if ids { format!(",{}", 3 * i) } else { String::new() };
             format!("{x},{y},{z},{},{life}{id}\n", i / 7 % 3)
         };
         let head = if ids { "x,y,z,type,lifetime,id\n" } else { "x,y,z,type,lifetime\n" };
         head.to_string() + &range.map(of).collect::<String>()
     };
+    let whole = |ids: bool, range: std::ops::Range<usize>| {
+        let list = |of: &dyn Fn(usize) -> String| {
+            format!("[{}]", range.clone().map(of).collect::<Vec<_>>().join(","))
+        };
+        let positions = list(&|i| format!("{:?}", particles.positions[i]));
+        let (kinds, life) =
+            (list(&|i| (i / 7 % 3).to_string()), list(&|i| lifetimes[i].to_string()));
+        let ids = if ids { list(&|i| (3 * i).to_string()) } else { "0".into() };
+        format!("{{\"position\":{positions},\"type\":{kinds},\"lifetime\":{life},\"id\":{ids}}}")
+    };
     for (name, ids) in [("plain", false), ("named", true)] {
-        folder.text(&format!("{name}_1.csv"), &rows(ids, 0..70_000));
-        folder.text(&format!("{name}_2.csv"), &rows(ids, 70_000..count as usize));
+        for (part, range) in [(1, 0..70_000), (2, 70_000..count as usize)] {
+            folder.text(&format!("{name}_{part}.csv"), &rows(ids, range.clone()));
+            folder.text(&format!("{name}_{part}.json"), &whole(ids, range));
+        }
     }
     for name in ["plain.bgeo.gz", "plain.npz"] {
         folder.write(name, &particles);
     }
     particles.ids = Some((0..count).map(|i| 3 * i).collect());
-    for name in ["named.bgeo.gz", "named.ply"] {
+    for name in ["named.bgeo.gz", "named.ply", "named.vtu"] {
         folder.write(name, &particles);
     }
     let draw = |files: &str, out: &str| {
@@ -123,25 +135,31 @@ fn what_is_read_in_parts_is_what_is_read_at_once() {
         folder.picture(out).channels
     };
     for (what, whole, parts) in [
-        ("one", "+named_1.csv +named_2.csv", "+named.bgeo.gz"),
+        (
+            "one",
+            "+named_1.json +named_2.json",
+            &["+named.bgeo.gz", "+named.vtu", "+named_1.csv +named_2.csv"][..],
+        ),
         (
             "all",
-            "+named_1.csv +named_2.csv +bubble=named_1.csv +bubble=named_2.csv",
-            "+named.ply +bubble=named.bgeo.gz",
+            "+named_1.json +named_2.json +bubble=named_1.json +bubble=named_2.json",
+            &["+named.ply +bubble=named.vtu"],
         ),
         (
             "some",
-            "+plain_1.csv +plain_2.csv +spray=named_1.csv +spray=named_2.csv",
-            "+plain.npz +spray=named.ply",
+            "+plain_1.json +plain_2.json +spray=named_1.json +spray=named_2.json",
+            &["+plain.npz +spray=named.ply", "+plain_1.csv +plain_2.csv +spray=named.vtu"],
         ),
     ] {
         let whole = draw(whole, &format!("{what}_whole.exr"));
-        let parts = draw(parts, &format!("{what}_parts.exr"));
-        assert_eq!(whole.len(), parts.len());
-        let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert!(whole.iter().any(|c| c.name == "foam.thickness"));
-        for (a, b) in whole.iter().zip(&parts) {
-            assert!(a.name == b.name && bits(&a.data) == bits(&b.data), "{what}: {}", a.name);
+        for parts in parts {
+            let read = draw(parts, &format!("{what}_parts.exr"));
+            assert_eq!(whole.len(), read.len());
+            let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            for (a, b) in whole.iter().zip(&read) {
+                assert!(a.name == b.name && bits(&a.data) == bits(&b.data), "{parts}: {}", a.name);
+            }
         }
     }
 }

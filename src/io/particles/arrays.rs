@@ -1,0 +1,217 @@
+//! Numbers of one attribute that lie together, those of another attribute elsewhere: how legacy VTK (text) and VTK XML
+//! keep them, there in a segment for each piece of the file. Each attribute is read with a place of its own.
+
+use std::sync::Arc;
+
+use super::columns::{AttributeType, Column};
+use super::encoded::{Encoded, Encoding};
+use super::error::{Place, ReadError};
+use super::plan::{CHUNK, Stream, Track, changed};
+use super::source::{Content, Source};
+use super::text::Text;
+
+/// The numbers of an attribute in one piece.
+pub(super) struct Segment<'a> {
+    /// What they are in, and from where to where they or others of it may be.
+    pub(super) content: Content<'a>,
+    pub(super) start: u64,
+    pub(super) end: u64,
+    /// Numbers, not particles.
+    pub(super) count: u64,
+    pub(super) ty: AttributeType,
+    pub(super) stored: Stored,
+}
+
+/// How numbers are stored.
+pub(super) enum Stored {
+    /// As words, behind which others come.
+    Words,
+    /// As words of an element of their own, of which errors tell the place: bytes from the start, and its line.
+    OwnWords(u64, Place),
+    /// As bytes; of errors in them the place, in bytes from the start.
+    Bytes(Encoding, u64),
+}
+
+/// An attribute.
+pub(super) struct Array<'a> {
+    /// What it is called in errors.
+    pub(super) name: String,
+    pub(super) components: usize,
+    pub(super) segments: Vec<Segment<'a>>,
+}
+
+/// An attribute as it is read; `column` as for all of its segments.
+pub(super) fn track<'a>(column: Column, array: Array<'a>) -> Track<'a> {
+    let length = array.segments.iter().fold(0_u64, |sum, s| sum.saturating_add(s.count));
+    let what = array.name.clone();
+    let array = Arc::new(array);
+    let open = move |used: &[bool]| {
+        let (array, used) = (array.clone(), used.contains(&true));
+        let stream = ArrayStream { array, used, next: 0, current: None, spare: Spare::default() };
+        Ok(Box::new(stream) as Box<dyn Stream + 'a>)
+    };
+    Track { columns: vec![column], lengths: Some(vec![length]), what, open: Box::new(open) }
+}
+
+/// Sources of an earlier segment, which lead on to the next: of the file, where that is packed.
+#[derive(Default)]
+pub(super) struct Spare<'a> {
+    pub(super) data: Option<Source<'a>>,
+    pub(super) sizes: Option<Source<'a>>,
+}
+
+/// An attribute on the way.
+struct ArrayStream<'a> {
+    array: Arc<Array<'a>>,
+    used: bool,
+    /// The segment that comes next.
+    next: usize,
+    current: Option<Current<'a>>,
+    spare: Spare<'a>,
+}
+
+/// A segment on the way.
+struct Current<'a> {
+    numbers: Numbers<'a>,
+    /// That are still to come.
+    left: u64,
+}
+
+enum Numbers<'a> {
+    Words(Text<'a>),
+    Bytes(Encoded<'a>),
+}
+
+impl Stream for ArrayStream<'_> {
+    fn read(
+        &mut self,
+        count: usize,
+        columns: &mut [Column],
+        room: &mut Vec<u8>,
+    ) -> Result<usize, ReadError> {
+        let Some(column) = columns.first_mut().filter(|_| self.used) else { return Ok(count) };
+        let all = count.saturating_mul(self.array.components);
+        let mut left = all as u64;
+        while left > 0 {
+            let read = self.some(left, all, column, room)?;
+            if read == 0 {
+                return Err(changed());
+            }
+            left -= read;
+        }
+        Ok(count)
+    }
+
+    fn finish(&mut self) -> Result<u64, ReadError> {
+        // Of one that has no meaning nothing was read yet.
+        let mut room = Vec::new();
+        while !self.used && self.next < self.array.segments.len() {
+            let ty = self.array.segments.get(self.next).map_or(AttributeType::F32, |s| s.ty);
+            let mut column = Column::new(&self.array.name, self.array.components, ty);
+            loop {
+                self.some(u64::MAX, CHUNK as usize, &mut column, &mut room)?;
+                column.data.clear();
+                if self.current.is_none() {
+                    break;
+                }
+            }
+        }
+        Ok(0)
+    }
+}
+
+impl<'a> ArrayStream<'a> {
+    /// Appends some of the next numbers, `left` at most, to those of `all` that are there; says how many.
+    fn some(
+        &mut self,
+        left: u64,
+        all: usize,
+        column: &mut Column,
+        room: &mut Vec<u8>,
+    ) -> Result<u64, ReadError> {
+        let array = self.array.clone();
+        let mut current = match self.current.take() {
+            Some(current) => current,
+            None => {
+                let Some(segment) = array.segments.get(self.next) else { return Ok(0) };
+                self.next += 1;
+                self.open(segment, &array.name)?
+            }
+        };
+        let Some(segment) = array.segments.get(self.next - 1) else { return Ok(0) };
+        let size = segment.ty.size().unwrap_or(1);
+        let count = left.min(current.left).min(CHUNK / size);
+        column.data.room(count as usize, all);
+        match &mut current.numbers {
+            Numbers::Words(text) => text
+                .numbers(count, current.left, &array.name, &mut column.data)
+                .map_err(|error| segment.relocated(error))?,
+            Numbers::Bytes(encoded) => {
+                room.clear();
+                encoded.fill(count * size, room)?;
+                column.data.push_bytes(segment.ty, room, encoded.big_endian());
+            }
+        }
+        current.left -= count;
+        if current.left == 0 {
+            self.close(segment, current)?;
+        } else {
+            self.current = Some(current);
+        }
+        Ok(count)
+    }
+
+    fn open(&mut self, segment: &Segment<'a>, name: &str) -> Result<Current<'a>, ReadError> {
+        let numbers = match &segment.stored {
+            Stored::Words | Stored::OwnWords(..) => {
+                let spare = self.spare.data.take();
+                Numbers::Words(Text::new(segment.content.reach(
+                    spare,
+                    segment.start,
+                    segment.end,
+                )?))
+            }
+            Stored::Bytes(encoding, offset) => {
+                Numbers::Bytes(Encoded::open(segment, *encoding, *offset, name, &mut self.spare)?)
+            }
+        };
+        Ok(Current { numbers, left: segment.count })
+    }
+
+    /// After the last number of a segment.
+    fn close(&mut self, segment: &Segment<'a>, current: Current<'a>) -> Result<(), ReadError> {
+        match current.numbers {
+            Numbers::Words(mut text) => {
+                let mut more = 0;
+                while matches!(segment.stored, Stored::OwnWords(..)) && text.token()?.is_some() {
+                    more += 1;
+                }
+                if more > 0 {
+                    return Err(ReadError::Length {
+                        attribute: self.array.name.clone(),
+                        expected: segment.count,
+                        found: segment.count + more,
+                    });
+                }
+                self.spare.data = segment.content.spare(text.into_source());
+            }
+            Numbers::Bytes(encoded) => self.spare = encoded.into_spare(&segment.content),
+        }
+        Ok(())
+    }
+}
+
+impl Segment<'_> {
+    /// Puts the place of an error in an element's text at the element.
+    fn relocated(&self, error: ReadError) -> ReadError {
+        match (error, &self.stored) {
+            (ReadError::Malformed { expected, found, .. }, Stored::OwnWords(_, place)) => {
+                ReadError::Malformed { expected, found, place: *place }
+            }
+            (ReadError::Truncated { what, needed, found, .. }, Stored::OwnWords(offset, _)) => {
+                ReadError::Truncated { what, offset: *offset, needed, found }
+            }
+            (error, _) => error,
+        }
+    }
+}

@@ -1,0 +1,325 @@
+//! The elements of an XML file without the long texts among them, which alone make it large: where these are is kept.
+
+use roxmltree::{Document, Node};
+
+use super::error::{Place, ReadError};
+use super::source::Content;
+use super::text::Text;
+
+/// What ends the XML of a VTK file where bytes of another kind follow.
+const APPENDED: &[u8] = b"<AppendedData";
+
+/// A text that is longer stays in the file.
+const LONGEST: u64 = 64;
+
+/// Bytes that are looked at at a time.
+const CHUNK: usize = 1 << 14;
+
+/// The beginning of a file, up to its appended data or its end.
+pub(super) struct Head {
+    /// With one character in place of each long text: a space where it is nothing but space, else a digit.
+    text: String,
+    cuts: Vec<Cut>,
+    /// Bytes before it: a byte order mark.
+    mark: u64,
+    /// Where the appended data begins in the file.
+    pub(super) appended: Option<u64>,
+}
+
+/// A text that stayed in the file.
+struct Cut {
+    /// Of the character in its place.
+    at: usize,
+    /// From its first byte to its last that is no space; empty where there are none.
+    start: u64,
+    end: u64,
+    /// Bytes and lines that are missing, up to here and with it.
+    bytes: u64,
+    lines: u64,
+    /// Whether a line ends in it, and its bytes in the last line.
+    breaks: bool,
+    column: u64,
+}
+
+/// Where the text of an element is.
+pub(super) enum Words<'d> {
+    /// In memory.
+    Here(&'d str),
+    /// In the file, from one byte to another.
+    There(u64, u64),
+    /// Parts of it are in the file, among others that are more than characters.
+    Mixed,
+}
+
+impl Head {
+    /// Reads the beginning of a file. `cut`: without its long texts, so that it takes no more memory than what it says.
+    pub(super) fn read(content: &Content<'_>, cut: bool) -> Result<Self, ReadError> {
+        let mut text = Text::of(content)?;
+        let mark = text.at();
+        let mut scan = Scan {
+            out: Vec::new(),
+            valid: 0,
+            cuts: Vec::new(),
+            state: State::Text,
+            run: Run::default(),
+            cut,
+            mark,
+        };
+        let appended = loop {
+            let chunk = text.ahead(CHUNK)?;
+            let length = chunk.len();
+            let appended = scan.chunk(chunk);
+            let all = length == 0 || appended.is_some();
+            scan.check(all)?;
+            if all {
+                break appended;
+            }
+            text.skip(length as u64, "the header")?;
+        };
+        // What is before the appended data lacks the end of its root.
+        if appended.is_some() {
+            scan.out.extend(b"</VTKFile>");
+        }
+        let text = String::from_utf8(scan.out).unwrap_or_default();
+        Ok(Self { text, cuts: scan.cuts, mark, appended })
+    }
+
+    pub(super) fn parse(&self) -> Result<Document<'_>, ReadError> {
+        Document::parse(&self.text).map_err(|e| {
+            let position = e.pos();
+            let mut lines = self.text.split_inclusive('\n');
+            let before: usize =
+                lines.by_ref().take(position.row.saturating_sub(1) as usize).map(str::len).sum();
+            let line = lines.next().unwrap_or_default();
+            let column = line.char_indices().nth(position.col.saturating_sub(1) as usize);
+            let at = before + column.map_or(line.len(), |(i, _)| i);
+            // What it says is of what is left of the file.
+            let there = format!(" at {}:{}", self.line(at), self.column(at));
+            let found = e.to_string().replace(&format!(" at {position}"), &there);
+            ReadError::malformed("well-formed XML", found, Place::Line(self.line(at)))
+        })
+    }
+
+    /// Where in the file an element begins, in bytes from its start.
+    pub(super) fn offset(&self, node: &Node<'_, '_>) -> u64 {
+        let at = node.range().start;
+        file_offset(&self.cuts, self.mark, at)
+    }
+
+    /// The line in which an element begins.
+    pub(super) fn place(&self, node: &Node<'_, '_>) -> Place {
+        Place::Line(self.line(node.range().start))
+    }
+
+    fn line(&self, at: usize) -> u64 {
+        let head = self.text.as_bytes().get(..at).unwrap_or_default();
+        let missing = before(&self.cuts, at).map_or(0, |cut| cut.lines);
+        1 + missing + head.iter().filter(|b| **b == b'\n').count() as u64
+    }
+
+    /// Characters of the line up to a place and with it.
+    fn column(&self, at: usize) -> u64 {
+        let characters =
+            |from, to| self.text.get(from..to).map_or(0, |text: &str| text.chars().count() as u64);
+        let line = self.text.get(..at).and_then(|head| head.rfind('\n'));
+        let mut from = line.map_or(0, |end| end + 1);
+        let mut column = 1;
+        let first = self.cuts.partition_point(|cut| cut.at < from);
+        for cut in self.cuts.iter().skip(first).take_while(|cut| cut.at < at) {
+            column = if cut.breaks { 1 } else { column + characters(from, cut.at) };
+            column += cut.column;
+            from = cut.at + 1;
+        }
+        column + characters(from, at)
+    }
+
+    /// The first text of an element that is more than space.
+    pub(super) fn words<'d>(&self, node: &Node<'d, '_>) -> Words<'d> {
+        let texts = node.children().filter(Node::is_text);
+        let mut texts = texts.filter_map(|child| Some((child, child.text()?)));
+        let Some((child, text)) = texts.find(|(_, text)| !text.trim().is_empty()) else {
+            return Words::Here("");
+        };
+        let start = child.range().start;
+        let end = child.next_sibling().map_or(node.range().end, |next| next.range().start);
+        let cut = self.cuts.get(self.cuts.partition_point(|cut| cut.at < start));
+        match cut.filter(|cut| cut.at < end) {
+            None => Words::Here(text.trim()),
+            Some(cut) if text.len() == 1 => Words::There(cut.start, cut.end),
+            Some(_) => Words::Mixed,
+        }
+    }
+}
+
+/// The last cut before a place.
+fn before(cuts: &[Cut], at: usize) -> Option<&Cut> {
+    cuts.partition_point(|cut| cut.at < at).checked_sub(1).and_then(|i| cuts.get(i))
+}
+
+fn file_offset(cuts: &[Cut], mark: u64, at: usize) -> u64 {
+    mark + at as u64 + before(cuts, at).map_or(0, |cut| cut.bytes)
+}
+
+/// What the next byte is in.
+#[derive(Clone, Copy)]
+enum State {
+    Text,
+    /// Since this byte of the head.
+    Tag(usize),
+    Quoted(u8),
+    /// Up to these bytes.
+    Until(&'static [u8]),
+    /// A reference to a character, since this byte.
+    Reference(usize),
+}
+
+/// Bytes of a reference; one that is longer is a fault.
+const REFERENCE: usize = 16;
+
+/// On the way through a file.
+struct Scan {
+    out: Vec<u8>,
+    /// How much of that is known to be UTF-8.
+    valid: usize,
+    cuts: Vec<Cut>,
+    state: State,
+    run: Run,
+    cut: bool,
+    mark: u64,
+}
+
+/// Characters between elements that stand for themselves.
+#[derive(Default)]
+struct Run {
+    length: u64,
+    /// Those of the last line.
+    column: u64,
+    /// How many of them are at the end of the head.
+    kept: usize,
+    lines: u64,
+    /// The bytes before the first that is no space, and those up to the last; none where all are.
+    words: Option<(u64, u64)>,
+}
+
+/// Whether a byte between elements stands for itself alone, so that it can be left out.
+fn is_plain(byte: u8) -> bool {
+    matches!(byte, b'\t' | b'\n' | b'\r' | b' '..=b'~') && !matches!(byte, b'<' | b'>' | b'&')
+}
+
+impl Scan {
+    /// Takes the next bytes, none at the end; gives the place of the appended data, which ends the scan.
+    fn chunk(&mut self, chunk: &[u8]) -> Option<u64> {
+        let mut rest = chunk;
+        while let Some((&byte, behind)) = rest.split_first() {
+            if let State::Text = self.state {
+                let plain = rest.iter().position(|b| !is_plain(*b));
+                let (some, other) =
+                    rest.split_at_checked(plain.unwrap_or(rest.len())).unwrap_or((rest, &[]));
+                if !some.is_empty() {
+                    self.plain(some);
+                    rest = other;
+                    continue;
+                }
+                self.end_run();
+            }
+            rest = behind;
+            self.out.push(byte);
+            self.step(byte);
+            if byte == b'a' && self.out.ends_with(APPENDED) {
+                self.out.truncate(self.out.len() - APPENDED.len());
+                return Some(file_offset(&self.cuts, self.mark, self.out.len()));
+            }
+        }
+        if chunk.is_empty() {
+            self.end_run();
+        }
+        None
+    }
+
+    /// Characters of a text, which is kept until it is too long.
+    fn plain(&mut self, some: &[u8]) {
+        let run = &mut self.run;
+        let space = |b: &u8| b.is_ascii_whitespace();
+        if let Some(first) = some.iter().position(|b| !space(b)) {
+            let last = some.iter().rposition(|b| !space(b)).unwrap_or(first);
+            let start = run.words.map_or(run.length + first as u64, |(start, _)| start);
+            run.words = Some((start, run.length + last as u64 + 1));
+        }
+        run.length += some.len() as u64;
+        run.lines += some.iter().filter(|b| **b == b'\n').count() as u64;
+        match some.iter().rposition(|b| *b == b'\n') {
+            Some(end) => run.column = (some.len() - end - 1) as u64,
+            None => run.column += some.len() as u64,
+        }
+        if !self.cut || run.length <= LONGEST {
+            self.out.extend_from_slice(some);
+            run.kept += some.len();
+        } else {
+            self.out.truncate(self.out.len() - run.kept);
+            run.kept = 0;
+        }
+    }
+
+    fn end_run(&mut self) {
+        let run = std::mem::take(&mut self.run);
+        if !self.cut || run.length <= LONGEST {
+            return;
+        }
+        let at = self.out.len();
+        let from = file_offset(&self.cuts, self.mark, at);
+        let (start, end) = run.words.unwrap_or((0, 0));
+        let (bytes, lines) = self.cuts.last().map_or((0, 0), |cut| (cut.bytes, cut.lines));
+        self.cuts.push(Cut {
+            at,
+            start: from + start,
+            end: from + end,
+            bytes: bytes + run.length - 1,
+            lines: lines + run.lines,
+            breaks: run.lines > 0,
+            column: run.column,
+        });
+        self.out.push(if run.words.is_some() { b'0' } else { b' ' });
+    }
+
+    /// Fails where what there is can't become UTF-8; `all`: nothing more comes.
+    fn check(&mut self, all: bool) -> Result<(), ReadError> {
+        self.valid = self.valid.min(self.out.len());
+        let new = self.out.get(self.valid..).unwrap_or_default();
+        match std::str::from_utf8(new) {
+            Ok(_) => self.valid = self.out.len(),
+            Err(e) => {
+                self.valid += e.valid_up_to();
+                if all || e.error_len().is_some() {
+                    let place = file_offset(&self.cuts, self.mark, self.valid);
+                    let place = Place::Byte(place);
+                    return Err(ReadError::malformed("a header in UTF-8", "another byte", place));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, byte: u8) {
+        let start = self.out.len() - 1;
+        self.state = match (self.state, byte) {
+            // In an attribute it is a fault, which the parser finds; what comes behind it may be text again.
+            (State::Text | State::Tag(_) | State::Quoted(_) | State::Reference(_), b'<') => {
+                State::Tag(start)
+            }
+            (State::Text, b'&') => State::Reference(start),
+            (State::Reference(_), b';') => State::Text,
+            (State::Reference(from), _) if start - from > REFERENCE => State::Text,
+            (State::Tag(_), b'>') => State::Text,
+            (State::Tag(_), b'"' | b'\'') => State::Quoted(byte),
+            (State::Tag(start), _) => match self.out.get(start..) {
+                Some(b"<!--") => State::Until(b"-->"),
+                Some(b"<![CDATA[") => State::Until(b"]]>"),
+                Some(b"<?") => State::Until(b"?>"),
+                _ => State::Tag(start),
+            },
+            (State::Quoted(quote), _) if byte == quote => State::Tag(start),
+            (State::Until(end), b'>') if self.out.ends_with(end) => State::Text,
+            (state, _) => state,
+        };
+    }
+}

@@ -1,0 +1,255 @@
+//! How the particles of a file are read from the first on, as often as needed: all at once, or a part after the other.
+
+use super::columns::{Attribute, Column, Roles, Shape, Survey};
+use super::error::{Place, ReadError};
+use super::{Format, Particles};
+
+/// Bytes that are read at a time.
+pub(super) const CHUNK: u64 = 1 << 18;
+
+/// Particles that are read at a time where only their faults are looked for.
+const CHECKED: usize = 1 << 12;
+
+/// Some of the columns of a file, which are read side by side with those of other tracks.
+pub(super) struct Track<'a> {
+    /// Without numbers.
+    pub(super) columns: Vec<Column>,
+    /// How many numbers all particles together have in each; none where only reading them tells.
+    pub(super) lengths: Option<Vec<u64>>,
+    /// What it is called in errors.
+    pub(super) what: String,
+    /// From the first particle on, with the columns that are used.
+    pub(super) open: Box<OpenTrack<'a>>,
+}
+
+type OpenTrack<'a> = dyn Fn(&[bool]) -> Result<Box<dyn Stream + 'a>, ReadError> + Send + 'a;
+
+/// A track on the way.
+pub(super) trait Stream: Send {
+    /// Appends the numbers of the particles that come next, `count` at most, to the columns that are used, and says how
+    /// many particles these are: fewer only where no more come. `room`: for bytes on the way.
+    fn read(
+        &mut self,
+        count: usize,
+        columns: &mut [Column],
+        room: &mut Vec<u8>,
+    ) -> Result<usize, ReadError>;
+
+    /// After the last particle: what comes behind it has to be sound too. Gives how many bytes were unpacked, where
+    /// that is bounded for all tracks together.
+    fn finish(&mut self) -> Result<u64, ReadError> {
+        Ok(0)
+    }
+}
+
+/// Where the particles of a file are, and what they have.
+pub(super) struct Plan<'a> {
+    tracks: Vec<Track<'a>>,
+    /// The columns of all tracks that are used.
+    used: Vec<bool>,
+    roles: Roles,
+    /// Particles; none where only reading them tells.
+    rows: Option<usize>,
+    attributes: Vec<Attribute>,
+    warnings: Vec<String>,
+    format: Format,
+    /// The most that all tracks together may unpack.
+    limit: u64,
+}
+
+/// What a header says beside where the particles are.
+pub(super) struct About {
+    /// The positions, where the format has a place for them: the index of their column.
+    pub(super) placed: Option<usize>,
+    pub(super) attributes: Vec<Attribute>,
+    pub(super) warnings: Vec<String>,
+    pub(super) format: Format,
+}
+
+/// What was found when all particles were read for the first time.
+pub(super) struct Surveyed {
+    /// What all have in common, without any.
+    pub(super) about: Particles,
+    pub(super) total: usize,
+    /// All particles, where they are one part.
+    pub(super) only: Option<Particles>,
+}
+
+impl<'a> Plan<'a> {
+    pub(super) fn new(tracks: Vec<Track<'a>>, about: About, limit: u64) -> Result<Self, ReadError> {
+        let About { placed, attributes, warnings, format } = about;
+        let shapes: Vec<_> = tracks.iter().flat_map(shapes).collect();
+        let roles = Roles::find(&shapes, placed, &attributes)?;
+        let known = tracks.iter().all(|track| track.lengths.is_some());
+        let rows = if known { Some(roles.rows(&shapes)?) } else { None };
+        let mut used = vec![false; shapes.len()];
+        for i in roles.used() {
+            used.get_mut(i).into_iter().for_each(|used| *used = true);
+        }
+        Ok(Self { tracks, used, roles, rows, attributes, warnings, format, limit })
+    }
+
+    /// Each track, with the columns of it that are used.
+    fn tracks(&self) -> impl Iterator<Item = (&Track<'a>, &[bool])> {
+        let mut used = self.used.as_slice();
+        self.tracks.iter().map(move |track| {
+            let (own, rest) = used.split_at_checked(track.columns.len()).unwrap_or_default();
+            used = rest;
+            (track, own)
+        })
+    }
+
+    /// From the first particle on.
+    pub(super) fn start(&self) -> Result<Pass<'a>, ReadError> {
+        let streams = self.tracks().map(|(track, used)| (track.open)(used));
+        Ok(Pass {
+            streams: streams.collect::<Result<_, _>>()?,
+            left: self.rows.unwrap_or(usize::MAX),
+            survey: Survey::default(),
+            room: Vec::new(),
+        })
+    }
+
+    /// All particles, track after track.
+    pub(super) fn read(self) -> Result<Particles, ReadError> {
+        let mut columns = Vec::new();
+        let count = self.rows.unwrap_or(usize::MAX);
+        let mut room = Vec::new();
+        for (track, used) in self.tracks() {
+            let mut own = track.columns.clone();
+            let mut stream = (track.open)(used)?;
+            stream.read(count, &mut own, &mut room)?;
+            stream.finish()?;
+            columns.append(&mut own);
+        }
+        let mut survey = Survey::default();
+        let particles = survey.part(&self.roles, columns, self.format);
+        let mut warnings = self.warnings;
+        warnings.extend(survey.warnings());
+        Ok(Particles { attributes: self.attributes, warnings, ..particles })
+    }
+
+    /// Finds all there is to find fault with, and what only all particles tell.
+    pub(super) fn survey(
+        &self,
+        most: usize,
+        show: &mut dyn FnMut(&Particles),
+    ) -> Result<Surveyed, ReadError> {
+        self.survey_once(most, show).map_err(|error| {
+            // Of several faults the one that is found when all are read at once.
+            if self.tracks.len() > 1 { self.check().err().unwrap_or(error) } else { error }
+        })
+    }
+
+    fn survey_once(
+        &self,
+        most: usize,
+        show: &mut dyn FnMut(&Particles),
+    ) -> Result<Surveyed, ReadError> {
+        let columns = self.tracks.iter().flat_map(|track| track.columns.clone()).collect();
+        let mut about = Survey::default().part(&self.roles, columns, self.format);
+        let mut pass = self.start()?;
+        let mut only = Some(about.clone());
+        let mut first = true;
+        while let Some(part) = pass.part(self, most)? {
+            show(&part);
+            only = Some(part).filter(|_| first);
+            first = false;
+        }
+        pass.finish(self)?;
+        pass.survey.drop_from(&mut about);
+        about.attributes.clone_from(&self.attributes);
+        about.warnings.clone_from(&self.warnings);
+        about.warnings.extend(pass.survey.warnings());
+        Ok(Surveyed { about, total: pass.survey.seen(), only })
+    }
+
+    /// From now on there have to be as many.
+    pub(super) fn expect(&mut self, total: usize) {
+        self.rows = Some(total);
+    }
+
+    /// Reads and drops all, track after track.
+    fn check(&self) -> Result<(), ReadError> {
+        let mut room = Vec::new();
+        for (track, used) in self.tracks() {
+            let mut columns = track.columns.clone();
+            let mut stream = (track.open)(used)?;
+            let mut left = self.rows.unwrap_or(usize::MAX);
+            while left > 0 {
+                let count = left.min(CHECKED);
+                if stream.read(count, &mut columns, &mut room)? < count {
+                    break;
+                }
+                left -= count;
+                columns.iter_mut().for_each(|column| column.data.clear());
+            }
+            stream.finish()?;
+        }
+        Ok(())
+    }
+}
+
+fn shapes<'a>(track: &'a Track<'_>) -> impl Iterator<Item = Shape<'a>> {
+    track.columns.iter().enumerate().map(|(i, column)| Shape {
+        name: &column.name,
+        components: column.components,
+        values: track.lengths.as_ref().and_then(|all| all.get(i).copied()).unwrap_or(0),
+    })
+}
+
+/// The file is not any more what it was.
+pub(super) fn changed() -> ReadError {
+    let expected = "the numbers that were there a moment ago";
+    ReadError::malformed(expected, "others", Place::Unknown)
+}
+
+/// Once through a file.
+pub(super) struct Pass<'a> {
+    streams: Vec<Box<dyn Stream + 'a>>,
+    /// Particles that are still to come, at most.
+    left: usize,
+    survey: Survey,
+    room: Vec<u8>,
+}
+
+impl Pass<'_> {
+    /// The next particles, `most` where there are as many; none after the last.
+    pub(super) fn part(
+        &mut self,
+        plan: &Plan<'_>,
+        most: usize,
+    ) -> Result<Option<Particles>, ReadError> {
+        let wanted = most.min(self.left);
+        let mut count = wanted;
+        let mut columns = Vec::new();
+        for (stream, track) in self.streams.iter_mut().zip(&plan.tracks) {
+            if count == 0 {
+                break;
+            }
+            let mut own = track.columns.clone();
+            count = count.min(stream.read(wanted, &mut own, &mut self.room)?);
+            columns.append(&mut own);
+        }
+        // So that all lists have as many, whatever became of the file.
+        let whole = |(column, used): (&Column, &bool)| {
+            !used || column.data.len() == count.saturating_mul(column.components)
+        };
+        if (count < wanted && plan.rows.is_some()) || !columns.iter().zip(&plan.used).all(whole) {
+            return Err(changed());
+        }
+        self.left = if count < wanted { 0 } else { self.left - count };
+        Ok((count > 0).then(|| self.survey.part(&plan.roles, columns, plan.format)))
+    }
+
+    fn finish(&mut self, plan: &Plan<'_>) -> Result<(), ReadError> {
+        let mut unpacked = 0_u64;
+        for (stream, track) in self.streams.iter_mut().zip(&plan.tracks) {
+            unpacked = unpacked.saturating_add(stream.finish()?);
+            if unpacked > plan.limit {
+                return Err(ReadError::TooLarge { what: track.what.clone(), limit: plan.limit });
+            }
+        }
+        Ok(())
+    }
+}

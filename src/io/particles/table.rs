@@ -1,0 +1,75 @@
+//! Particles as rows that have not one length, one after the other, most of them of text: CSV, XYZ, GEO and PLY.
+
+use super::columns::Column;
+use super::error::ReadError;
+use super::plan::{About, Plan, Stream, Track};
+use super::source::Content;
+
+/// Rows for which room is made at a time.
+const BATCH: usize = 1 << 10;
+
+/// A file of rows, at the first of them.
+pub(super) struct Table<'a> {
+    /// Those that may be used, without numbers.
+    pub(super) columns: Vec<Column>,
+    pub(super) about: About,
+    pub(super) rows: Box<dyn RowReader + 'a>,
+}
+
+/// Rows on the way.
+pub(super) trait RowReader: Send {
+    /// Appends the numbers of the next row to the columns; false where there is none.
+    fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError>;
+}
+
+/// What reads the beginning of a file, up to the first row.
+type Open = for<'a> fn(&Content<'a>) -> Result<Table<'a>, ReadError>;
+
+pub(super) fn plan<'a>(content: &Content<'a>, open: Open) -> Result<Plan<'a>, ReadError> {
+    let Table { columns, about, .. } = open(content)?;
+    let from = content.clone();
+    let start = move |used: &[bool]| {
+        let stream = TableStream { rows: open(&from)?.rows, used: used.to_vec() };
+        Ok(Box::new(stream) as Box<dyn Stream + 'a>)
+    };
+    let track = Track { columns, lengths: None, what: "the rows".into(), open: Box::new(start) };
+    Plan::new(vec![track], about, content.unpack_limit())
+}
+
+struct TableStream<'a> {
+    rows: Box<dyn RowReader + 'a>,
+    used: Vec<bool>,
+}
+
+impl Stream for TableStream<'_> {
+    fn read(
+        &mut self,
+        count: usize,
+        columns: &mut [Column],
+        _room: &mut Vec<u8>,
+    ) -> Result<usize, ReadError> {
+        for i in 0..count {
+            if i.is_multiple_of(BATCH) {
+                let batch = BATCH.min(count - i);
+                for column in used(columns, &self.used, true) {
+                    let all = count.saturating_mul(column.components);
+                    column.data.room(batch * column.components, all);
+                }
+            }
+            if !self.rows.next(columns)? {
+                return Ok(i);
+            }
+            // They have to be numbers, even where they have no meaning.
+            used(columns, &self.used, false).for_each(|column| column.data.clear());
+        }
+        Ok(count)
+    }
+}
+
+fn used<'a>(
+    columns: &'a mut [Column],
+    used: &'a [bool],
+    which: bool,
+) -> impl Iterator<Item = &'a mut Column> {
+    columns.iter_mut().zip(used).filter(move |(_, used)| **used == which).map(|(column, _)| column)
+}
