@@ -2,6 +2,7 @@
 
 mod map;
 mod shoreline;
+mod strip;
 
 use std::sync::OnceLock;
 
