@@ -1,8 +1,12 @@
 //! Shoreline foam, contact foam and the map of distances, against twins and closed forms.
 
+mod composite;
+mod contact;
+mod life;
 mod map;
 mod shoreline;
 mod strip;
+mod temporal;
 
 use std::sync::OnceLock;
 
