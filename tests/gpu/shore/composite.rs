@@ -1,9 +1,9 @@
 //! Foam of shores and contacts in the picture: a coat on the scene, under the particles' water as over it.
 
 use glam::{DVec2, DVec3};
-use whitewater::shore::{Edge, ShoreConfig, ShoreLook};
+use whitewater::shore::{Edge, ShoreLook};
 use whitewater::water::{Shading, Shadows};
-use whitewater::{Config, Shadow, Shore, Shoreline, Surface};
+use whitewater::{Config, Shadow, Shore, Shoreline};
 
 use super::shoreline::{AREA, heights, plain};
 use super::{Mapped, U, water, with_shore};
@@ -60,7 +60,7 @@ fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [
     for i in 0..3 {
         let whole = f64::from(light.irradiance[i]);
         let shade = f64::from(light.shade[i]) / whole;
-        let sun = shade + (1.0 - shade) * part[2];
+        let sun = shade + (1.0 - shade) * (1.0 - part[2]);
         let mix = |a: f64, b: f64, t: f64| a * (1.0 - t) + b * t;
         let white = whole / std::f64::consts::PI;
         let shore = f64::from(s.color[i]) * white * sun;
@@ -118,7 +118,8 @@ fn the_coat_lies_on_the_scene() {
         let (_, rect) = part.with_margin(part.size);
         for (i, texel) in found.whole.data.iter().enumerate() {
             let (x, y) = ((i % found.whole.width) as i32, (i / found.whole.width) as i32);
-            let inside = (0..96).contains(&(x - rect.offset.x)) && (0..64).contains(&(y - rect.offset.y));
+            let inside =
+                (0..96).contains(&(x - rect.offset.x)) && (0..64).contains(&(y - rect.offset.y));
             assert!(inside || *texel == crate::support::rig::AROUND, "({x}, {y}) was written");
         }
         rig.config.in_place = false;
@@ -226,7 +227,11 @@ fn contacts_lie_on_the_water() {
             seen += u32::from(texel[3] > 0);
             for c in 0..3 {
                 let off = (f64::from(found.output.data[i][c]) - expected[c]).abs();
-                assert!(off < OFF, "{way:?}, {i}: {:?}, expected {expected:?}", found.output.data[i]);
+                assert!(
+                    off < OFF,
+                    "{way:?}, {i}: {:?}, expected {expected:?}",
+                    found.output.data[i]
+                );
             }
         }
         assert!(seen > 200, "{seen} pixels with foam on the water");
@@ -254,8 +259,11 @@ fn foam_in_the_shade_is_darker() {
     for (i, texel) in shore.data.iter().enumerate() {
         if texel[0] > 0 || texel[1] > 0 {
             seen += 1;
-            let expected = if i % 96 < 48 { 0.0 } else { (i % 96) as f64 / 96.0 };
-            assert!((f64::from(texel[2]) / 255.0 - expected).abs() < 0.5 / 255.0 + 4.0 * U, "{i}: {texel:?}");
+            let expected = if i % 96 < 48 { 1.0 } else { 1.0 - (i % 96) as f64 / 96.0 };
+            assert!(
+                (f64::from(texel[2]) / 255.0 - expected).abs() < 0.5 / 255.0 + 4.0 * U,
+                "{i}: {texel:?}"
+            );
         }
     }
     assert!(seen > 1000, "{seen}");
@@ -281,10 +289,10 @@ fn a_bias_lets_the_surface_be_in_the_depth() {
         let shore = drawn.shore.expect("foam");
         shore.data.iter().filter(|c| c[0] > 0).count()
     };
-    let near = |bias| Shot { shore: shot.shore.map(|shore| Shore { bias, ..shore }), ..shot.clone() };
+    let near =
+        |bias| Shot { shore: shot.shore.map(|shore| Shore { bias, ..shore }), ..shot.clone() };
     let hidden = count(rig.draw(&near(0.0)));
     let seen = count(rig.draw(&near(0.2)));
     // Only beyond what the scene's depth has.
     assert!(hidden < 10 && seen > 500, "{hidden} and {seen}");
-    let _ = (Surface::Level(0.0), ShoreConfig::default());
 }

@@ -57,7 +57,12 @@ fn a_level_s_contacts_are_the_twin_s() {
     for (name, lens, contact, own) in [
         ("distance", Lens::Standard, base, false),
         ("view", Lens::Reversed, ContactLook { measure: Measure::View, ..base }, false),
-        ("vertical", Lens::ReversedInfinite, ContactLook { measure: Measure::Vertical, ..base }, false),
+        (
+            "vertical",
+            Lens::ReversedInfinite,
+            ContactLook { measure: Measure::Vertical, ..base },
+            false,
+        ),
         ("no mask", Lens::LeftHanded, ContactLook { mask: 0.0, opacity: 0.6, ..base }, false),
         ("host's", Lens::OffAxis, ContactLook { mask: 1.0, depth: 2.0, ..base }, true),
     ] {
@@ -137,7 +142,11 @@ fn contacts_on_particles_are_the_twin_s() {
     for (name, lens, contact) in [
         ("distance", Lens::Standard, ContactLook::default()),
         ("view", Lens::Reversed, ContactLook { measure: Measure::View, ..ContactLook::default() }),
-        ("vertical", Lens::LeftHanded, ContactLook { measure: Measure::Vertical, mask: 0.3, ..ContactLook::default() }),
+        (
+            "vertical",
+            Lens::LeftHanded,
+            ContactLook { measure: Measure::Vertical, mask: 0.3, ..ContactLook::default() },
+        ),
     ] {
         let contact = ContactLook { particle_opacity: 0.9, mask_scale: 0.3, ..contact };
         let mut shot = Shot::new(size, lens, 0.2, &points);

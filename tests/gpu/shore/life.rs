@@ -2,15 +2,17 @@
 
 use ash::vk;
 use glam::DVec2;
-use whitewater::shore::{ContactLook, Edge, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer};
+use whitewater::shore::{
+    ContactLook, Edge, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
+};
 use whitewater::{Config, Error, HostImage, Shore, Shoreline, Slot, Strip, Surface, Triangles};
 
-use super::shoreline::{AREA, amount, heights, plain};
+use super::shoreline::{AREA, heights, plain};
 use super::{Mapped, SAMPLED, Tally, shore_config, water, with_shore};
 use crate::reference::Image;
+use crate::reference::shore::exact;
 use crate::reference::shore::foam::{Pixel, Shoreline as Look, covered, shoreline};
 use crate::reference::shore::texture::Texture as Levels;
-use crate::reference::shore::exact;
 use crate::support::device::Gpu;
 use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Rig, Shot, config, extent, stream};
@@ -147,10 +149,8 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     let bytes = bytemuck::cast_slice(&around.data);
     let format = vk::Format::R32_SFLOAT;
     let image = rig.stub.uploaded(format, size, vk::ImageUsageFlags::SAMPLED, bytes, SAMPLED);
-    let rect = vk::Rect2D {
-        offset: vk::Offset2D { x: 4, y: 3 },
-        extent: extent(super::WEB, super::WEB),
-    };
+    let rect =
+        vk::Rect2D { offset: vk::Offset2D { x: 4, y: 3 }, extent: extent(super::WEB, super::WEB) };
     let image = HostImage { rect, ..image.host_image() };
     let cmd = rig.stub.begin(0);
     // SAFETY: cmd is recording; the slot's work is done; the image outlives it.
@@ -173,14 +173,14 @@ fn a_web_of_the_host_s_is_what_is_seen() {
         if point.depth.low() <= 0.0 || !(4.0..8.0).contains(&to.length()) {
             continue;
         }
-        let pixel = Pixel { place: point.place, v: exact(1.0), across: point.change, dv: [exact(0.0); 2] };
+        let pixel =
+            Pixel { place: point.place, v: exact(1.0), across: point.change, dv: [exact(0.0); 2] };
         let foam = shoreline(&look, noise, &web, &pixel);
         tally.add((x, y), texel[0], covered(foam.over, foam.variance, foam.change));
     }
     tally.check("host's web", 50, 0.1);
     rig.set_up();
     assert_eq!(rig.draw(&shot).shore.expect("foam").data, first.data, "the built-in again");
-    let _ = amount;
 }
 
 type Spoil = (&'static str, fn(&mut ShoreLook));
@@ -253,9 +253,15 @@ fn bad_looks_shores_and_configurations_name_their_field() {
         ("Frame.shore.up", Shore { up: [0.0, 0.5, 0.0], ..base }),
         ("Frame.shore.bias", Shore { bias: -1.0, ..base }),
         ("Frame.shore.surface", Shore { surface: Some(Surface::Level(f32::NAN)), ..base }),
-        ("Frame.shore.surface", Shore { surface: None, shoreline: Some(Shoreline::Screen), ..base }),
+        (
+            "Frame.shore.surface",
+            Shore { surface: None, shoreline: Some(Shoreline::Screen), ..base },
+        ),
         ("HostImage.rect", Shore { surface: Some(Surface::Depth(nowhere)), ..base }),
-        ("Frame.shore.shoreline.triangles", Shore { shoreline: of(|s| s.triangles.vertices = 5), ..base }),
+        (
+            "Frame.shore.shoreline.triangles",
+            Shore { shoreline: of(|s| s.triangles.vertices = 5), ..base },
+        ),
         (
             "Frame.shore.shoreline.triangles.positions",
             Shore { shoreline: of(|s| s.triangles.positions.stride = 4), ..base },

@@ -5,8 +5,8 @@ use glam::{DVec2, Mat4, Vec3};
 use whitewater::shore::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
 use whitewater::{Error, HostImage, Slot, Triangles};
 
-use super::shoreline::heights;
 use super::Mapped;
+use super::shoreline::heights;
 use crate::reference::Image;
 use crate::reference::shore::map::{Heights as Grid, Shore, difference};
 use crate::support::device::Gpu;
@@ -226,7 +226,8 @@ fn a_mesh_gives_what_its_heights_give() {
     // Of triangles of which a vertex is no number, or is not there, none is seen.
     let mut broken: Vec<[f32; 3]> = vec![[-100.0, 9.0, -100.0], [100.0, 9.0, -100.0]];
     broken.extend([[f32::NAN, 9.0, 0.0], [0.0, f32::INFINITY, 100.0], [2.0e18, 0.0, 0.0]]);
-    let broken = Mesh::new(&coasts, &broken, &[0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 77, 1, 0, u32::MAX]);
+    let broken =
+        Mesh::new(&coasts, &broken, &[0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 77, 1, 0, u32::MAX]);
     let meshes = [whole.mesh(Mat4::IDENTITY), broken.mesh(Mat4::IDENTITY)];
     coasts.step(&area, Heights::Meshes(&[whole.mesh(Mat4::IDENTITY)]), None);
     let alone = coasts.distances();
@@ -332,7 +333,8 @@ fn land_alone_sea_alone_and_no_numbers() {
         assert!(coasts.distances().data.iter().all(|v| *v == -2.0 * area.edge));
         // What is no number is sea: a hole in the land whose border is where it begins.
         let mut holed = heights(&area, size, |_| level + 1.0);
-        for (i, bad) in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0e30].into_iter().enumerate() {
+        for (i, bad) in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0e30].into_iter().enumerate()
+        {
             *holed.at_mut(5 + i, 7) = bad;
         }
         coasts.image_step(&area, &holed, None);
@@ -393,7 +395,9 @@ fn bad_maps_and_steps_name_their_field() {
         // SAFETY: the device outlives it.
         let made = unsafe { ShoreMap::new(&gpu.host(1), &ShoreMapConfig { size, max_meshes }) };
         match made {
-            Err(Error::BadInput { field: found, why }) => assert!(found == field && !why.is_empty()),
+            Err(Error::BadInput { field: found, why }) => {
+                assert!(found == field && !why.is_empty())
+            }
             _ => panic!("{field}: no error of it for {size}, {max_meshes}"),
         }
     }
@@ -412,7 +416,8 @@ fn bad_maps_and_steps_name_their_field() {
     let mut short = meshes[0];
     short.triangles.vertices = 1 << 24;
     let mut odd = meshes[0];
-    odd.triangles.indices = odd.triangles.indices.map(|(stream, n)| (whitewater::Stream { offset: 2, ..stream }, n));
+    odd.triangles.indices =
+        odd.triangles.indices.map(|(stream, n)| (whitewater::Stream { offset: 2, ..stream }, n));
     let bent = mesh.mesh(Mat4::from_cols_array(&[f32::NAN; 16]));
     let nowhere = HostImage { rect: extent(65, 64).into(), ..image };
     let mut refused = |field: &str, slot, area: &Area, heights: Heights<'_>, changed| {

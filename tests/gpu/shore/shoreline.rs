@@ -212,7 +212,8 @@ fn both_pipelines_draw_the_same() {
     half.scene_depth(|x, _| (x < 48).then_some(0.3));
     let found = rig.draw(&half).shore.expect("shoreline foam");
     for (i, (own, whole)) in found.data.iter().zip(&few.data).enumerate() {
-        let hidden = i % 96 < 48 && water.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]).depth.value > 0.3;
+        let hidden = i % 96 < 48
+            && water.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]).depth.value > 0.3;
         assert_eq!(own[0], if hidden { 0 } else { whole[0] }, "{i}");
     }
 }
@@ -254,7 +255,8 @@ fn time_goes_round_and_nothing_grows() {
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     let mut at = |time: f64, period: Option<f32>| {
         with_map(&coasts, &mut shot, &ShoreLook { time, period, ..plain() });
-        compared(&format!("at {time}"), &mut rig, &shot, &map, Edge::Smooth).check("time", 100, 0.05);
+        compared(&format!("at {time}"), &mut rig, &shot, &map, Edge::Smooth)
+            .check("time", 100, 0.05);
         rig.draw(&shot).shore.expect("shoreline foam")
     };
     let [first, half, again, long] =

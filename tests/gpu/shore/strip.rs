@@ -66,7 +66,8 @@ fn a_strip_s_foam_is_the_twin_s() {
         // A vertex is where a device snaps it to, and so is what is between them.
         let v = |x: usize, y: usize| {
             let point = point(x, y);
-            let step = point.change.map(|way| (ACROSS[0] * way[0].value + ACROSS[1] * way[1].value).abs());
+            let step =
+                point.change.map(|way| (ACROSS[0] * way[0].value + ACROSS[1] * way[1].value).abs());
             let v = v_at(point.place.map(|p| p.value));
             exact(v).wider((step[0] + step[1]) / bits + 16.0 * U * 4.0)
         };
@@ -119,9 +120,7 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
         let view = shot.view(size);
         let back = view.view.inverse();
         let eye = back.w_axis.truncate();
-        let at = |x: u32, y: u32| {
-            back.transform_vector3(view.ray(x as usize, y as usize))
-        };
+        let at = |x: u32, y: u32| back.transform_vector3(view.ray(x as usize, y as usize));
         // It rises beyond the line z = -6.
         let (normal, line) = (DVec3::new(0.0, 1.0, tangent), -6.0);
         shot.scene_depth(|x, y| {
@@ -152,7 +151,8 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
             let far = -bottom.y / tangent / reach;
             // Three depths, each off as its device depth is rounded, over a pixel's way along the bottom.
             let wide = behind * view.c_x().min(view.c_y());
-            let v = exact(1.0 - far).wider(far * 6.0 * off / (wide * tangent) + off / (tangent * reach));
+            let v = exact(1.0 - far)
+                .wider(far * 6.0 * off / (wide * tangent) + off / (tangent * reach));
             let v = v.clamp(0.0, 2.0);
             let dv = [exact(0.0); 2];
             let pixel = Pixel { place: own.place, v, across: own.change, dv };

@@ -53,7 +53,8 @@ fn borders(clipped: &Image<f64>) -> f64 {
     for y in 0..clipped.height - 1 {
         for x in 0..clipped.width - 1 {
             let own = clipped.at(x, y);
-            count += i32::from(own != clipped.at(x + 1, y)) + i32::from(own != clipped.at(x, y + 1));
+            count +=
+                i32::from(own != clipped.at(x + 1, y)) + i32::from(own != clipped.at(x, y + 1));
         }
     }
     f64::from(count) / clipped.data.len() as f64

@@ -47,8 +47,8 @@ pub struct Drawn {
     pub diffuse: Option<Diffused>,
     /// With bubble foam.
     pub soap: Option<Soaped>,
-    /// With shoreline and contact foam: along shores, at contacts on the host's surface, the sun's share of their light, on
-    /// the particles' water.
+    /// With shoreline and contact foam: along shores, at contacts on the host's surface, what of the sun's light does not
+    /// come there, on the particles' water.
     pub shore: Option<Image<[u8; 4]>>,
     /// The host's shadow map as a Fourier basis, all pages.
     pub shadow_basis: Option<Image<[f32; 4]>>,
