@@ -383,6 +383,36 @@ fn an_image_of_any_size_is_taken_in_between() {
     assert_eq!(coasts.distances().data, whole.data);
 }
 
+/// Two steps are submitted before the first is waited for, over and over: each slot has what is its own, the images are one.
+#[test]
+fn steps_of_two_slots_in_flight() {
+    let gpu = Gpu::shared();
+    let mut coasts = Mapped::with_slots(&gpu, 64, 2);
+    let area = area(64);
+    let islands = [3, 4].map(|seed| heights(&area, 64, islands(&area, 4.0, seed)));
+    let images = islands.each_ref().map(|image| coasts.image(image));
+    let expected = islands.each_ref().map(|image| {
+        coasts.image_step(&area, image, None);
+        coasts.distances()
+    });
+    for round in 0..3 {
+        for slot in 0..2_u32 {
+            let heights = Heights::Image(images[slot as usize].host_image());
+            let (before, after) = (HOST_WRITE, HOST_WRITE);
+            let step =
+                ShoreMapStep { slot: Slot(slot), area, heights, changed: None, before, after };
+            let cmd = coasts.stub.begin(slot);
+            let map = coasts.map.as_mut().expect("only drop takes it");
+            // SAFETY: the slot was waited for; the image lives to the end of this.
+            unsafe { map.record_step(cmd, &step) }.expect("a step");
+            coasts.stub.end(slot);
+        }
+        (0..2).for_each(|slot| coasts.stub.wait(slot));
+        assert_eq!(coasts.distances().data, expected[1].data, "{round}: the last is seen");
+    }
+    assert!(coasts.map.as_mut().is_some_and(|map| map.timings(Slot(1)).len() == 1));
+}
+
 #[test]
 fn bad_maps_and_steps_name_their_field() {
     let gpu = Gpu::shared();

@@ -59,11 +59,15 @@ struct Mapped<'g> {
 
 impl<'g> Mapped<'g> {
     fn new(gpu: &'g Gpu, size: u32) -> Self {
+        Self::with_slots(gpu, size, 1)
+    }
+
+    fn with_slots(gpu: &'g Gpu, size: u32, slots: u32) -> Self {
         let config = ShoreMapConfig { size, max_meshes: 4 };
         // SAFETY: the device outlives the map.
-        let map = unsafe { ShoreMap::new(&gpu.host(1), &config) };
+        let map = unsafe { ShoreMap::new(&gpu.host(slots), &config) };
         let map = Some(map.unwrap_or_else(|error| panic!("{error}")));
-        Self { gpu, stub: Stub::new(gpu, 1), map, size }
+        Self { gpu, stub: Stub::new(gpu, slots), map, size }
     }
 
     /// An image of heights.
