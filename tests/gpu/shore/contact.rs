@@ -76,7 +76,8 @@ fn a_level_s_contacts_are_the_twin_s() {
             Some(wall.min(bottom).clamp(0.2, 80.0))
         });
         let mask = own.then(|| texture.host_image());
-        shot.shore = Some(Shore { mask, ..Shore::new(0.25) });
+        // What is before the surface by less than the bias counts as behind it: there is no foam all the same.
+        shot.shore = Some(Shore { mask, bias: 0.05, ..Shore::new(0.25) });
         shot.settings.shore = look(contact);
         let found = rig.draw(&shot).shore.expect("contact foam");
         let [twin, _] = twins(&shot.settings.shore, shot.settings.water.spacing);
