@@ -14,7 +14,7 @@ use crate::support::host::{Data, HOST_WRITE};
 use crate::support::rig::{extent, stream};
 use crate::support::scenes::Random;
 
-/// Texels a metre of the areas here: distances are in quarters of a metre a texel.
+/// Metres a texel of the areas here.
 const TEXEL: f64 = 0.25;
 
 fn area(size: u32) -> Area {
@@ -111,17 +111,13 @@ fn circles_and_lines_are_as_far_as_they_are() {
         for (i, found) in found.data.iter().enumerate() {
             let at = corner + TEXEL * DVec2::new((i % 128) as f64 + 0.5, (i / 128) as f64 + 0.5);
             let off = (f64::from(*found) - circle(at)).abs() / TEXEL;
-            (most, mean) = (most.max(off), mean + off / found_len());
+            (most, mean) = (most.max(off), mean + off / (128.0 * 128.0));
         }
         println!("circle of {radius} m: {most:.4} texels at most, {mean:.4} in the mean");
         // A place in sixteenths is off by 1/32 texel each way, 0.044; of a chord of a texel 1/8r more, r in texels.
         let chord = TEXEL / (8.0 * radius);
         assert!(most < bounds[0] + chord && mean < bounds[1] + chord, "{most} {mean}");
     }
-}
-
-fn found_len() -> f64 {
-    128.0 * 128.0
 }
 
 /// Triangles between the middles of the texels, and beyond the map's edge as at it.
@@ -331,6 +327,14 @@ fn land_alone_sea_alone_and_no_numbers() {
         // At the water's height is sea.
         coasts.image_step(&area, &heights(&area, size, |_| level), None);
         assert!(coasts.distances().data.iter().all(|v| *v == -2.0 * area.edge));
+        // Beside land the line goes through the first middles that are at it.
+        let [x0, _] = area.corner(size).map(f64::from);
+        let half = |p: DVec2| level + f64::from(u8::from(p.x > x0 + 5.0 * TEXEL));
+        coasts.image_step(&area, &heights(&area, size, half), None);
+        for (i, found) in coasts.distances().data.iter().enumerate() {
+            let expected = TEXEL * ((i % size as usize) as f64 - 4.0);
+            assert!((f64::from(*found) - expected).abs() < 1.0e-5 * expected.abs().max(1.0), "{i}");
+        }
         // What is no number is sea: a hole in the land whose border is where it begins.
         let mut holed = heights(&area, size, |_| level + 1.0);
         for (i, bad) in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0e30].into_iter().enumerate()

@@ -25,7 +25,7 @@ use crate::reference::shore::texture::Texture as Levels;
 use crate::reference::shore::{Bounded, Clock, U, Water, exact};
 use crate::support::device::Gpu;
 use crate::support::host::{HOST_WRITE, Stub, Texture};
-use crate::support::rig::{Rig, Shot, config, extent};
+use crate::support::rig::{Shot, config, extent};
 
 /// How distances and heights lie between a host's commands.
 const SAMPLED: Access = Access::new(

@@ -114,7 +114,7 @@ fn far_foam_covers_what_near_foam_does() {
     let gpu = Gpu::shared();
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
-    let mut drawn = |width: u32, edge| {
+    let drawn = |width: u32, edge| {
         let size = extent(width, width);
         let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
         // From above, 20 m.
