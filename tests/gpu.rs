@@ -58,6 +58,8 @@ mod sea;
 mod shading;
 #[path = "gpu/sheets/mod.rs"]
 mod sheets;
+#[path = "gpu/shore/mod.rs"]
+mod shore;
 #[path = "gpu/smooth.rs"]
 mod smooth;
 #[path = "gpu/spied.rs"]

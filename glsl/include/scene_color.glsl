@@ -12,19 +12,20 @@ vec3 under(vec3 sun) {
     return mix(frame.shade.rgb, vec3(1.0), sun);
 }
 
-// Along shores, at contacts on the host's surface, the sun's share of their light, on the particles' water.
+// Along shores, at contacts on the host's surface, what of the sun's light does not come there, on the particles'
+// water.
 vec4 coat_at(vec2 pixel) {
     vec2 place = clamp(pixel, vec2(0.5), frame.extent.xy - 0.5) / vec2(textureSize(shore_foam, 0));
     return textureLod(shore_foam, place, 0.0);
 }
 
-vec3 with_contact(vec3 c, float amount, float sun) {
-    vec3 light = mix(vec3(1.0), under(vec3(sun)), frame.contact_color.w);
+vec3 with_contact(vec3 c, float amount, float lost) {
+    vec3 light = mix(vec3(1.0), under(vec3(1.0 - lost)), frame.contact_color.w);
     return mix(c, frame.contact_color.rgb * light, amount);
 }
 
 vec3 coated(vec3 c, vec4 coat) {
-    c = mix(c, frame.shore_color.rgb * under(vec3(coat.z)), coat.x * frame.shore_color.w);
+    c = mix(c, frame.shore_color.rgb * under(vec3(1.0 - coat.z)), coat.x * frame.shore_color.w);
     return with_contact(c, coat.y, coat.z);
 }
 

@@ -19,7 +19,8 @@ float height_at(ivec2 texel) {
     for (int i = 0; i < 4; ++i) {
         ivec2 at = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), ivec2(push.part.zw) - 1) + ivec2(push.part.xy);
         float weight = ((i & 1) == 0 ? 1.0 - f.x : f.x) * (i < 2 ? 1.0 - f.y : f.y);
-        sum += weight * texelFetch(heights, at, 0).x;
+        // Beside a texel's middle what is no number is no matter.
+        sum += weight > 0.0 ? weight * texelFetch(heights, at, 0).x : 0.0;
     }
     // What is no number is no land.
     return abs(sum) < 1.0e18 ? sum - push.level : -1.0e3;

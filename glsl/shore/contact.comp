@@ -1,7 +1,7 @@
 #version 460
 // Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam), whose surface is the smoothed one.
-// Reads: depth, smoothed, levels, scene depth, web, mask, what sunlight.glsl reads. Writes: contact foam, and the sun's
-// share of its light, of the pixels that have some.
+// Reads: depth, smoothed, levels, scene depth, web, mask, what sunlight.glsl reads. Writes: contact foam, and what of the
+// sun's light does not come there, of the pixels that have some.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -40,7 +40,7 @@ void main() {
         amount *= shore.mask_part.w;
         if (amount > 0.0) {
             vec4 there = imageLoad(foam, texel);
-            imageStore(foam, texel, vec4(there.xy, sun_share(ray * z, pixel), amount));
+            imageStore(foam, texel, vec4(there.xy, sun_lost(ray * z, pixel), amount));
         }
     }
 }

@@ -15,14 +15,31 @@ layout(push_constant, std430) uniform Push {
     uint vertices;
 } push;
 
+// Vertex of a corner of the triangles; as many as there are where it is none.
+uint vertex_of(uint corner) {
+    uint i = push.index_stride > 0u ? indices[push.index_word + corner * push.index_stride] : corner;
+    return min(i, push.vertices);
+}
+
+vec4 vertex_at(uint i) {
+    uint at = push.position_word + i * push.position_stride;
+    return vec4(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
+}
+
 void main() {
-    uint i = uint(gl_VertexIndex);
-    i = push.index_stride > 0u ? indices[push.index_word + i * push.index_stride] : i;
-    bool there = i < push.vertices;
-    uint at = push.position_word + (there ? i : 0u) * push.position_stride;
-    vec4 own = vec4(positions[at], positions[at + 1u], positions[at + 2u], 1.0);
-    there = there && all(lessThan(abs(own), vec4(1.0e18)));
+    uint own = uint(gl_VertexIndex);
+    // A triangle is whole or is none: one of its corners moved away would leave a part of another.
+    bool there = true;
+    vec4 vertex = vec4(0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        uint corner = own - own % 3u + k;
+        uint i = vertex_of(corner);
+        bool known = i < push.vertices;
+        vec4 other = vertex_at(known ? i : 0u);
+        there = there && known && all(lessThan(abs(other), vec4(1.0e18)));
+        vertex = corner == own ? other : vertex;
+    }
     // What is higher or lower than the range is as high as that: an island's peak is land.
-    vec3 place = vec3(dot(push.east, own), dot(push.north, own), clamp(dot(push.height, own), 0.0, 1.0));
+    vec3 place = vec3(dot(push.east, vertex), dot(push.north, vertex), clamp(dot(push.height, vertex), 0.0, 1.0));
     gl_Position = there ? vec4(place, 1.0) : vec4(0.0, 0.0, -1.0, 1.0);
 }

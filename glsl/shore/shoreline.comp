@@ -3,7 +3,7 @@
 // and round what stands in it (Lettier, Foam).
 // Not in the sources: no mesh; what a pixel covers of the foam, where they clip.
 // Reads: list of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
-// foam, contact foam, the sun's share of their light.
+// foam, contact foam, what of the sun's light does not come there.
 
 #include "frame.glsl"
 #include "shore.glsl"
@@ -87,6 +87,6 @@ void main() {
     if (line + amount > 0.0) {
         // Where there is a strip its foam is here.
         float strip = PARTS == 2u ? imageLoad(foam, ivec2(texel)).x : 0.0;
-        imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_share(ray * z, pixel), 0.0));
+        imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_lost(ray * z, pixel), 0.0));
     }
 }

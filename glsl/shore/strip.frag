@@ -1,6 +1,7 @@
 #version 460
 // Pass `shoreline`: foam of the host's strip, by its own v (blog, Sec. IV to VIII).
-// Reads: scene depth, noise, web, what sunlight.glsl reads. Writes: shoreline foam, the sun's share of its light.
+// Reads: scene depth, noise, web, what sunlight.glsl reads. Writes: shoreline foam, what of the sun's light does not
+// come there.
 
 #include "frame.glsl"
 #include "shore.glsl"
@@ -26,9 +27,9 @@ void main() {
     float line = covered(shoreline_at(w.p, v, w.across, dv), pixel);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     line *= seen_before(z, scene) && v > 0.0 && v < 2.0 ? 1.0 : 0.0;
-    float sun = 1.0;
+    float lost = 0.0;
     for (bool go = line > 0.0; go; go = false) {
-        sun = sun_share(eye, pixel);
+        lost = sun_lost(eye, pixel);
     }
-    foam = vec4(line, 0.0, sun, 0.0);
+    foam = vec4(line, 0.0, lost, 0.0);
 }

@@ -20,17 +20,34 @@ layout(push_constant, std430) uniform Push {
 layout(location = 0) out vec3 eye;
 layout(location = 1) out float v;
 
-void main() {
-    uint i = uint(gl_VertexIndex);
-    i = push.index_stride > 0u ? indices[push.index_word + i * push.index_stride] : i;
-    bool there = i < push.vertices;
-    i = there ? i : 0u;
+// Vertex of a corner of the triangles; as many as there are where it is none.
+uint vertex_of(uint corner) {
+    uint i = push.index_stride > 0u ? indices[push.index_word + corner * push.index_stride] : corner;
+    return min(i, push.vertices);
+}
+
+// World place and v.
+vec4 vertex_at(uint i) {
     uint at = push.position_word + i * push.position_stride;
-    vec3 world = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
-    v = across[push.v_word + i * push.v_stride];
-    eye = (frame.view * vec4(world, 1.0)).xyz;
+    return vec4(positions[at], positions[at + 1u], positions[at + 2u], across[push.v_word + i * push.v_stride]);
+}
+
+void main() {
+    uint own = uint(gl_VertexIndex);
+    // A triangle is whole or is none: one of its corners moved away would leave a part of another.
+    bool there = true;
+    vec4 vertex = vec4(0.0);
+    for (uint k = 0u; k < 3u; ++k) {
+        uint corner = own - own % 3u + k;
+        uint i = vertex_of(corner);
+        bool known = i < push.vertices;
+        vec4 other = vertex_at(known ? i : 0u);
+        there = there && known && all(lessThan(abs(other), vec4(1.0e18)));
+        vertex = corner == own ? other : vertex;
+    }
+    v = vertex.w;
+    eye = (frame.view * vec4(vertex.xyz, 1.0)).xyz;
     vec2 clip = frame.projection.xy * eye.xy + frame.projection.zw * eye.z;
     // Clipped at the near plane; else its depth is compared with the scene's where it is shaded.
-    bool finite = all(lessThan(abs(vec4(eye, v)), vec4(1.0e18)));
-    gl_Position = there && finite ? vec4(clip, -eye.z - frame.depth.z, -eye.z) : vec4(0.0, 0.0, -1.0, 1.0);
+    gl_Position = there ? vec4(clip, -eye.z - frame.depth.z, -eye.z) : vec4(0.0, 0.0, -1.0, 1.0);
 }

@@ -399,7 +399,8 @@ impl Shore {
         Ok(())
     }
 
-    /// The foam: along shores, at contacts on the host's surface, the sun's share of their light, on the particles' water.
+    /// The foam: along shores, at contacts on the host's surface, what of the sun's light does not come there, on the
+    /// particles' water.
     pub fn image(&self) -> &Image {
         self.shoreline.image()
     }

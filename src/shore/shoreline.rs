@@ -4,7 +4,7 @@
 //! What a pixel's foam is comes of its place on the surface alone: it needs the scene's depth and no mesh. Tiles that may
 //! have some are found first; a strip of the host's is drawn before them.
 //! Reads: scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam, RGBA8: along shores,
-//! at contacts, the sun's share of their light, 0 (`contact`'s).
+//! at contacts, what of the sun's light does not come there, 0 (`contact`'s).
 
 use ash::vk;
 use bytemuck::NoUninit;

@@ -26,6 +26,7 @@ pub mod motion;
 pub mod noise;
 pub mod reduce;
 pub mod sheets;
+pub mod shore;
 pub mod smooth;
 pub mod spray;
 pub mod surface;

@@ -47,6 +47,9 @@ pub struct Drawn {
     pub diffuse: Option<Diffused>,
     /// With bubble foam.
     pub soap: Option<Soaped>,
+    /// With shoreline and contact foam: along shores, at contacts on the host's surface, what of the sun's light does not
+    /// come there, on the particles' water.
+    pub shore: Option<Image<[u8; 4]>>,
     /// The host's shadow map as a Fourier basis, all pages.
     pub shadow_basis: Option<Image<[f32; 4]>>,
     pub work: Work,
@@ -77,6 +80,7 @@ impl Drawn {
             caustics: None,
             diffuse: None,
             soap: None,
+            shore: None,
             shadow_basis: None,
             work: Work::default(),
         }
@@ -291,6 +295,14 @@ impl Rig<'_> {
                 }
                 "bubbles.color" => soap.as_mut().expect("layers").color = self.fours(layer),
                 "bubbles.film" => soap.as_mut().expect("layers").film = self.fours(layer),
+                "shore" => {
+                    assert_eq!(layer.format, vk::Format::R8G8B8A8_UNORM);
+                    let bytes = self.bytes(layer, whole);
+                    let data = bytes.chunks_exact(4).map(bytemuck::pod_read_unaligned).collect();
+                    let (width, height) =
+                        (layer.extent.width as usize, layer.extent.height as usize);
+                    drawn.shore = Some(Image { width, height, data });
+                }
                 other => panic!("an unknown layer {other}"),
             }
         }

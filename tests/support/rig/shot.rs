@@ -2,7 +2,7 @@
 
 use ash::vk;
 use whitewater::headless::Bubble;
-use whitewater::{Camera, Frame, HostImage, Particles, Previous, Settings, Slot, Sun};
+use whitewater::{Camera, Frame, HostImage, Particles, Previous, Settings, Shore, Slot, Sun};
 
 use super::extent;
 use crate::reference::{Image, Sphere, View};
@@ -29,6 +29,8 @@ pub struct Shot {
     pub densities: Option<Vec<f32>>,
     /// Drawn where a renderer draws bubble foam.
     pub blobs: Vec<Bubble>,
+    /// Shoreline and contact foam; what it is of outlives the draw.
+    pub shore: Option<Shore>,
     /// The scene's colour, of the output's size.
     pub color: Vec<[f32; 4]>,
     /// The scene's device depth and its size.
@@ -51,6 +53,7 @@ impl Shot {
             settings: scenes::settings(radius),
             densities: None,
             blobs: Vec::new(),
+            shore: None,
             color: Vec::new(),
             depth: Vec::new(),
             depth_extent: size,
@@ -77,7 +80,7 @@ impl Shot {
             camera: self.camera,
             diffuse: None,
             bubbles: None,
-            shore: None,
+            shore: self.shore,
             sun: self.sun,
             previous: self.previous,
             settings: &self.settings,

@@ -1,0 +1,298 @@
+//! Foam of shores and contacts in the picture: a coat on the scene, under the particles' water as over it.
+
+use glam::{DVec2, DVec3};
+use whitewater::shore::{Edge, ShoreLook};
+use whitewater::water::{Shading, Shadows};
+use whitewater::{Config, Shadow, Shore, Shoreline};
+
+use super::shoreline::{AREA, heights, plain};
+use super::{Mapped, U, water, with_shore};
+use crate::reference::Image;
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+
+const WAYS: [Shading; 2] = [Shading::Raster, Shading::Compute];
+
+fn land(at: DVec2) -> f64 {
+    0.4 * (4.0 - (at - DVec2::new(7.0, -5.0)).length())
+}
+
+fn coasts(gpu: &Gpu) -> Mapped<'_> {
+    let mut coasts = Mapped::new(gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    coasts
+}
+
+/// Foam of both kinds, in colours and light of three different channels.
+fn look() -> ShoreLook {
+    let mut look = plain();
+    (look.shoreline.color, look.shoreline.opacity) = ([0.9, 0.5, 0.25], 0.8);
+    let c = &mut look.contact;
+    (c.color, c.lit, c.depth, c.opacity) = ([0.6, 0.7, 0.8], 0.5, 1.5, 0.9);
+    look
+}
+
+/// A bottom under the level that comes up to it, and foam along the map's shore.
+fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
+    let size = extent(96, 64);
+    let mut shot = Shot::new(size, Lens::Standard, 0.2, points);
+    let level = water(&shot, DVec3::Y, 0.0);
+    shot.scene_depth(|x, y| {
+        let z = level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]).depth.value;
+        (z > 0.0 && z < 90.0).then(|| z + 0.02 * f64::from(x))
+    });
+    shot.settings.shore = look();
+    shot.settings.light.irradiance = [2.0, 3.0, 4.0];
+    shot.settings.light.shade = [0.5, 1.0, 0.25];
+    let shoreline = Some(Shoreline::Map(coasts.coast()));
+    shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+    shot
+}
+
+/// The coat over a colour, by the foam that was found.
+fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [f64; 4] {
+    let part = texel.map(|v| f64::from(v) / 255.0);
+    let (s, c) = (&shot.settings.shore.shoreline, &shot.settings.shore.contact);
+    let light = &shot.settings.light;
+    let mut color = under.map(f64::from);
+    for i in 0..3 {
+        let whole = f64::from(light.irradiance[i]);
+        let shade = f64::from(light.shade[i]) / whole;
+        let sun = shade + (1.0 - shade) * (1.0 - part[2]);
+        let mix = |a: f64, b: f64, t: f64| a * (1.0 - t) + b * t;
+        let white = whole / std::f64::consts::PI;
+        let shore = f64::from(s.color[i]) * white * sun;
+        color[i] = mix(color[i], shore, part[0] * f64::from(s.opacity));
+        let lit = f64::from(c.lit);
+        let contact = f64::from(c.color[i]) * mix(1.0, white, lit) * mix(1.0, sun, lit);
+        if over_contact {
+            color[i] = mix(color[i], contact, part[1]);
+        }
+    }
+    color[3] = 1.0;
+    color
+}
+
+/// Filters know a place to some u of the image's width, and a channel changes by no more than about 2 from texel to texel;
+/// sums and products are some tens.
+const OFF: f64 = 2.0 * 4.0 * 96.0 * U + 40.0 * U;
+
+fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
+    let shore = drawn.shore.as_ref().expect("foam");
+    let mut seen = 0;
+    for (i, texel) in shore.data.iter().enumerate() {
+        let (found, under) = (drawn.output.data[i], shot.color[i]);
+        if texel[0] == 0 && texel[1] == 0 {
+            assert_eq!(found, under, "{name}: {i} has no foam");
+            continue;
+        }
+        seen += 1;
+        let expected = coated(shot, *texel, under, true);
+        for c in 0..4 {
+            let off = (f64::from(found[c]) - expected[c]).abs();
+            assert!(off < OFF, "{name}: {i}: {found:?}, expected {expected:?}, foam {texel:?}");
+        }
+    }
+    seen
+}
+
+/// Without particles the picture is the scene with the coat; in place or not, as a part of the host's images, by draws or
+/// by compute. No Frame.shore, or no foam in it, leaves the scene as it was.
+#[test]
+fn the_coat_lies_on_the_scene() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let shot = shot(&coasts, &[]);
+    let mut pictures = Vec::new();
+    for way in WAYS {
+        let config = Config { composite: Some(way), ..with_shore(shot.size, Edge::Smooth) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let name = format!("{way:?}");
+        let drawn = rig.draw(&shot);
+        assert!(check(&name, &shot, &drawn) > 1000, "{name}");
+        let part = Shot { margin: [13, 30, 7, 21], ..shot.clone() };
+        let found = rig.draw(&part);
+        compare::same_color("shore-part", &found.output, &drawn.output);
+        let (_, rect) = part.with_margin(part.size);
+        for (i, texel) in found.whole.data.iter().enumerate() {
+            let (x, y) = ((i % found.whole.width) as i32, (i / found.whole.width) as i32);
+            let inside =
+                (0..96).contains(&(x - rect.offset.x)) && (0..64).contains(&(y - rect.offset.y));
+            assert!(inside || *texel == crate::support::rig::AROUND, "({x}, {y}) was written");
+        }
+        rig.config.in_place = false;
+        compare::same_color("shore-apart", &rig.draw(&shot).output, &drawn.output);
+        rig.config.in_place = true;
+        let none = Shot { shore: None, ..shot.clone() };
+        assert_eq!(rig.draw(&none).output.data, shot.color, "{name}: without foam");
+        pictures.push(drawn.output);
+    }
+    compare::same_color("shore-ways", &pictures[0], &pictures[1]);
+}
+
+/// What a frame without foam gives is what a renderer that knows none gives, bit for bit; and so is each pixel far from it.
+#[test]
+fn no_foam_is_no_change() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let points = scenes::block(3, 0.25, [10, 6, 4], [-1.6, -0.4, 3.0]);
+    let shot = shot(&coasts, &points);
+    let none = Shot { shore: None, ..shot.clone() };
+    for way in WAYS {
+        let plain = Config { composite: Some(way), ..config(shot.size) };
+        let with = Config { shore: with_shore(shot.size, Edge::Smooth).shore, ..plain };
+        let expected = Rig::lit(&gpu, &plain, 1).draw(&none);
+        let mut rig = Rig::lit(&gpu, &with, 1);
+        compare::same_color("shore-none", &rig.draw(&none).output, &expected.output);
+        let found = rig.draw(&shot);
+        let shore = found.shore.as_ref().expect("foam");
+        let mut alike = 0;
+        for i in 0..shore.data.len() {
+            let dry = f64::from(found.depth.data[i]) > 1.0e9;
+            if dry && shore.data[i][..2] == [0, 0] {
+                alike += 1;
+                assert_eq!(found.output.data[i], expected.output.data[i], "{i}");
+            }
+        }
+        assert!(alike > 1000, "{alike} pixels without foam");
+    }
+}
+
+/// Through the particles' water foam is seen as if it were the scene's own: over a scene of one colour, what the water shows
+/// of it is what it shows of a scene that is coated beforehand.
+#[test]
+fn foam_is_seen_through_water() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    // Over the shore.
+    let points = scenes::block(3, 0.25, [14, 8, 3], [-1.6, -1.0, 3.0]);
+    let mut shot = shot(&coasts, &points);
+    shot.color.fill([0.3, 0.5, 0.7, 0.75]);
+    shot.settings.shore.contact.opacity = 0.0;
+    shot.settings.water.refraction = 0.3;
+    for way in WAYS {
+        let plain = Config { composite: Some(way), ..config(shot.size) };
+        let with = Config { shore: with_shore(shot.size, Edge::Smooth).shore, ..plain };
+        let found = Rig::lit(&gpu, &with, 1).draw(&shot);
+        let shore = found.shore.as_ref().expect("foam");
+        let mut other = Shot { shore: None, ..shot.clone() };
+        for (color, texel) in other.color.iter_mut().zip(&shore.data) {
+            *color = coated(&shot, *texel, *color, false).map(|v| v as f32);
+        }
+        let mut rig = Rig::lit(&gpu, &plain, 1);
+        let expected = rig.draw(&other);
+        let bare = rig.draw(&Shot { shore: None, ..shot.clone() });
+        let (mut wet, mut changed) = (0, 0);
+        for i in 0..shore.data.len() {
+            if f64::from(found.depth.data[i]) > 1.0e9 {
+                continue;
+            }
+            wet += 1;
+            let (found, expected) = (found.output.data[i], expected.output.data[i]);
+            for c in 0..3 {
+                let off = (found[c] - expected[c]).abs();
+                // A place off by 1/256 in the filter moves both by a difference of two texels.
+                assert!(off < 2.0 / 256.0, "{way:?}, {i}: {found:?}, expected {expected:?}");
+            }
+            changed += i32::from((expected[0] - bare.output.data[i][0]).abs() > 0.05);
+        }
+        println!("{way:?}: of {wet} pixels of water {changed} show foam");
+        assert!(wet > 500 && changed > 50, "{way:?}: {wet} {changed}");
+    }
+}
+
+/// Contact foam on the particles' water is on top of it.
+#[test]
+fn contacts_lie_on_the_water() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
+    let mut shot = shot(&coasts, &points);
+    shot.scene_depth(|x, _| Some(3.6 + 0.02 * f64::from(x)));
+    shot.shore = Some(Shore { surface: None, ..Shore::new(0.0) });
+    shot.settings.shore.contact.particle_opacity = 0.9;
+    for way in WAYS {
+        let config = Config { composite: Some(way), ..with_shore(shot.size, Edge::Smooth) };
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let found = rig.draw(&shot);
+        let bare = rig.draw(&Shot { shore: None, ..shot.clone() });
+        let shore = found.shore.as_ref().expect("foam");
+        let mut seen = 0;
+        for (i, texel) in shore.data.iter().enumerate() {
+            let under = bare.output.data[i];
+            let covered = [0, texel[3], texel[2], 0];
+            let expected = coated(&shot, covered, under, true);
+            seen += u32::from(texel[3] > 0);
+            for c in 0..3 {
+                let off = (f64::from(found.output.data[i][c]) - expected[c]).abs();
+                assert!(
+                    off < OFF,
+                    "{way:?}, {i}: {:?}, expected {expected:?}",
+                    found.output.data[i]
+                );
+            }
+        }
+        assert!(seen > 200, "{seen} pixels with foam on the water");
+    }
+}
+
+/// Where the sun does not come foam has what comes without it: by a mask that is the sun's share itself.
+#[test]
+fn foam_in_the_shade_is_darker() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let mut shot = shot(&coasts, &[]);
+    let config = Config { shadow: Some(Shadows::Mask), ..with_shore(shot.size, Edge::Smooth) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut shade = shot.clone();
+    for (i, color) in shade.color.iter_mut().enumerate() {
+        *color = [if i % 96 < 48 { 0.0 } else { (i % 96) as f32 / 96.0 }, 0.0, 0.0, 0.0];
+    }
+    let (image, _depth) = rig.scene(&shade);
+    let view_projection = shot.camera.projection * shot.camera.view;
+    shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.1 });
+    let drawn = rig.draw(&shot);
+    let shore = drawn.shore.as_ref().expect("foam");
+    let mut seen = 0;
+    for (i, texel) in shore.data.iter().enumerate() {
+        if texel[0] > 0 || texel[1] > 0 {
+            seen += 1;
+            let expected = if i % 96 < 48 { 1.0 } else { 1.0 - (i % 96) as f64 / 96.0 };
+            assert!(
+                (f64::from(texel[2]) / 255.0 - expected).abs() < 0.5 / 255.0 + 4.0 * U,
+                "{i}: {texel:?}"
+            );
+        }
+    }
+    assert!(seen > 1000, "{seen}");
+    let mut lit = Image::new(96, 64, [0.0_f32; 4]);
+    lit.data.copy_from_slice(&drawn.output.data);
+    assert!(lit.data.iter().all(|c| c.iter().all(|v| v.is_finite())));
+    check("shade", &shot, &drawn);
+}
+
+/// A surface that the scene's depth has itself is seen with the bias that says so.
+#[test]
+fn a_bias_lets_the_surface_be_in_the_depth() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let mut shot = shot(&coasts, &[]);
+    let level = water(&shot, DVec3::Y, 0.0);
+    shot.scene_depth(|x, y| {
+        let z = level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]).depth.value;
+        (z > 0.0 && z < 50.0).then(|| z - 0.05)
+    });
+    let mut rig = Rig::lit(&gpu, &with_shore(shot.size, Edge::Smooth), 1);
+    let count = |drawn: Drawn| {
+        let shore = drawn.shore.expect("foam");
+        shore.data.iter().filter(|c| c[0] > 0).count()
+    };
+    let near =
+        |bias| Shot { shore: shot.shore.map(|shore| Shore { bias, ..shore }), ..shot.clone() };
+    let hidden = count(rig.draw(&near(0.0)));
+    let seen = count(rig.draw(&near(0.2)));
+    // Only beyond what the scene's depth has.
+    assert!(hidden < 10 && seen > 500, "{hidden} and {seen}");
+}

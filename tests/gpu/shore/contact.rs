@@ -1,0 +1,188 @@
+//! Contact foam on a level surface of the host's and on the particles' water, against the twin.
+
+use ash::vk;
+use glam::DVec3;
+use whitewater::Shore;
+use whitewater::shore::{ContactLook, Edge, Measure, ShoreLook};
+
+use super::{Tally, clock, measure_of, textures, water, with_shore};
+use crate::reference::Image;
+use crate::reference::shore::{Bounded, Contact, U, exact};
+use crate::support::device::Gpu;
+use crate::support::host::Texture;
+use crate::support::rig::{Rig, Shot, extent};
+use crate::support::scenes::{self, Lens};
+
+use super::SAMPLED;
+
+/// A look, and its twin on the host's surface and on the particles'.
+fn twins(look: &ShoreLook, spacing: f32) -> [Contact; 2] {
+    let c = &look.contact;
+    let depths = [c.depth, c.particle_depth.unwrap_or(4.0 * spacing)];
+    let opacities = [c.opacity, c.particle_opacity];
+    [0, 1].map(|i| {
+        let numbers = [depths[i], c.mask, c.mask_scale, opacities[i]];
+        Contact::new(clock(look), measure_of(c.measure), numbers, c.mask_speed)
+    })
+}
+
+fn look(contact: ContactLook) -> ShoreLook {
+    ShoreLook { time: 3.25, contact, ..ShoreLook::default() }
+}
+
+/// The depth of the scene as single precision finds it.
+fn scene_of(shot: &Shot, i: usize) -> Option<Bounded> {
+    let view = shot.view(shot.size);
+    let device = exact(f64::from(shot.depth[i]));
+    let z = exact(view.projection.w_axis.z) / (device + view.projection.z_axis.z);
+    (z.low() > 0.0 && z.high() < 1.0e3).then_some(z)
+}
+
+/// A mask of the host's, over the view.
+fn mask(rig: &Rig<'_>) -> (Texture, Image<f32>) {
+    let image = Image::from_fn(24, 16, |x, y| (x * 5 + y * 3) as f32 % 7.0 / 5.0 - 0.1);
+    let usage = vk::ImageUsageFlags::SAMPLED;
+    let format = vk::Format::R32_SFLOAT;
+    let bytes = bytemuck::cast_slice(&image.data);
+    (rig.stub.uploaded(format, extent(24, 16), usage, bytes, SAMPLED), image)
+}
+
+#[test]
+fn a_level_s_contacts_are_the_twin_s() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let (texture, pattern) = mask(&rig);
+    let base = ContactLook { depth: 0.8, mask_scale: 0.3, ..ContactLook::default() };
+    for (name, lens, contact, own) in [
+        ("distance", Lens::Standard, base, false),
+        ("view", Lens::Reversed, ContactLook { measure: Measure::View, ..base }, false),
+        (
+            "vertical",
+            Lens::ReversedInfinite,
+            ContactLook { measure: Measure::Vertical, ..base },
+            false,
+        ),
+        ("no mask", Lens::LeftHanded, ContactLook { mask: 0.0, opacity: 0.6, ..base }, false),
+        ("host's", Lens::OffAxis, ContactLook { mask: 1.0, depth: 2.0, ..base }, true),
+    ] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        let level = water(&shot, DVec3::Y, 0.25);
+        // A wall that leans, and a bottom that falls away.
+        shot.scene_depth(|x, y| {
+            let z = level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]).depth.value;
+            let wall = 5.0 + 0.03 * f64::from(x) - 0.01 * f64::from(y);
+            let bottom = if z > 0.0 { z + 0.004 * (f64::from(x) - 20.0) } else { 80.0 };
+            Some(wall.min(bottom).clamp(0.2, 80.0))
+        });
+        let mask = own.then(|| texture.host_image());
+        // What is before the surface by less than the bias counts as behind it: there is no foam all the same.
+        shot.shore = Some(Shore { mask, bias: 0.05, ..Shore::new(0.25) });
+        shot.settings.shore = look(contact);
+        let found = rig.draw(&shot).shore.expect("contact foam");
+        let [twin, _] = twins(&shot.settings.shore, shot.settings.water.spacing);
+        let [_, web] = textures();
+        let mut tally = Tally::default();
+        for (i, texel) in found.data.iter().enumerate() {
+            let (x, y) = (i % found.width, i / found.width);
+            assert_eq!(texel[0], 0, "no shore");
+            let point = level.at([x as f64 + 0.5, y as f64 + 0.5]);
+            let Some(scene) = scene_of(&shot, i).filter(|_| point.depth.low() > 0.0) else {
+                if point.depth.high() < 0.0 {
+                    tally.add((x, y), texel[1], exact(0.0));
+                }
+                continue;
+            };
+            let up = [level.up[0], level.up[1], level.up[2]];
+            let t = twin.part([point.depth, scene], point.ray, up);
+            let masked = if own {
+                twin.mask_of(exact(f64::from(pattern.at(x / 4, y / 4))))
+            } else {
+                twin.masked(web, point.place, point.width)
+            };
+            tally.add((x, y), texel[1], twin.amount(t, masked));
+        }
+        tally.check(name, 100, 0.05);
+        // Of no opacity there is none.
+        shot.settings.shore.contact.opacity = 0.0;
+        let found = rig.draw(&shot).shore.expect("contact foam");
+        assert!(found.data.iter().all(|c| *c == [0; 4]), "{name}: of no opacity");
+    }
+}
+
+/// The smoothed surface at a pixel, between its texels of two pixels a side, of those that are of the pixel's own surface;
+/// none where rounding decides which are.
+fn smoothed(
+    surface: &Image<f32>,
+    (x, y): (usize, usize),
+    front: f64,
+    threshold: f64,
+) -> Option<Bounded> {
+    let at = glam::DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / 2.0;
+    let (mut sum, mut all) = (0.0, 0.0);
+    for (i, j, weight) in surface.bilinear(at) {
+        let off = f64::from(surface.clamped(i, j)) - front;
+        if (off.abs() - threshold).abs() < 4.0 * U * front {
+            return None;
+        }
+        if off.abs() <= threshold {
+            (sum, all) = (sum + weight * off, all + weight);
+        }
+    }
+    let z = if all > 0.0 { front + sum / all } else { front };
+    Some(exact(z).wider(4.0 * U * front))
+}
+
+/// The smoothed depth is the surface, whatever the host has of its own.
+#[test]
+fn contacts_on_particles_are_the_twin_s() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.0, 4.0]);
+    for (name, lens, contact) in [
+        ("distance", Lens::Standard, ContactLook::default()),
+        ("view", Lens::Reversed, ContactLook { measure: Measure::View, ..ContactLook::default() }),
+        (
+            "vertical",
+            Lens::LeftHanded,
+            ContactLook { measure: Measure::Vertical, mask: 0.3, ..ContactLook::default() },
+        ),
+    ] {
+        let contact = ContactLook { particle_opacity: 0.9, mask_scale: 0.3, ..contact };
+        let mut shot = Shot::new(size, lens, 0.2, &points);
+        shot.settings.shore = look(contact);
+        shot.scene_depth(|x, _| Some(3.6 + 0.02 * f64::from(x)));
+        shot.shore = Some(Shore { surface: None, ..Shore::new(0.0) });
+        let drawn = rig.draw(&shot);
+        let found = drawn.shore.as_ref().expect("contact foam");
+        let level = water(&shot, DVec3::Y, 0.0);
+        let [_, twin] = twins(&shot.settings.shore, shot.settings.water.spacing);
+        let [_, web] = textures();
+        let mut tally = Tally::default();
+        let threshold = f64::from(shot.falloff());
+        for (i, texel) in found.data.iter().enumerate() {
+            let (x, y) = (i % found.width, i / found.width);
+            assert_eq!(texel[..2], [0, 0], "neither shore nor surface");
+            let front = f64::from(drawn.depth.data[i]);
+            if front > 1.0e9 {
+                tally.add((x, y), texel[3], exact(0.0));
+                continue;
+            }
+            let Some(z) = smoothed(&drawn.surface, (x, y), front, threshold) else { continue };
+            let Some(scene) = scene_of(&shot, i) else { continue };
+            let point = level.at_depth(level.ray([x as f64 + 0.5, y as f64 + 0.5]), z);
+            let up = [level.up[0], level.up[1], level.up[2]];
+            let t = twin.part([z, scene], point.ray, up);
+            // Where the smoothed surface lies behind what the scene has it is at it.
+            let part = twin.masked(web, point.place, point.width);
+            let near = crate::reference::shore::ease((exact(1.0) - t).clamp(0.0, 1.0) * part);
+            let amount = near * twin.opacity;
+            tally.add((x, y), texel[3], amount);
+        }
+        tally.check(name, 100, 0.05);
+        shot.settings.shore.contact.particle_opacity = 0.0;
+        let found = rig.draw(&shot).shore.expect("contact foam");
+        assert!(found.data.iter().all(|c| *c == [0; 4]), "{name}: of no opacity");
+    }
+}

@@ -1,0 +1,285 @@
+//! Shoreline and contact foam when a renderer's size and configuration change, its web, its memory; what is bad.
+
+use ash::vk;
+use glam::DVec2;
+use whitewater::shore::{
+    ContactLook, Edge, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
+};
+use whitewater::{Config, Error, HostImage, Shore, Shoreline, Slot, Strip, Surface, Triangles};
+
+use super::shoreline::{AREA, heights, plain};
+use super::{Mapped, SAMPLED, Tally, shore_config, water, with_shore};
+use crate::reference::Image;
+use crate::reference::shore::exact;
+use crate::reference::shore::foam::{Pixel, Shoreline as Look, covered, shoreline};
+use crate::reference::shore::texture::Texture as Levels;
+use crate::support::device::Gpu;
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Rig, Shot, config, extent, stream};
+use crate::support::scenes::Lens;
+
+fn land(at: DVec2) -> f64 {
+    0.4 * (4.0 - (at - DVec2::new(7.0, -5.0)).length())
+}
+
+fn shot(coasts: &Mapped<'_>, width: u32, height: u32) -> Shot {
+    let mut shot = Shot::new(extent(width, height), Lens::Standard, 0.2, &[[0.0, 0.0, 3.0]]);
+    shot.settings.shore = plain();
+    shot.settings.shore.contact.particle_opacity = 1.0;
+    shot.scene_depth(|x, _| Some(4.0 + 0.1 * f64::from(x)));
+    let shoreline = Some(Shoreline::Map(coasts.coast()));
+    shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+    shot
+}
+
+fn same(name: &str, rig: &mut Rig<'_>, fresh: &mut Rig<'_>, shot: &Shot) {
+    let (found, expected) = (rig.draw(shot), fresh.draw(shot));
+    assert_eq!(found.output.data, expected.output.data, "{name}");
+    let [found, expected] = [found, expected].map(|drawn| drawn.shore.expect("foam"));
+    assert!(expected.data.iter().any(|c| c[0] > 0), "{name}: something is drawn");
+    assert_eq!(found.data, expected.data, "{name}");
+}
+
+#[test]
+fn a_resize_and_a_reconfiguration_give_what_a_new_renderer_gives() {
+    let gpu = Gpu::shared();
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let with = |size, shore| Config { shore, ..config(size) };
+    let base = shore_config(Edge::Smooth);
+    let mut rig = Rig::lit(&gpu, &with(extent(96, 64), Some(base)), 1);
+    for (width, height) in [(33, 17), (120, 90)] {
+        let shot = shot(&coasts, width, height);
+        rig.resize(shot.size);
+        let mut fresh = Rig::lit(&gpu, &with(shot.size, Some(base)), 1);
+        same(&format!("{width}x{height}"), &mut rig, &mut fresh, &shot);
+    }
+    let shot = shot(&coasts, 120, 90);
+    for (name, anew, shore) in [
+        ("edge", false, Some(ShoreConfig { edge: Edge::Clip, ..base })),
+        ("web", true, Some(ShoreConfig { web_size: 64, ..base })),
+        ("none", false, None),
+        ("again", true, Some(ShoreConfig { seed: 9, ..base })),
+    ] {
+        let config = with(shot.size, shore);
+        assert_eq!(rig.renderer().reconfigure(&config).expect("reconfigure"), anew, "{name}");
+        rig.config = config;
+        if anew {
+            rig.set_up();
+            rig.light();
+        }
+        if shore.is_some() {
+            let mut fresh = Rig::lit(&gpu, &config, 1);
+            same(name, &mut rig, &mut fresh, &shot);
+        }
+    }
+}
+
+/// What a web of 16 bytes a texel of all levels, a noise of 256 texels, an image and lists of the extent take.
+#[test]
+fn memory_is_what_it_says() {
+    let gpu = Gpu::shared();
+    let of = |size, shore| {
+        let mut rig = Rig::new(&gpu, &Config { shore, ..config(size) });
+        let memory = rig.renderer().memory();
+        (memory.images + memory.buffers) as f64
+    };
+    let size = extent(512, 512);
+    let without = of(size, None);
+    let [small, large] = [256, 1024].map(|web_size| {
+        of(size, Some(ShoreConfig { web_size, ..ShoreConfig::default() })) - without
+    });
+    println!("of 256 texels {small}, of 1024 {large} bytes");
+    // Halves of four channels twice, as an image and packed, and the floats they were: of all levels a third more.
+    let web = |edge: f64| edge * edge * (2.0 * 8.0 * 4.0 / 3.0 + 4.0);
+    let grown = (large - small) / (web(1024.0) - web(256.0));
+    assert!((0.98..1.06).contains(&grown), "{grown} of what is said");
+    let (noise, frame) = (256.0 * 256.0 * (16.0 * 4.0 / 3.0 + 16.0), 4.0 * 512.0 * 512.0);
+    let rest = small - web(256.0) - noise - frame;
+    assert!((0.0..0.3e6).contains(&rest), "{rest} bytes besides");
+}
+
+/// A web of the host's takes the place of the built-in one, until that is made again.
+#[test]
+fn a_web_of_the_host_s_is_what_is_seen() {
+    let gpu = Gpu::shared();
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let mut rig = Rig::new(&gpu, &with_shore(extent(96, 64), Edge::Smooth));
+    let mut shot = shot(&coasts, 96, 64);
+    shot.positions.clear();
+    shot.scene_depth(|_, _| None);
+    let s = &mut shot.settings.shore.shoreline;
+    // The web alone: no noise, and no waves.
+    *s = ShorelineLook {
+        reach: [6.0, 3.0],
+        wave_ratio: 0.0,
+        web_ratio: 1.0,
+        web_rise: [0.0; 2],
+        threshold: 0.5,
+        threshold_noise: Noise::NONE,
+        rise_noise: Noise::NONE,
+        frequency_noise: Noise::NONE,
+        speed_noise: Noise::NONE,
+        web_warp: Noise::NONE,
+        layers: [
+            WebLayer { weight: 1.0, scale: 0.25, angle: 30.0, speed: [0.1, 0.0] },
+            WebLayer::NONE,
+            WebLayer::NONE,
+            WebLayer::NONE,
+        ],
+        ..ShorelineLook::default()
+    };
+    let first = rig.draw(&shot).shore.expect("foam");
+    // A part of a larger image, as large as the web: a smooth pattern.
+    let n = super::WEB as usize;
+    let value = |x: usize, y: usize| {
+        let turn = std::f64::consts::TAU / n as f64;
+        (0.5 + 0.25 * (turn * 2.0 * x as f64).sin() + 0.25 * (turn * y as f64).cos()) as f32
+    };
+    let mut around = Image::new(n + 9, n + 5, f32::NAN);
+    let mut texels = Vec::new();
+    for y in 0..n {
+        for x in 0..n {
+            *around.at_mut(x + 4, y + 3) = value(x, y);
+            texels.push(value(x, y));
+        }
+    }
+    let size = extent(around.width as u32, around.height as u32);
+    let bytes = bytemuck::cast_slice(&around.data);
+    let format = vk::Format::R32_SFLOAT;
+    let image = rig.stub.uploaded(format, size, vk::ImageUsageFlags::SAMPLED, bytes, SAMPLED);
+    let rect =
+        vk::Rect2D { offset: vk::Offset2D { x: 4, y: 3 }, extent: extent(super::WEB, super::WEB) };
+    let image = HostImage { rect, ..image.host_image() };
+    let cmd = rig.stub.begin(0);
+    // SAFETY: cmd is recording; the slot's work is done; the image outlives it.
+    unsafe { rig.renderer().record_web(cmd, Slot(0), &image) }.expect("record_web");
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    rig.renderer().collect(Slot(0));
+    let found = rig.draw(&shot).shore.expect("foam");
+    assert_ne!(found.data, first.data);
+    let web = Levels::web(n, &texels);
+    let [noise, _] = super::textures();
+    let water = water(&shot, glam::DVec3::Y, 0.0);
+    let look: Look = super::look_of(&shot.settings.shore);
+    let mut tally = Tally::default();
+    for (i, texel) in found.data.iter().enumerate() {
+        let (x, y) = (i % 96, i / 96);
+        let point = water.at([x as f64 + 0.5, y as f64 + 0.5]);
+        let to = DVec2::new(point.place[0].value, point.place[1].value) - DVec2::new(7.0, -5.0);
+        // Well within the band, where v does not count.
+        if point.depth.low() <= 0.0 || !(4.0..8.0).contains(&to.length()) {
+            continue;
+        }
+        let pixel =
+            Pixel { place: point.place, v: exact(1.0), across: point.change, dv: [exact(0.0); 2] };
+        let foam = shoreline(&look, noise, &web, &pixel);
+        tally.add((x, y), texel[0], covered(foam.over, foam.variance, foam.change));
+    }
+    tally.check("host's web", 50, 0.1);
+    rig.set_up();
+    assert_eq!(rig.draw(&shot).shore.expect("foam").data, first.data, "the built-in again");
+}
+
+type Spoil = (&'static str, fn(&mut ShoreLook));
+
+#[test]
+fn bad_looks_shores_and_configurations_name_their_field() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 16);
+    for web_size in [0, 8, 100, 4096] {
+        let shore = Some(ShoreConfig { web_size, ..ShoreConfig::default() });
+        match Rig::try_new(&gpu, &Config { shore, ..config(size) }, 1) {
+            Err(Error::BadInput { field, .. }) => assert_eq!(field, "Config.shore.web_size"),
+            _ => panic!("no error for a web of {web_size}"),
+        }
+    }
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let spoils: [Spoil; 22] = [
+        ("ShoreLook.time", |l| l.time = f64::NAN),
+        ("ShoreLook.period", |l| l.period = Some(0.0)),
+        ("ShorelineLook.reach[0]", |l| l.shoreline.reach[0] = 0.0),
+        ("ShorelineLook.reach[1]", |l| l.shoreline.reach[1] = f32::NAN),
+        ("ShorelineLook.frequency", |l| l.shoreline.frequency = -1.0),
+        ("ShorelineLook.speed", |l| l.shoreline.speed = f32::INFINITY),
+        ("ShorelineLook.swing", |l| l.shoreline.swing = 1.5),
+        ("ShorelineLook.swing_by[1]", |l| l.shoreline.swing_by[1] = 0.0),
+        ("ShorelineLook.speed_period", |l| l.shoreline.speed_period = 0.0),
+        ("ShorelineLook.wave_rise", |l| l.shoreline.wave_rise[1] = 101.0),
+        ("ShorelineLook.floor", |l| l.shoreline.floor = Some(f32::NAN)),
+        ("ShorelineLook.web_ratio", |l| l.shoreline.web_ratio = -1.0),
+        ("ShorelineLook.fade", |l| l.shoreline.fade = 0.0),
+        ("ShorelineLook.color", |l| l.shoreline.color[2] = 1.5),
+        ("ShorelineLook.opacity", |l| l.shoreline.opacity = 2.0),
+        ("WebLayer.weight", |l| l.shoreline.layers[1].weight = 2.0),
+        ("WebLayer.scale", |l| l.shoreline.layers[3].scale = -1.0),
+        ("ShorelineLook.warp.amplitude", |l| l.shoreline.warp.amplitude = f32::NAN),
+        ("ContactLook.depth", |l| l.contact.depth = 0.0),
+        ("ContactLook.particle_depth", |l| l.contact.particle_depth = Some(-1.0)),
+        ("ContactLook.mask", |l| l.contact.mask = 1.5),
+        ("ContactLook.color", |l| l.contact.color[0] = 1.5),
+    ];
+    let mut shot = Shot::new(size, Lens::Standard, 0.2, &[]);
+    shot.shore = Some(Shore::new(0.0));
+    for (field, spoil) in spoils {
+        let mut bad = shot.clone();
+        spoil(&mut bad.settings.shore);
+        let why = rig.refused(&bad, None);
+        assert!(why.contains(field), "{field}: {why}");
+    }
+    // Light of its own may be any.
+    let glowing = ContactLook { lit: 0.0, color: [40.0, 9.0, 1.0], ..ContactLook::default() };
+    let mut good = shot.clone();
+    good.settings.shore.contact = glowing;
+    rig.draw(&good);
+    let data = rig.stub.data(&[0; 16 * 16], vk::BufferUsageFlags::STORAGE_BUFFER);
+    let strip = Strip {
+        triangles: Triangles { positions: stream(&data, 0, 16), vertices: 6, indices: None },
+        v: stream(&data, 12, 16),
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    };
+    let of = |spoil: fn(&mut Strip)| {
+        let mut strip = strip;
+        spoil(&mut strip);
+        Some(Shoreline::Strip(strip))
+    };
+    let (_color, depth) = rig.scene(&shot);
+    let nowhere = HostImage { rect: extent(33, 16).into(), ..depth.host_image() };
+    let base = Shore::new(0.0);
+    for (field, shore) in [
+        ("Frame.shore.up", Shore { up: [0.0, 0.5, 0.0], ..base }),
+        ("Frame.shore.bias", Shore { bias: -1.0, ..base }),
+        ("Frame.shore.surface", Shore { surface: Some(Surface::Level(f32::NAN)), ..base }),
+        (
+            "Frame.shore.surface",
+            Shore { surface: None, shoreline: Some(Shoreline::Screen), ..base },
+        ),
+        ("HostImage.rect", Shore { surface: Some(Surface::Depth(nowhere)), ..base }),
+        (
+            "Frame.shore.shoreline.triangles",
+            Shore { shoreline: of(|s| s.triangles.vertices = 5), ..base },
+        ),
+        (
+            "Frame.shore.shoreline.triangles.positions",
+            Shore { shoreline: of(|s| s.triangles.positions.stride = 4), ..base },
+        ),
+        ("Frame.shore.shoreline.v", Shore { shoreline: of(|s| s.v.offset = 250), ..base }),
+    ] {
+        let bad = Shot { shore: Some(shore), ..shot.clone() };
+        let why = rig.refused(&bad, None);
+        assert!(why.contains(field), "{field}: {why}");
+    }
+    let mut plainly = Rig::new(&gpu, &config(size));
+    let why = plainly.refused(&shot, None);
+    assert!(why.contains("Frame.shore"), "{why}");
+    let image = depth.host_image();
+    let cmd = plainly.stub.begin(0);
+    // SAFETY: nothing of it may be used.
+    let result = unsafe { plainly.renderer().record_web(cmd, Slot(0), &image) };
+    plainly.stub.end(0);
+    plainly.stub.wait(0);
+    assert!(matches!(result, Err(Error::BadInput { field: "Config.shore", .. })));
+}

@@ -1,0 +1,261 @@
+//! Shoreline foam, contact foam and the map of distances, against twins and closed forms.
+
+mod composite;
+mod contact;
+mod life;
+mod map;
+mod shoreline;
+mod strip;
+mod temporal;
+
+use std::sync::OnceLock;
+
+use ash::vk;
+use glam::{DMat3, DVec3};
+use whitewater::shore::texture;
+use whitewater::shore::{
+    Area, Edge, Heights, Measure, ShoreConfig, ShoreLook, ShoreMap, ShoreMapConfig, ShoreMapStep,
+};
+use whitewater::{Access, Coast, Config, Error, Slot};
+
+use crate::reference::Image;
+use crate::reference::shore as twin;
+use crate::reference::shore::foam::{self, Shoreline};
+use crate::reference::shore::texture::Texture as Levels;
+use crate::reference::shore::{Bounded, Clock, U, Water, exact};
+use crate::support::device::Gpu;
+use crate::support::host::{HOST_WRITE, Stub, Texture};
+use crate::support::rig::{Shot, config, extent};
+
+/// How distances and heights lie between a host's commands.
+const SAMPLED: Access = Access::new(
+    vk::PipelineStageFlags2::from_raw(
+        vk::PipelineStageFlags2::FRAGMENT_SHADER.as_raw()
+            | vk::PipelineStageFlags2::COMPUTE_SHADER.as_raw(),
+    ),
+    vk::AccessFlags2::SHADER_SAMPLED_READ,
+    vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+);
+
+/// Edge of the web here, and what it and the noise are made of.
+const WEB: u32 = 128;
+const SEED: u32 = 3;
+
+fn shore_config(edge: Edge) -> ShoreConfig {
+    ShoreConfig { edge, web_size: WEB, seed: SEED }
+}
+
+fn with_shore(size: vk::Extent2D, edge: Edge) -> Config {
+    Config { shore: Some(shore_config(edge)), ..config(size) }
+}
+
+/// A map of distances, and its host.
+struct Mapped<'g> {
+    gpu: &'g Gpu,
+    stub: Stub,
+    map: Option<ShoreMap>,
+    size: u32,
+}
+
+impl<'g> Mapped<'g> {
+    fn new(gpu: &'g Gpu, size: u32) -> Self {
+        Self::with_slots(gpu, size, 1)
+    }
+
+    fn with_slots(gpu: &'g Gpu, size: u32, slots: u32) -> Self {
+        let config = ShoreMapConfig { size, max_meshes: 4 };
+        // SAFETY: the device outlives the map.
+        let map = unsafe { ShoreMap::new(&gpu.host(slots), &config) };
+        let map = Some(map.unwrap_or_else(|error| panic!("{error}")));
+        Self { gpu, stub: Stub::new(gpu, slots), map, size }
+    }
+
+    /// An image of heights.
+    fn image(&self, heights: &Image<f32>) -> Texture {
+        let size = extent(heights.width as u32, heights.height as u32);
+        let usage = vk::ImageUsageFlags::SAMPLED;
+        let bytes = bytemuck::cast_slice(&heights.data);
+        self.stub.uploaded(vk::Format::R32_SFLOAT, size, usage, bytes, SAMPLED)
+    }
+
+    fn try_step(
+        &mut self,
+        area: &Area,
+        heights: Heights<'_>,
+        changed: Option<[[f32; 2]; 2]>,
+    ) -> Result<(), Error> {
+        let (before, after) = (HOST_WRITE, HOST_WRITE);
+        let step = ShoreMapStep { slot: Slot(0), area: *area, heights, changed, before, after };
+        let map = self.map.as_mut().expect("only drop takes it");
+        // SAFETY: submitted at once and waited for; the handles outlive it.
+        self.stub.run(|cmd| unsafe { map.record_step(cmd, &step) })
+    }
+
+    fn step(&mut self, area: &Area, heights: Heights<'_>, changed: Option<[[f32; 2]; 2]>) {
+        self.try_step(area, heights, changed).unwrap_or_else(|error| panic!("{error}"));
+    }
+
+    /// A step of the heights of an image.
+    fn image_step(&mut self, area: &Area, heights: &Image<f32>, changed: Option<[[f32; 2]; 2]>) {
+        let image = self.image(heights);
+        self.step(area, Heights::Image(image.host_image()), changed);
+    }
+
+    /// Metres.
+    fn distances(&self) -> Image<f32> {
+        let size = extent(self.size, self.size);
+        let image = self.map.as_ref().expect("only drop takes it").distances();
+        let color = vk::ImageAspectFlags::COLOR;
+        let format = vk::Format::R32_SFLOAT;
+        let bytes = self.stub.download(image, format, color, size.into(), SAMPLED);
+        let data = bytes.chunks_exact(4).map(bytemuck::pod_read_unaligned).collect();
+        Image { width: self.size as usize, height: self.size as usize, data }
+    }
+
+    fn coast(&self) -> Coast {
+        self.map.as_ref().and_then(ShoreMap::coast).expect("a step before")
+    }
+}
+
+impl Drop for Mapped<'_> {
+    fn drop(&mut self) {
+        if let Some(map) = self.map.take() {
+            // SAFETY: idle.
+            unsafe {
+                let _ = self.gpu.device.device_wait_idle();
+                map.destroy();
+            }
+        }
+    }
+}
+
+/// The built-in noise and web as the twin has them.
+fn textures() -> &'static [Levels<4>; 2] {
+    static TEXTURES: OnceLock<[Levels<4>; 2]> = OnceLock::new();
+    TEXTURES.get_or_init(|| {
+        let noise = Levels::new(256, &texture::noise(256, SEED));
+        [noise, Levels::web(WEB as usize, &texture::web(WEB, SEED))]
+    })
+}
+
+/// Two level axes where this is up, as the crate has them: x and z where that is y.
+fn level_axes(up: DVec3) -> [DVec3; 2] {
+    let first = if up.x.abs() < 0.9 { DVec3::X } else { DVec3::Y };
+    let east = (first - up * up.dot(first)).normalize();
+    [east, east.cross(up)]
+}
+
+/// What the shader gets of a level surface, from the matrices that the crate gets, and how far single precision may be off:
+/// the inverse of a matrix of rotation and translation is sums of products of three numbers over one of them, 32u of what
+/// the largest are.
+fn water(shot: &Shot, up: DVec3, level: f64) -> Water {
+    let view = shot.view(shot.size);
+    let back = view.view.inverse();
+    let eye = back.w_axis.truncate();
+    let turn = DMat3::from_mat4(back).transpose();
+    let moved = view.view.w_axis.truncate().length() + eye.length();
+    let row = |axis: DVec3, less: f64| {
+        let along = (turn * axis).to_array().map(|v| exact(v).wider(32.0 * U));
+        let offset = exact(axis.dot(eye) - less).wider(32.0 * U * (moved + less.abs()));
+        [along[0], along[1], along[2], offset]
+    };
+    let [east, north] = level_axes(up);
+    let (step, origin) = (view.slope_step(), view.ray_at(glam::DVec2::ZERO));
+    let few = |v: f64| exact(v).wider(4.0 * U * v.abs());
+    Water {
+        slope: [few(step.x), few(step.y), few(origin.x), few(origin.y)],
+        up: row(up, level),
+        east: row(east, 0.0),
+        north: row(north, 0.0),
+    }
+}
+
+fn clock(look: &ShoreLook) -> Clock {
+    Clock { time: look.time, period: look.period.map(f64::from) }
+}
+
+/// The twin of a look.
+fn look_of(look: &ShoreLook) -> Shoreline {
+    let (s, clock) = (&look.shoreline, clock(look));
+    let noise = |n: whitewater::shore::Noise| foam::noise(n.amplitude, n.scale);
+    let layers = s.layers.iter().filter(|own| own.weight > 0.0);
+    Shoreline {
+        frequency: f64::from(s.frequency),
+        phases: clock.phases(s.speed, s.swing, s.swing_by, s.speed_period),
+        frequency_noise: noise(s.frequency_noise),
+        speed_noise: noise(s.speed_noise),
+        wave_rise: s.wave_rise.map(f64::from),
+        floor: s.floor.map(f64::from),
+        wave_ratio: f64::from(s.wave_ratio),
+        web_ratio: f64::from(s.web_ratio),
+        web_rise: s.web_rise.map(f64::from),
+        layers: layers
+            .map(|own| foam::layer(clock, own.weight, own.scale, own.angle, own.speed))
+            .collect(),
+        web_warp: noise(s.web_warp),
+        web_warp_moved: clock.moved(s.web_warp.scale, s.web_warp_speed),
+        threshold: f64::from(s.threshold),
+        threshold_noise: noise(s.threshold_noise),
+        rise_noise: noise(s.rise_noise),
+        warp: noise(s.warp),
+        fade: f64::from(s.fade),
+    }
+}
+
+/// The twin of a measure.
+fn measure_of(measure: Measure) -> twin::Measure {
+    match measure {
+        Measure::Distance => twin::Measure::Distance,
+        Measure::View => twin::Measure::View,
+        Measure::Vertical => twin::Measure::Vertical,
+    }
+}
+
+/// What eight bits may be off.
+const STEP: f64 = 0.5 / 255.0;
+
+/// Of amounts in eight bits: how many were compared, how many are neither nothing nor all, and how far off they are.
+#[derive(Debug, Default)]
+struct Tally {
+    compared: u32,
+    partial: u32,
+    /// Of the partial ones.
+    bound: f64,
+    error: f64,
+    /// Off by more than the bound and half a step.
+    beyond: u32,
+    worst: f64,
+    first: Option<String>,
+}
+
+impl Tally {
+    fn add(&mut self, at: (usize, usize), found: u8, expected: Bounded) {
+        let found = f64::from(found) / 255.0;
+        let off = (found - expected.value).abs();
+        self.compared += 1;
+        if (0.01..0.99).contains(&expected.value) {
+            self.partial += 1;
+            self.bound += expected.error;
+            self.error += off;
+        }
+        let part = off / (expected.error + STEP + 4.0 * U);
+        self.worst = self.worst.max(part);
+        if part > 1.0 {
+            self.beyond += 1;
+            self.first.get_or_insert_with(|| format!("{at:?}: {found}, expected {expected:?}"));
+        }
+    }
+
+    /// No pixel is off; of those that are in between so many were seen, in the mean known so well.
+    fn check(&self, name: &str, partial: u32, bound: f64) {
+        let count = f64::from(self.partial.max(1));
+        let (error, own) = (self.error / count, self.bound / count);
+        println!(
+            "{name}: {} pixels, {} in between: mean error {error:.4}, mean bound {own:.4}, worst {:.2} of bound and half a step",
+            self.compared, self.partial, self.worst
+        );
+        assert_eq!(self.beyond, 0, "{name}: {:?}", self.first);
+        assert!(self.partial >= partial, "{name}: {} pixels in between", self.partial);
+        assert!(own <= bound, "{name}: the bound is {own} in the mean");
+    }
+}

@@ -1,0 +1,387 @@
+//! Pass `shoreline`: how much foam a pixel has along shores, against the twin.
+
+use glam::{DVec2, DVec3};
+use whitewater::shore::{Area, Edge, Noise, ShoreLook, ShorelineLook, WebLayer};
+use whitewater::{Shore, Shoreline, Surface};
+
+use super::{Mapped, Tally, look_of, textures, water, with_shore};
+use crate::reference::Image;
+use crate::reference::shore::foam::{Pixel, by_samples, clipped, coordinate, covered, shoreline};
+use crate::reference::shore::map::Map;
+use crate::reference::shore::{Bounded, U, exact};
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, extent};
+use crate::support::scenes::Lens;
+
+/// A height that is 0 along a bent line.
+fn land(at: DVec2) -> f64 {
+    let to = at - DVec2::new(7.0, -5.0);
+    let round = to.length() * (1.0 + 0.2 * (3.0 * to.y.atan2(to.x)).sin());
+    0.4 * (4.0 - round)
+}
+
+/// Heights over an area, one a texel.
+pub fn heights(area: &Area, size: u32, height: impl Fn(DVec2) -> f64) -> Image<f32> {
+    let [x0, y0] = area.corner(size).map(f64::from);
+    let texel = f64::from(area.edge) / f64::from(size);
+    let mut image = Image::new(size as usize, size as usize, 0.0);
+    for y in 0..size as usize {
+        for x in 0..size as usize {
+            let at = DVec2::new(x0, y0) + texel * DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            *image.at_mut(x, y) = height(at) as f32;
+        }
+    }
+    image
+}
+
+pub const AREA: Area =
+    Area { up: [0.0, 1.0, 0.0], center: [7.0, -5.0], edge: 32.0, level: 0.0, reach: 8.0 };
+
+/// Two looks into the noise, two layers: what a frame of the less general kind has.
+pub fn plain() -> ShoreLook {
+    let noise = |amplitude, scale| Noise { amplitude, scale };
+    let layer = |weight, scale, angle, speed| WebLayer { weight, scale, angle, speed };
+    let shoreline = ShorelineLook {
+        reach: [3.0, 1.5],
+        frequency: 9.0,
+        frequency_noise: noise(2.0, 1.0 / 30.0),
+        speed_noise: noise(0.35, 1.0 / 30.0),
+        threshold_noise: noise(0.14, 1.0 / 30.0),
+        rise_noise: noise(0.2, 1.0 / 30.0),
+        web_warp: noise(0.4, 1.0 / 17.0),
+        layers: [
+            layer(0.62, 1.0 / 6.0, 0.0, [0.12, 0.07]),
+            layer(0.38, 1.0 / 3.7, 37.0, [-0.1, 0.13]),
+            WebLayer::NONE,
+            WebLayer::NONE,
+        ],
+        ..ShorelineLook::default()
+    };
+    ShoreLook { time: 12.75, shoreline, ..ShoreLook::default() }
+}
+
+/// All there is.
+fn rich() -> ShoreLook {
+    let mut look = plain();
+    let noise = |amplitude, scale| Noise { amplitude, scale };
+    let s = &mut look.shoreline;
+    s.warp = noise(0.9, 1.0 / 11.0);
+    s.frequency_noise = noise(2.0, 1.0 / 23.0);
+    s.threshold_noise = noise(0.2, 1.0 / 8.0);
+    s.rise_noise = noise(0.2, 1.0 / 13.0);
+    s.floor = Some(-0.3);
+    s.layers[2] = WebLayer { weight: 0.3, scale: 0.5, angle: -110.0, speed: [0.3, 0.0] };
+    s.layers[3] = WebLayer { weight: 0.2, scale: 0.9, angle: 200.0, speed: [0.0, 0.2] };
+    look
+}
+
+/// The four texels of the map about a place as v, and its change a pixel.
+fn v_by_map(
+    (map, area, size): (&Map, &Area, u32),
+    look: &ShorelineLook,
+    place: [Bounded; 2],
+    across: [[Bounded; 2]; 2],
+) -> Option<(Bounded, [Bounded; 2])> {
+    let edge = f64::from(area.edge) / f64::from(size);
+    let texels = Map::texels(place, area.corner(size).map(f64::from), edge);
+    if !map.inside(texels)? {
+        return Some((exact(0.0), [exact(0.0); 2]));
+    }
+    let reach = look.reach.map(f64::from);
+    let distance = map.at(texels, false);
+    let v = coordinate(distance, reach);
+    let slope = map.slope(texels).map(|s| s / edge);
+    let parts = reach.map(|r| 1.0 / r);
+    let own = if distance.value < 0.0 { parts[0] } else { parts[1] };
+    let either = distance.low() < 0.0 && distance.high() >= 0.0;
+    let part = if either {
+        Bounded::between(parts[0].min(parts[1]), own, parts[0].max(parts[1]))
+    } else {
+        exact(own).wider(U * own)
+    };
+    let dv = across.map(|way| (slope[0] * way[0] + slope[1] * way[1]) * part);
+    Some((v.clamp(0.0, 2.0), dv))
+}
+
+/// How much of a pixel is foam by the twin; none where rounding decides.
+pub fn amount(look: &ShoreLook, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Option<Bounded> {
+    let [noise, web] = textures();
+    if pixel.v.high() <= 0.0 || pixel.v.low() >= 2.0 {
+        return Some(exact(0.0));
+    }
+    let foam = shoreline(&look_of(look), noise, web, pixel);
+    let part = match edge {
+        Edge::Clip => exact(f64::from(u8::from(clipped(foam.over)?))),
+        Edge::Smooth => covered(foam.over, foam.variance, foam.change),
+        Edge::Coverage => by_samples(covered(foam.over, foam.variance, foam.change), at),
+    };
+    let ends = pixel.v.low() <= 0.0 || pixel.v.high() >= 2.0;
+    Some(if ends { Bounded::between(0.0, part.value, part.high()) } else { part })
+}
+
+/// A shot of the level with the map.
+fn with_map(coasts: &Mapped<'_>, shot: &mut Shot, look: &ShoreLook) {
+    let line = Some(Shoreline::Map(coasts.coast()));
+    shot.shore = Some(Shore { shoreline: line, ..Shore::new(AREA.level) });
+    shot.settings.shore = *look;
+}
+
+fn compared(name: &str, rig: &mut Rig<'_>, shot: &Shot, map: &Map, edge: Edge) -> Tally {
+    let found = rig.draw(shot).shore.expect("shoreline foam");
+    let water = water(shot, DVec3::Y, f64::from(AREA.level));
+    let look = &shot.settings.shore;
+    let expected = Image::from_fn(found.width, found.height, |x, y| {
+        let point = water.at([x as f64 + 0.5, y as f64 + 0.5]);
+        if point.depth.value <= 0.0 {
+            return (point.depth.high() < 0.0).then_some(exact(0.0));
+        }
+        let size = map.width as u32;
+        let (v, dv) = v_by_map((map, &AREA, size), &look.shoreline, point.place, point.change)?;
+        let pixel = Pixel { place: point.place, v, across: point.change, dv };
+        amount(look, edge, &pixel, [x, y])
+    });
+    let mut tally = Tally::default();
+    for y in 0..found.height {
+        for x in 0..found.width {
+            if let Some(expected) = expected.at(x, y) {
+                tally.add((x, y), found.at(x, y)[0], expected);
+            }
+        }
+    }
+    println!("{name}: {} of {} pixels are told", tally.compared, found.data.len());
+    tally
+}
+
+/// The distances as they were found: what they are is the map's test.
+fn twin_map(coasts: &Mapped<'_>) -> Map {
+    let found = coasts.distances();
+    let values = found.data.iter().map(|v| exact(f64::from(*v))).collect();
+    Map { width: found.width, height: found.height, values }
+}
+
+#[test]
+fn a_level_s_foam_is_the_twin_s() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let map = twin_map(&coasts);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    for (name, lens, look) in [
+        ("plain", Lens::Standard, plain()),
+        ("rich", Lens::Reversed, rich()),
+        ("plain-infinite", Lens::ReversedInfinite, plain()),
+        ("rich-left", Lens::LeftHanded, rich()),
+        ("plain-off", Lens::OffAxis, plain()),
+    ] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        with_map(&coasts, &mut shot, &look);
+        compared(name, &mut rig, &shot, &map, Edge::Smooth).check(name, 100, 0.05);
+    }
+}
+
+/// Not general and general, whose frames have more of this or that, are one function: what the first draws the second, made
+/// to by a scene's depth of another size, draws too.
+#[test]
+fn both_pipelines_draw_the_same() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    with_map(&coasts, &mut shot, &plain());
+    let few = rig.draw(&shot).shore.expect("shoreline foam");
+    shot.depth_extent = extent(48, 32);
+    shot.scene_depth(|_, _| None);
+    let all = rig.draw(&shot).shore.expect("shoreline foam");
+    assert!(few.data.iter().filter(|c| c[0] > 0).count() > 500);
+    let off = few.data.iter().zip(&all.data).map(|(a, b)| a[0].abs_diff(b[0])).max();
+    // Compiled by themselves they may round otherwise: by much less than a step, which may tip one.
+    assert!(off <= Some(1), "{off:?} steps");
+    // What stands before the surface hides it, what stands behind it does not.
+    for (at, seen) in [(0.3, false), (1.0e3, true)] {
+        shot.depth_extent = size;
+        shot.scene_depth(|_, _| Some(at));
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let some = found.data.iter().any(|c| c[0] > 0);
+        assert_eq!(some, seen, "a wall at {at}");
+    }
+    let water = water(&shot, DVec3::Y, 0.0);
+    let mut half = shot.clone();
+    half.scene_depth(|x, _| (x < 48).then_some(0.3));
+    let found = rig.draw(&half).shore.expect("shoreline foam");
+    for (i, (own, whole)) in found.data.iter().zip(&few.data).enumerate() {
+        let hidden = i % 96 < 48
+            && water.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]).depth.value > 0.3;
+        assert_eq!(own[0], if hidden { 0 } else { whole[0] }, "{i}");
+    }
+}
+
+/// Clipped a pixel is foam or not; by samples it has quarters of what it covers.
+#[test]
+fn edges_are_clipped_or_of_quarters() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let map = twin_map(&coasts);
+    for edge in [Edge::Clip, Edge::Coverage] {
+        let mut rig = Rig::new(&gpu, &with_shore(size, edge));
+        for look in [plain(), rich()] {
+            let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+            with_map(&coasts, &mut shot, &look);
+            let name = format!("{edge:?}");
+            let tally = compared(&name, &mut rig, &shot, &map, edge);
+            assert!(tally.compared > 5800, "{name}: {} pixels are told", tally.compared);
+            tally.check(&name, if edge == Edge::Clip { 0 } else { 300 }, 0.1);
+            let found = rig.draw(&shot).shore.expect("shoreline foam");
+            let values = found.data.iter().map(|c| c[0]);
+            let steps: &[u8] = if edge == Edge::Clip { &[0, 255] } else { &[0, 64, 128, 191, 255] };
+            assert!(values.into_iter().all(|v| steps.contains(&v)), "{name}");
+        }
+    }
+}
+
+/// After a period all is as it was, and what has moved for long is as sharp and as fast as at the start.
+#[test]
+fn time_goes_round_and_nothing_grows() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let map = twin_map(&coasts);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let mut at = |time: f64, period: Option<f32>| {
+        with_map(&coasts, &mut shot, &ShoreLook { time, period, ..plain() });
+        compared(&format!("at {time}"), &mut rig, &shot, &map, Edge::Smooth)
+            .check("time", 100, 0.05);
+        rig.draw(&shot).shore.expect("shoreline foam")
+    };
+    let [first, half, again, long] =
+        [(2.25, 8.0), (6.25, 8.0), (10.25, 8.0), (8.0e6 + 2.25, 8.0)].map(|(t, p)| at(t, Some(p)));
+    assert_eq!(first.data, again.data);
+    assert_eq!(first.data, long.data);
+    let differ = |a: &Image<[u8; 4]>, b: &Image<[u8; 4]>| {
+        let off = a.data.iter().zip(&b.data).map(|(a, b)| f64::from(a[0].abs_diff(b[0])));
+        off.sum::<f64>() / (255.0 * a.data.len() as f64)
+    };
+    assert!(differ(&first, &half) > 0.01, "half a period on it is another");
+    // What a sixtieth of a second changes, in the mean over some of a swing's times: early and late.
+    let mut drawn = |time: f64| {
+        with_map(&coasts, &mut shot, &ShoreLook { time, ..plain() });
+        rig.draw(&shot).shore.expect("shoreline foam")
+    };
+    let [early, late, latest] = [0.0, 1.0e3, 1.0e7].map(|from| {
+        let changes = (0..8).map(|i| {
+            let time = from + 1.3 * f64::from(i);
+            differ(&drawn(time), &drawn(time + 1.0 / 60.0)) / 8.0
+        });
+        changes.sum::<f64>()
+    });
+    println!("a sixtieth of a second changes {early:.5}, {late:.5}, {latest:.5}");
+    // Which of a swing's times they are differs.
+    assert!([late, latest].iter().all(|c| (0.4..2.5).contains(&(c / early))));
+}
+
+/// A surface of any shape, of which each pixel has the depth, and a world whose up is z.
+#[test]
+fn a_shaped_surface_s_foam_is_the_twin_s() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let map = twin_map(&coasts);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    for lens in [Lens::Standard, Lens::ReversedInfinite] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        // What waves make of the level.
+        let view = shot.view(size);
+        let level = water(&shot, DVec3::Y, 0.0);
+        let mut other = shot.clone();
+        other.scene_depth(|x, y| {
+            let at = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+            let z = level.at(at).depth.value;
+            (z > 0.0 && z < 60.0).then(|| z * (1.0 + 0.02 * (0.3 * at[0]).sin()))
+        });
+        let (_color, depth) = rig.scene(&other);
+        let line = Some(Shoreline::Map(coasts.coast()));
+        let surface = Some(Surface::Depth(depth.host_image()));
+        shot.shore = Some(Shore { surface, shoreline: line, ..Shore::new(0.0) });
+        shot.settings.shore = plain();
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let mut tally = Tally::default();
+        let numbers = [view.projection.w_axis.z, view.projection.z_axis.z];
+        for y in 0..found.height {
+            for x in 0..found.width {
+                let device = f64::from(other.depth[y * found.width + x]);
+                let z = exact(numbers[0]) / (exact(device) + numbers[1]);
+                if !(z.low() > 0.0 && z.high() < 90.0) {
+                    continue;
+                }
+                let point = level.at_depth(level.ray([x as f64 + 0.5, y as f64 + 0.5]), z);
+                let look = &shot.settings.shore;
+                let of = (&map, &AREA, 64);
+                let Some((v, dv)) = v_by_map(of, &look.shoreline, point.place, point.change) else {
+                    continue;
+                };
+                let pixel = Pixel { place: point.place, v, across: point.change, dv };
+                if let Some(expected) = amount(look, Edge::Smooth, &pixel, [x, y]) {
+                    tally.add((x, y), found.at(x, y)[0], expected);
+                }
+            }
+        }
+        tally.check(&format!("shaped-{lens:?}"), 100, 0.05);
+    }
+}
+
+/// What turns the world so that what was up is another axis.
+fn turned(shot: &Shot, up: DVec3) -> (Shot, glam::DQuat) {
+    let turn = glam::DQuat::from_rotation_arc(DVec3::Y, up);
+    let mut other = shot.clone();
+    let view = shot.camera.view.as_dmat4() * glam::DMat4::from_quat(turn.inverse());
+    other.camera.view = view.as_mat4();
+    (other, turn)
+}
+
+#[test]
+fn up_may_be_any_axis() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    for up in [DVec3::Z, DVec3::X, DVec3::new(0.36, 0.48, 0.8)] {
+        let up = up.normalize();
+        let (mut shot, _) = turned(&Shot::new(size, Lens::Standard, 0.1, &[]), up);
+        let water = water(&shot, up, 0.0);
+        // About where the camera looks.
+        let middle = water.at([48.0, 40.0]).place.map(|p| p.value as f32);
+        let area = Area { up: up.as_vec3().to_array(), center: middle, ..AREA };
+        let [x, y] = middle.map(f64::from);
+        let round = |at: DVec2| 0.4 * (3.0 - (at - DVec2::new(x, y)).length());
+        coasts.image_step(&area, &heights(&area, 64, round), None);
+        let map = twin_map(&coasts);
+        let line = Some(Shoreline::Map(coasts.coast()));
+        shot.shore = Some(Shore { up: area.up, shoreline: line, ..Shore::new(0.0) });
+        shot.settings.shore = plain();
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let look = &shot.settings.shore;
+        let mut tally = Tally::default();
+        for i in 0..found.data.len() {
+            let (x, y) = (i % found.width, i / found.width);
+            let point = water.at([x as f64 + 0.5, y as f64 + 0.5]);
+            if point.depth.low() <= 0.0 {
+                continue;
+            }
+            let of = (&map, &area, 64);
+            let told = v_by_map(of, &look.shoreline, point.place, point.change);
+            let Some((v, dv)) = told else { continue };
+            let pixel = Pixel { place: point.place, v, across: point.change, dv };
+            if let Some(expected) = amount(look, Edge::Smooth, &pixel, [x, y]) {
+                tally.add((x, y), found.data[i][0], expected);
+            }
+        }
+        tally.check(&format!("up {up}"), 100, 0.05);
+    }
+}

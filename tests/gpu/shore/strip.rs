@@ -1,0 +1,165 @@
+//! Shoreline foam of a strip of the host's and by the scene's depth alone.
+
+use ash::vk;
+use glam::DVec3;
+use whitewater::shore::Edge;
+use whitewater::{Shore, Shoreline, Strip, Triangles};
+
+use super::shoreline::{amount, plain};
+use super::{Tally, water, with_shore};
+use crate::reference::shore::foam::Pixel;
+use crate::reference::shore::{Bounded, U, exact};
+use crate::support::device::Gpu;
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Rig, Shot, extent, stream};
+use crate::support::scenes::Lens;
+
+/// v of a place on the strip.
+const ACROSS: [f64; 3] = [0.125, -0.1875, -0.75];
+
+fn v_at([x, z]: [f64; 2]) -> f64 {
+    ACROSS[0] * x + ACROSS[1] * z + ACROSS[2]
+}
+
+/// A quad of the level, of two triangles; with and without indices, in a buffer with other numbers, with vertices that are
+/// no numbers and triangles of vertices that are not there.
+#[test]
+fn a_strip_s_foam_is_the_twin_s() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let corners = [[4.0, -9.0], [11.0, -9.0], [4.0, -1.0], [11.0, -1.0]];
+    let vertex = |i: usize| {
+        let [x, z] = corners[i];
+        [x as f32, 0.0, z as f32, v_at([x, z]) as f32]
+    };
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    // Of each vertex its place and v, after one number of another's.
+    let mut words = vec![7.0_f32];
+    words.extend((0..4).flat_map(vertex));
+    words.extend([f32::NAN, 0.0, 0.0, 1.0]);
+    let vertices = rig.stub.data(bytemuck::cast_slice(&words), usage);
+    let order: [u32; 12] = [0, 1, 2, 2, 1, 3, 0, 1, 4, 0, 1, 99];
+    let indices = rig.stub.data(bytemuck::cast_slice(&order), usage);
+    let unrolled: Vec<_> = order[..6].iter().map(|i| vertex(*i as usize)).collect();
+    let plainly = rig.stub.data(bytemuck::cast_slice(&unrolled), usage);
+    let strip = |data, offset, count, indices| Strip {
+        triangles: Triangles { positions: stream(data, offset, 16), vertices: count, indices },
+        v: stream(data, offset + 12, 16),
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    };
+    let bits = f64::from(1_u32 << gpu.limits().sub_pixel_precision_bits);
+    for (name, lens, strip) in [
+        ("indices", Lens::Standard, strip(&vertices, 4, 5, Some((stream(&indices, 0, 4), 12)))),
+        ("plain", Lens::Reversed, strip(&plainly, 0, 6, None)),
+        ("mirrored", Lens::Mirrored, strip(&vertices, 4, 5, Some((stream(&indices, 0, 4), 12)))),
+        ("left", Lens::LeftHanded, strip(&plainly, 0, 6, None)),
+    ] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        shot.settings.shore = plain();
+        let shoreline = Some(Shoreline::Strip(strip));
+        shot.shore = Some(Shore { surface: None, shoreline, ..Shore::new(0.0) });
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let water = water(&shot, DVec3::Y, 0.0);
+        let point = |x: usize, y: usize| water.at([x as f64 + 0.5, y as f64 + 0.5]);
+        // A vertex is where a device snaps it to, and so is what is between them.
+        let v = |x: usize, y: usize| {
+            let point = point(x, y);
+            let step =
+                point.change.map(|way| (ACROSS[0] * way[0].value + ACROSS[1] * way[1].value).abs());
+            let v = v_at(point.place.map(|p| p.value));
+            exact(v).wider((step[0] + step[1]) / bits + 16.0 * U * 4.0)
+        };
+        let mut tally = Tally::default();
+        for i in 0..found.data.len() {
+            let (x, y) = (i % found.width, i / found.width);
+            let own = point(x, y);
+            let beside = |at: [f64; 2], by: f64| {
+                let wide = own.change.map(|way| way[0].value.abs().max(way[1].value.abs()));
+                let off = by * (wide[0] + wide[1]);
+                at[0] > 4.0 - off && at[0] < 11.0 + off && at[1] > -9.0 - off && at[1] < -1.0 + off
+            };
+            let at = own.place.map(|p| p.value);
+            if own.depth.low() <= 0.0 || !beside(at, 0.1) {
+                tally.add((x, y), found.data[i][0], exact(0.0));
+                continue;
+            }
+            let inner = |x: usize, y: usize| beside(point(x, y).place.map(|p| p.value), -0.1);
+            // Of the pixels whose block is all of the strip.
+            let (x0, y0) = (x & !1, y & !1);
+            if ![(0, 0), (1, 0), (0, 1), (1, 1)].iter().all(|(i, j)| inner(x0 + i, y0 + j)) {
+                continue;
+            }
+            let dv = [v(x0 + 1, y) - v(x0, y), v(x, y0 + 1) - v(x, y0)];
+            let moved = own.change.map(|way| way.map(|w| w.value.abs()));
+            let place = [0, 1].map(|i| own.place[i].wider((moved[0][i] + moved[1][i]) / bits));
+            let part = (moved[0][0] + moved[0][1] + moved[1][0] + moved[1][1]) / bits;
+            let across = own.change.map(|way| way.map(|w: Bounded| w.wider(part * w.value.abs())));
+            let pixel = Pixel { place, v: v(x, y), across, dv };
+            if let Some(expected) = amount(&shot.settings.shore, Edge::Smooth, &pixel, [x, y]) {
+                tally.add((x, y), found.data[i][0], expected);
+            }
+        }
+        tally.check(&format!("strip-{name}"), 50, 0.08);
+    }
+}
+
+/// Over a bottom that is a plane the shore is where it meets the level, wherever that is on the screen.
+#[test]
+fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    for (lens, tangent) in [(Lens::Standard, 0.25), (Lens::ReversedInfinite, 0.6)] {
+        let mut shot = Shot::new(size, lens, 0.1, &[]);
+        shot.settings.shore = plain();
+        let shoreline = Some(Shoreline::Screen);
+        shot.shore = Some(Shore { shoreline, ..Shore::new(0.0) });
+        let water = water(&shot, DVec3::Y, 0.0);
+        let view = shot.view(size);
+        let back = view.view.inverse();
+        let eye = back.w_axis.truncate();
+        let at = |x: u32, y: u32| back.transform_vector3(view.ray(x as usize, y as usize));
+        // It rises beyond the line z = -6.
+        let (normal, line) = (DVec3::new(0.0, 1.0, tangent), -6.0);
+        shot.scene_depth(|x, y| {
+            let z = -(normal.dot(eye) - tangent * line) / normal.dot(at(x, y));
+            (z > 0.0 && z < 80.0).then_some(z)
+        });
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let scene = shot.scene_eye();
+        let mut tally = Tally::default();
+        for i in 0..found.data.len() {
+            let (x, y) = (i % found.width, i / found.width);
+            let own = water.at([x as f64 + 0.5, y as f64 + 0.5]);
+            let behind = scene.data[i];
+            if own.depth.low() <= 0.0 || own.depth.value > 30.0 || behind > 60.0 {
+                continue;
+            }
+            let bottom = eye + behind * at(x as u32, y as u32);
+            // The surface is seen where the bottom is below it.
+            let off = 4.0 * U * behind * behind / view.near();
+            if bottom.y.abs() < 8.0 * off {
+                continue;
+            }
+            if bottom.y > 0.0 {
+                tally.add((x, y), found.data[i][0], exact(0.0));
+                continue;
+            }
+            let reach = f64::from(shot.settings.shore.shoreline.reach[0]);
+            let far = -bottom.y / tangent / reach;
+            // Three depths, each off as its device depth is rounded, over a pixel's way along the bottom.
+            let wide = behind * view.c_x().min(view.c_y());
+            let v = exact(1.0 - far)
+                .wider(far * 6.0 * off / (wide * tangent) + off / (tangent * reach));
+            let v = v.clamp(0.0, 2.0);
+            let dv = [exact(0.0); 2];
+            let pixel = Pixel { place: own.place, v, across: own.change, dv };
+            if let Some(expected) = amount(&shot.settings.shore, Edge::Smooth, &pixel, [x, y]) {
+                tally.add((x, y), found.data[i][0], expected);
+            }
+        }
+        tally.check(&format!("screen-{lens:?}"), 50, 0.2);
+    }
+}

@@ -1,0 +1,218 @@
+//! Running error analysis: a number with a bound of how far single precision may be off it. u is half an ulp at
+//! most; an operation is as exact as Vulkan asks for ("Precision of Individual Operations"). Subnormal numbers
+//! may be 0.
+
+use std::f64::consts::PI;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Relative error of one rounding to single precision.
+pub const U: f64 = 1.0 / (1_u64 << 24) as f64;
+
+/// Absolute error of the sine in [-π, π]. Beyond there is no promise: arguments are reduced first.
+pub const SINE: f64 = 1.0 / 2048.0;
+
+/// A number and the bound of its error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounded {
+    /// In exact arithmetic.
+    pub value: f64,
+    /// How far off single precision may be.
+    pub error: f64,
+}
+
+/// A number that single precision holds.
+pub fn exact(value: f64) -> Bounded {
+    Bounded { value, error: 0.0 }
+}
+
+/// A number found in double precision and rounded to single.
+pub fn held(value: f64) -> Bounded {
+    Bounded { value, error: U * value.abs() }
+}
+
+/// A value that is so far off, and then by so many u of itself.
+fn rounded(value: f64, error: f64, units: f64) -> Bounded {
+    let error = error + units * U * (value.abs() + error);
+    Bounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
+}
+
+impl From<f64> for Bounded {
+    fn from(value: f64) -> Self {
+        exact(value)
+    }
+}
+
+impl<B: Into<Bounded>> Add<B> for Bounded {
+    type Output = Self;
+    fn add(self, other: B) -> Self {
+        let other = other.into();
+        rounded(self.value + other.value, self.error + other.error, 1.0)
+    }
+}
+
+impl<B: Into<Bounded>> Sub<B> for Bounded {
+    type Output = Self;
+    fn sub(self, other: B) -> Self {
+        self + -other.into()
+    }
+}
+
+impl Neg for Bounded {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self { value: -self.value, ..self }
+    }
+}
+
+impl<B: Into<Bounded>> Mul<B> for Bounded {
+    type Output = Self;
+    fn mul(self, other: B) -> Self {
+        let other = other.into();
+        rounded(self.value * other.value, self.product_error(other), 1.0)
+    }
+}
+
+/// 2.5 ulp.
+impl<B: Into<Bounded>> Div<B> for Bounded {
+    type Output = Self;
+    fn div(self, other: B) -> Self {
+        let other = other.into();
+        let value = self.value / other.value;
+        let least = (other.value.abs() - other.error).max(0.0);
+        let moved = self.error + value.abs() * other.error;
+        rounded(value, if moved == 0.0 { 0.0 } else { moved / least }, 5.0)
+    }
+}
+
+impl Bounded {
+    /// A number known to lie between two.
+    pub fn between(low: f64, value: f64, high: f64) -> Self {
+        let error = (high - value).max(value - low);
+        Self { value, error: if error.is_nan() { f64::INFINITY } else { error } }
+    }
+
+    /// The least that it may be.
+    pub fn low(self) -> f64 {
+        self.value - self.error
+    }
+
+    /// The most that it may be.
+    pub fn high(self) -> f64 {
+        self.value + self.error
+    }
+
+    /// Whether a number found in single precision is as near as it must be.
+    pub fn holds(self, found: f64) -> bool {
+        (found - self.value).abs() <= self.error
+    }
+
+    /// The same value, farther off.
+    pub fn wider(self, by: f64) -> Self {
+        Self { error: self.error + by, ..self }
+    }
+
+    /// What the factors' errors do to a product.
+    fn product_error(self, other: Self) -> f64 {
+        self.value.abs() * other.error + (other.value.abs() + other.error) * self.error
+    }
+
+    /// Through a function that nowhere falls, without its own rounding.
+    pub fn rising(self, f: impl Fn(f64) -> f64) -> Self {
+        Self::between(f(self.low()), f(self.value), f(self.high()))
+    }
+
+    /// Its size; exact.
+    pub fn abs(self) -> Self {
+        Self { value: self.value.abs(), ..self }
+    }
+
+    /// No less than a number; exact.
+    pub fn max(self, least: f64) -> Self {
+        self.rising(|v| v.max(least))
+    }
+
+    /// Between two numbers; exact.
+    pub fn clamp(self, low: f64, high: f64) -> Self {
+        self.rising(|v| v.clamp(low, high))
+    }
+
+    /// Vulkan's is `1 / inversesqrt`: 2 ulp and 2.5 of the quotient.
+    pub fn sqrt(self) -> Self {
+        let root = self.rising(|v| v.max(0.0).sqrt());
+        rounded(root.value, root.error, 9.0)
+    }
+
+    /// 3 + 2 |x| ulp.
+    pub fn exp(self) -> Self {
+        let most = self.value.abs() + self.error;
+        let power = self.rising(f64::exp);
+        rounded(power.value, power.error, 6.0 + 4.0 * most).wider(f64::from(f32::MIN_POSITIVE))
+    }
+
+    /// The same to the base 2.
+    pub fn exp2(self) -> Self {
+        let most = self.value.abs() + self.error;
+        let power = self.rising(f64::exp2);
+        rounded(power.value, power.error, 6.0 + 4.0 * most).wider(f64::from(f32::MIN_POSITIVE))
+    }
+
+    /// 2^-21 from a half to 2, else 3 ulp.
+    pub fn log2(self) -> Self {
+        let log = self.rising(|v| v.max(0.0).log2());
+        log.wider(U * (6.0 * (log.value.abs() + log.error)).max(8.0))
+    }
+
+    /// By `x - 2π round(x / 2π)`, or the same in turns: 2π or its inverse is rounded, and a product of about x,
+    /// and what is left, at most π, twice more: 3u of |x| + π. Then as [`SINE`] says; the slope is the cosine.
+    pub fn sine(self) -> Self {
+        let off = self.error + 3.0 * U * (self.value.abs() + self.error + PI);
+        let moved = (self.value.cos().abs() * off + 0.5 * off * off).min(2.0);
+        Self { value: self.value.sin(), error: moved + SINE }
+    }
+
+    /// As the sine.
+    pub fn cosine(self) -> Self {
+        let off = self.error + 3.0 * U * (self.value.abs() + self.error + PI);
+        let moved = (self.value.sin().abs() * off + 0.5 * off * off).min(2.0);
+        Self { value: self.value.cos(), error: moved + SINE }
+    }
+
+    /// GLSL's smoothstep from 0 to `high`: the quotient, and three roundings of `t·t·(3 - 2t)`.
+    pub fn smoothstep(self, high: f64) -> Self {
+        let step = (self / high).rising(|t| smoothstep(t.clamp(0.0, 1.0)));
+        rounded(step.value, step.error, 3.0)
+    }
+}
+
+fn smoothstep(t: f64) -> f64 {
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// A sum in any order: each partial sum is at most that of the sizes.
+pub fn sum(terms: &[Bounded]) -> Bounded {
+    let value = terms.iter().map(|t| t.value).sum();
+    let error: f64 = terms.iter().map(|t| t.error).sum();
+    let sizes: f64 = terms.iter().map(|t| t.value.abs()).sum();
+    let roundings = terms.len().saturating_sub(1) as f64;
+    Bounded { value, error: error + roundings * U * (sizes + error) }
+}
+
+/// A dot product in any order, with or without fused operations.
+pub fn dot<const N: usize>(a: [Bounded; N], b: [Bounded; N]) -> Bounded {
+    sum(&std::array::from_fn::<_, N, _>(|i| a[i] * b[i]))
+}
+
+/// `sqrt(dot(v, v))`; of a number alone as well.
+pub fn length<const N: usize>(v: [Bounded; N]) -> Bounded {
+    dot(v, v).sqrt()
+}
+
+/// GLSL's `a (1 - t) + b t`: the errors of both weights are one.
+pub fn mix(a: Bounded, b: Bounded, t: Bounded) -> Bounded {
+    let value = a.value * (1.0 - t.value) + b.value * t.value;
+    let weights = [1.0 - t.value, t.value].map(f64::abs);
+    let apart = (b.value - a.value).abs() + a.error + b.error;
+    let error = a.error * weights[0] + b.error * weights[1] + apart * t.error;
+    let sizes = a.value.abs() * weights[0] + b.value.abs() * weights[1] + error;
+    Bounded { value, error: error + 3.0 * U * (sizes + a.value.abs() * t.error) }
+}

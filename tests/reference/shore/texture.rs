@@ -1,0 +1,252 @@
+//! A square texture on a torus, its levels in half precision, filtered linearly within and between them.
+//!
+//! A filter knows a place and a level to 1/256: half a step is 2^-9 of the differences between the texels
+//! involved. A place that is off by so many texels adds as many of the largest difference of neighbours that it
+//! may pass; a level that is off, as much of the difference between levels. Neither leaves the range of a level.
+
+use super::bounded::{Bounded, U, exact};
+
+/// Half a step of the filter's weights.
+pub const STEP: f64 = 1.0 / 512.0;
+
+/// Place and level are found in single precision, of no less than this many texels a pixel.
+const LEAST: f64 = 1e-6;
+
+/// Of a filter in single precision: linear three times over, of three operations each.
+const ROUNDINGS: f64 = 9.0;
+
+/// More texels than this in a row are not looked at one by one.
+const MANY: i64 = 16;
+
+/// Half precision, to the nearest, ties to even. Too large: infinite.
+pub fn half(value: f64) -> f64 {
+    let power = value.abs().max(f64::MIN_POSITIVE).log2().floor() as i32;
+    // A logarithm just below a whole number may be rounded to it.
+    let power = if value.abs() < 2.0_f64.powi(power) { power - 1 } else { power };
+    let step = 2.0_f64.powi(power.max(-14) - 10);
+    let rounded = (value / step).round_ties_even() * step;
+    if rounded.abs() > 65504.0 { f64::INFINITY.copysign(value) } else { rounded }
+}
+
+/// All levels of a texture.
+#[derive(Clone, Debug)]
+pub struct Texture<const C: usize> {
+    size: usize,
+    levels: Vec<Vec<[f64; C]>>,
+    /// Of each level, the most less the least.
+    ranges: Vec<[f64; C]>,
+    /// Of all, the largest size.
+    most: [f64; C],
+}
+
+impl<const C: usize> Texture<C> {
+    /// From level 0, row by row: rounded, then each texel the mean of four, rounded. The edge is a power of two.
+    pub fn new(size: usize, texels: &[[f32; C]]) -> Self {
+        assert!(
+            size.is_power_of_two() && texels.len() == size * size,
+            "a square of a power of two"
+        );
+        let first: Vec<_> = texels.iter().map(|t| t.map(|v| half(f64::from(v)))).collect();
+        let mut levels = vec![first];
+        let mut edge = size;
+        while edge > 1 {
+            levels.push(coarser(&levels[levels.len() - 1], edge));
+            edge /= 2;
+        }
+        Self::from_levels(size, levels)
+    }
+
+    /// From levels as they are.
+    pub fn from_levels(size: usize, levels: Vec<Vec<[f64; C]>>) -> Self {
+        for (level, texels) in levels.iter().enumerate() {
+            assert_eq!(texels.len(), (size >> level).pow(2), "texels of level {level}");
+        }
+        let range = |texels: &Vec<[f64; C]>| {
+            std::array::from_fn(|c| {
+                let all = texels.iter().map(|t| t[c]);
+                let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                    (v.min(low), v.max(high))
+                });
+                high - low
+            })
+        };
+        let ranges = levels.iter().map(range).collect();
+        let sizes = |c: usize| levels.iter().flatten().map(move |t| t[c].abs());
+        let most = std::array::from_fn(|c| sizes(c).fold(0.0, f64::max));
+        Self { size, levels, ranges, most }
+    }
+
+    /// Texels in a row of level 0.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// A level's texels, row by row.
+    pub fn level(&self, level: usize) -> &[[f64; C]] {
+        &self.levels[level]
+    }
+
+    /// The coarsest level.
+    pub fn last(&self) -> usize {
+        self.levels.len() - 1
+    }
+
+    /// The level of detail where a pixel is `width` metres wide, not clamped; `scale` in repetitions a metre.
+    pub fn detail(&self, width: Bounded, scale: f64) -> Bounded {
+        (width * scale * self.size as f64).max(LEAST).log2()
+    }
+
+    /// At a place in metres, of the level nearest to the level of detail; where two are as near, of either.
+    pub fn at(&self, place: [Bounded; 2], scale: f64, width: Bounded) -> [Bounded; C] {
+        let detail = self.detail(width, scale).wider(STEP).clamp(0.0, self.last() as f64);
+        let uv = place.map(|p| p * scale);
+        let level = |at: f64| self.sample(uv, exact(at));
+        // Half a step and 8 u of it: a tie is of either.
+        let [low, high] = [
+            (detail.low() - 0.5).ceil().max(0.0),
+            (detail.high() + 0.5).floor().min(self.last() as f64),
+        ];
+        let own = level(detail.value.round());
+        let all: Vec<_> = (low as usize..=high as usize).map(|l| level(l as f64)).collect();
+        std::array::from_fn(|c| {
+            let ends = all.iter().fold((own[c].low(), own[c].high()), |(low, high), other| {
+                (other[c].low().min(low), other[c].high().max(high))
+            });
+            Bounded::between(ends.0, own[c].value, ends.1)
+        })
+    }
+
+    /// At a place in repetitions.
+    pub fn sample(&self, uv: [Bounded; 2], detail: Bounded) -> [Bounded; C] {
+        let moved = self.mixed(uv, detail, &|t| *t, &|range| *range);
+        std::array::from_fn(|c| moved[c].wider(ROUNDINGS * U * self.most[c]))
+    }
+
+    /// Of numbers made of a texel, what a filter that may be off a place and a level has, without roundings.
+    /// `ranges`: of these numbers from those of the texels.
+    fn mixed<const D: usize>(
+        &self,
+        uv: [Bounded; 2],
+        detail: Bounded,
+        of: &impl Fn(&[f64; C]) -> [f64; D],
+        ranges: &impl Fn(&[f64; C]) -> [f64; D],
+    ) -> [Bounded; D] {
+        let last = self.last() as f64;
+        let off = if detail.error == 0.0 { 0.0 } else { STEP };
+        let detail = detail.wider(off).clamp(0.0, last);
+        let (low, high) = (detail.low().max(0.0).floor(), detail.high().min(last).ceil());
+        let (low, high) = (low as usize, high as usize);
+        let found: Vec<_> =
+            (low..=high).map(|level| self.filtered(level, uv, of, ranges)).collect();
+        let floor = (detail.value.floor() as usize).min(self.last());
+        let part = detail.value - floor as f64;
+        std::array::from_fn(|c| {
+            let at = |level: usize| found[level - low][c].value;
+            let beyond = if part > 0.0 { part * (at(floor + 1) - at(floor)) } else { 0.0 };
+            let own = found.iter().fold(0.0, |most: f64, level| most.max(level[c].error));
+            let slope = (low..high)
+                .map(|level| (at(level + 1) - at(level)).abs())
+                .fold(0.0, |most: f64, by| most.max(by));
+            exact(at(floor) + beyond).wider(own + slope * detail.error)
+        })
+    }
+
+    /// One level of it.
+    fn filtered<const D: usize>(
+        &self,
+        level: usize,
+        uv: [Bounded; 2],
+        of: &impl Fn(&[f64; C]) -> [f64; D],
+        ranges: &impl Fn(&[f64; C]) -> [f64; D],
+    ) -> [Bounded; D] {
+        let edge = (self.size >> level) as i64;
+        let texels = &self.levels[level];
+        let get =
+            |x: i64, y: i64| of(&texels[(y.rem_euclid(edge) * edge + x.rem_euclid(edge)) as usize]);
+        // u·N - ½ in single precision, and a step of the filter.
+        let place = uv.map(|uv| {
+            let texels = uv.value * edge as f64;
+            let error = uv.error * edge as f64;
+            (texels - 0.5, error + U * (texels.abs() + error + 0.5) + STEP)
+        });
+        let [x, y] = place.map(|(at, _)| at.floor() as i64);
+        let [fx, fy] = place.map(|(at, _)| at - at.floor());
+        let four = [get(x, y), get(x + 1, y), get(x, y + 1), get(x + 1, y + 1)];
+        let weights = [(1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy];
+        let value = |c: usize| four.iter().zip(weights).map(|(t, w)| t[c] * w).sum::<f64>();
+
+        let ranges = ranges(&self.ranges[level]);
+        let [(left, right), (top, bottom)] = place.map(|(at, off)| {
+            let [low, high] = [at - off, at + off].map(|v| v.clamp(-1e15, 1e15).floor() as i64);
+            (low, high + 1)
+        });
+        if (right - left).max(bottom - top) > MANY {
+            return std::array::from_fn(|c| exact(value(c)).wider(ranges[c]));
+        }
+        let mut steps = [[0.0_f64; 2]; D];
+        let most = |step: &mut f64, a: f64, b: f64| *step = step.max((a - b).abs());
+        for y in top..=bottom {
+            for x in left..=right {
+                let here = get(x, y);
+                if x < right {
+                    let beside = get(x + 1, y);
+                    (0..D).for_each(|c| most(&mut steps[c][0], beside[c], here[c]));
+                }
+                if y < bottom {
+                    let below = get(x, y + 1);
+                    (0..D).for_each(|c| most(&mut steps[c][1], below[c], here[c]));
+                }
+            }
+        }
+        std::array::from_fn(|c| {
+            let moved = steps[c][0] * place[0].1 + steps[c][1] * place[1].1;
+            exact(value(c)).wider(moved.min(ranges[c]))
+        })
+    }
+}
+
+/// The next level: means of four, rounded.
+fn coarser<const C: usize>(texels: &[[f64; C]], edge: usize) -> Vec<[f64; C]> {
+    let next = edge / 2;
+    let texel = |i: usize| {
+        let first = i / next * 2 * edge + i % next * 2;
+        let four = [first, first + 1, first + edge, first + edge + 1];
+        std::array::from_fn(|c| half(four.iter().map(|i| texels[*i][c]).sum::<f64>() / 4.0))
+    };
+    (0..next * next).map(texel).collect()
+}
+
+impl Texture<4> {
+    /// A web: its value, the square of it, and its slopes over all of it.
+    pub fn web(size: usize, values: &[f32]) -> Self {
+        let at = |x: usize, y: usize| values[y % size * size + x % size];
+        let half = 0.5 * size as f32;
+        let texel = |i: usize| {
+            let (x, y, w) = (i % size, i / size, values[i]);
+            let across = at(x + 1, y) - at(x + size - 1, y);
+            let down = at(x, y + 1) - at(x, y + size - 1);
+            [w, w * w, half * across, half * down]
+        };
+        Self::new(size, &(0..size * size).map(texel).collect::<Vec<_>>())
+    }
+
+    /// The mean m at a place in repetitions, and the variance, what the mean square s is more than m², at least 0.
+    ///
+    /// Both channels have the same weights: with m off by e the variance is that of `s - 2 m t`, of which m is
+    /// held, off by what its own differences are, and e² at most. Roundings are those of s, of twice m times m,
+    /// of the square and the difference.
+    /// Then the slopes.
+    pub fn spread(&self, uv: [Bounded; 2], detail: Bounded) -> (Bounded, Bounded, [Bounded; 2]) {
+        let [mean, square, across, down] = self.sample(uv, detail);
+        let m = mean.value;
+        let of = |t: &[f64; 4]| [t[1] - 2.0 * m * t[0]];
+        let ranges = |range: &[f64; 4]| [range[1] + 2.0 * m.abs() * range[0]];
+        let [held] = self.mixed(uv, detail, &of, &ranges);
+        let sizes = ROUNDINGS * (self.most[1] + 2.0 * m.abs() * self.most[0])
+            + m * m
+            + (square.value - m * m).abs();
+        let moved = held.error + mean.error * mean.error;
+        let variance = exact(square.value - m * m).wider(moved + 2.0 * U * sizes);
+        (mean, variance.max(0.0), [across, down])
+    }
+}
