@@ -57,18 +57,18 @@ fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [
     let (s, c) = (&shot.settings.shore.shoreline, &shot.settings.shore.contact);
     let light = &shot.settings.light;
     let mut color = under.map(f64::from);
-    for i in 0..3 {
+    for (i, color) in color.iter_mut().take(3).enumerate() {
         let whole = f64::from(light.irradiance[i]);
         let shade = f64::from(light.shade[i]) / whole;
         let sun = shade + (1.0 - shade) * (1.0 - part[2]);
         let mix = |a: f64, b: f64, t: f64| a * (1.0 - t) + b * t;
         let white = whole / std::f64::consts::PI;
         let shore = f64::from(s.color[i]) * white * sun;
-        color[i] = mix(color[i], shore, part[0] * f64::from(s.opacity));
+        *color = mix(*color, shore, part[0] * f64::from(s.opacity));
         let lit = f64::from(c.lit);
         let contact = f64::from(c.color[i]) * mix(1.0, white, lit) * mix(1.0, sun, lit);
         if over_contact {
-            color[i] = mix(color[i], contact, part[1]);
+            *color = mix(*color, contact, part[1]);
         }
     }
     color[3] = 1.0;
@@ -282,7 +282,7 @@ fn a_bias_lets_the_surface_be_in_the_depth() {
     let level = water(&shot, DVec3::Y, 0.0);
     shot.scene_depth(|x, y| {
         let z = level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]).depth.value;
-        (z > 0.0 && z < 50.0).then(|| z - 0.05)
+        (z > 0.0 && z < 50.0).then_some(z - 0.05)
     });
     let mut rig = Rig::lit(&gpu, &with_shore(shot.size, Edge::Smooth), 1);
     let count = |drawn: Drawn| {
