@@ -7,7 +7,7 @@ use serde::Deserialize;
 use whitewater::bubbles::{BubbleConfig, DistanceField, HeapSettings, Solid};
 use whitewater::headless::Bubble;
 use whitewater::headless::scene::{Material, Mesh, Scene};
-use whitewater::io::particles::{Particles, sequence};
+use whitewater::io::particles::sequence;
 use whitewater::{Region, Settings};
 
 use crate::args::RenderArgs;
@@ -422,24 +422,11 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     };
     let mut progress = Progress::new(frames.len(), "frames");
     let mut session = Session::new(&args.draw, checked, look, progress.steps())?;
-    let none = Particles::from_positions(Vec::new());
-    let numbered = frames.len() > 1;
-    for number in frames {
-        let began = std::time::Instant::now();
-        let paths = session.paths(number);
-        let there = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
-        if numbered && !args.draw.overwrite && paths.iter().all(there) {
-            progress.advance(&format!("frame {number}: is there (--overwrite draws it again)"));
-            continue;
-        }
-        session.frame(number, None, "bubbles", &none)?;
-        let paths: Vec<_> = paths.iter().map(|p| p.display().to_string()).collect();
-        progress.advance(&format!(
-            "frame {number}: {count} blobs, {:.2} s, {}",
-            began.elapsed().as_secs_f32(),
-            paths.join(" and ")
-        ));
-    }
+    session.frames_without_particles(
+        &frames,
+        ("bubbles", &format!("{count} blobs, ")),
+        &mut progress,
+    )?;
     progress.finish();
     session.finish()
 }

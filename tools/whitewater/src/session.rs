@@ -20,7 +20,7 @@ use crate::environment::{Environment, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
-use crate::progress::Steps;
+use crate::progress::{Progress, Steps};
 use crate::settings;
 use crate::shore::Shores;
 use crate::timings::Times;
@@ -370,6 +370,32 @@ impl<'a> Session<'a> {
     /// Seconds at a frame; 0 in all where each is for itself.
     fn time(&self, number: u64) -> f64 {
         number as f64 / f64::from(self.look.fps.unwrap_or(f32::INFINITY))
+    }
+
+    /// Draws frames of a scene in which are no particles, those of a sequence that are not there yet. What is said of each
+    /// begins with a word on it.
+    pub fn frames_without_particles(
+        &mut self,
+        frames: &[u64],
+        (source, word): (&str, &str),
+        progress: &mut Progress,
+    ) -> Outcome<()> {
+        let none = Particles::from_positions(Vec::new());
+        for &number in frames {
+            let began = std::time::Instant::now();
+            let paths = self.paths(number);
+            let there = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|m| m.len() > 0);
+            if frames.len() > 1 && !self.args.overwrite && paths.iter().all(there) {
+                let line = format!("frame {number}: is there (--overwrite draws it again)");
+                progress.advance(&line);
+                continue;
+            }
+            self.frame(number, None, source, &none)?;
+            let paths: Vec<_> = paths.iter().map(|p| p.display().to_string()).collect();
+            let (seconds, paths) = (began.elapsed().as_secs_f32(), paths.join(" and "));
+            progress.advance(&format!("frame {number}: {word}{seconds:.2} s, {paths}"));
+        }
+        Ok(())
     }
 
     /// Lets foam come and go by a frame that is not drawn, after [`make_room`](Self::make_room).
