@@ -101,7 +101,8 @@ fn a_strip_s_foam_is_the_twin_s() {
                 tally.add((x, y), found.data[i][0], expected);
             }
         }
-        tally.check(&format!("strip-{name}"), 50, 0.08);
+        // Where vertices are snapped less finely than to a 256th of a pixel, as much less is known.
+        tally.check(&format!("strip-{name}"), 50, 0.08 * (256.0 / bits).max(1.0));
     }
 }
 
