@@ -126,7 +126,7 @@ pub struct Config {
     /// are not. 14½ bytes a pixel more, 4 for each layer and one besides, 64 a blob.
     pub bubbles: Option<BubbleConfig>,
     /// Shoreline and contact foam are drawn ([`Frame::shore`]): the passes `shoreline` and `contact`. `None` (default): they
-    /// are not. 4 bytes a pixel more, and 6 to 8 MiB of textures.
+    /// are not. 4 bytes a pixel more, and 8.7 MiB for the textures.
     pub shore: Option<ShoreConfig>,
     /// The baseline's surface noise is drawn, for comparison: the pass `noise`, at a resolution of 0
     /// full, 1 half, 2 quarter, 3 eighth. `None` (default): it is not. 16 bytes a particle more, and 4

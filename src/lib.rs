@@ -124,7 +124,7 @@
 //! | the same, blobs (`bubbles`) | 64 a blob | 0.3 MiB for 5000 | |
 //! | those that diffuse foam becomes (`bubbles.hand_over`) | 36 a blob | 2.3 MiB for 65 536 | |
 //! | the same as the sun sees them (`cast` = N with `bubbles`) | N² | 1 MiB for 1024 | |
-//! | shoreline and contact foam (`shore`), and 7.3 MiB of textures | 4 w h | 3.5 MiB | 7.9 MiB |
+//! | shoreline and contact foam (`shore`), and 8.7 MiB for the textures | 4 w h | 3.5 MiB | 7.9 MiB |
 //! | sunlight: maps of `cast` = N texels a side | 36 N² | 36 MiB for 1024 | |
 //! | the same of diffuse particles (`cast` with `diffuse`) | 24 N² | 24 MiB for 1024 | |
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |

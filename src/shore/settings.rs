@@ -15,7 +15,7 @@ pub const LAYERS: usize = 4;
 pub struct ShoreConfig {
     /// Where foam begins and ends in a pixel.
     pub edge: Edge,
-    /// Edge of the web's texture in texels, a power of two from 16 to 2048, default 512. 5⅓ bytes each.
+    /// Edge of the web's texture in texels, a power of two from 16 to 2048, default 512. 25⅓ bytes each.
     pub web_size: u32,
     /// What the built-in web and noise are made of, default 1.
     pub seed: u32,
@@ -46,8 +46,8 @@ pub enum Edge {
     Smooth,
     /// A pixel is foam or not: the source's.
     Clip,
-    /// Alpha to coverage: four samples a pixel, of which as many are foam as [`Smooth`](Self::Smooth) says, averaged. 16
-    /// bytes a pixel more.
+    /// As alpha to coverage of four samples averages to: quarters of what [`Smooth`](Self::Smooth) says, dithered over two by
+    /// two pixels.
     Coverage,
 }
 
