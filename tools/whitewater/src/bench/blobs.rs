@@ -11,7 +11,7 @@ use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Head
 use whitewater::{Camera, Config, Settings};
 
 use super::heap::CpuHeap;
-use super::report::{self, BlobRow, Report, Row};
+use super::report::{BlobRow, Report, Row};
 use super::{BenchArgs, Drawn, lock, times};
 use crate::bubbles::{FPS, Set, Which, set};
 use crate::environment::{self, Environment};
@@ -124,7 +124,7 @@ fn sample(
         }),
         ..Row::of(headless)
     };
-    let calibration = times.calibration;
+    let calibration = times.calibration();
     let mut rows = times.rows(&template, &Drawn::nothing(config));
     // What has nothing to run against falls on the ground.
     let floor = Solid::Plane { normal: [0.0, 1.0, 0.0], distance: 0.0 };
@@ -143,14 +143,7 @@ fn sample(
         Ok(began.elapsed().as_secs_f64() * 1.0e3)
     })?;
     for (pass, mut times) in [("heap", gpu), ("heap on CPU", cpu)] {
-        rows.push(Row {
-            pass: pass.into(),
-            median: report::median(&mut times),
-            low: report::quantile(&mut times, 0.1),
-            high: report::quantile(&mut times, 0.9),
-            calibration,
-            ..template.clone()
-        });
+        rows.push(Row { calibration, ..template.of_pass(pass, &mut times) });
     }
     Ok(rows)
 }

@@ -1,13 +1,17 @@
 //! `whitewater bench`: per-pass times on the GPU's own clock, over particle counts, resolutions and
-//! paths, beside the bytes each pass has to move. Of water, of the foam of a sea, or of bubble foam.
+//! paths, beside the bytes each pass has to move. Of water, of the foam of a sea, of bubble foam, or of the coat of foam
+//! along shores.
 
 mod blobs;
 mod bytes;
 mod calibrate;
+mod covered;
 mod heap;
+mod isles;
 mod pool;
 mod report;
 mod sea;
+mod shore;
 
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -17,6 +21,7 @@ use glam::{Mat4, Vec3, vec3};
 use whitewater::ash::vk;
 use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::headless::{Background, COLOR_FORMAT, Counts, Device, DeviceOptions, Headless};
+use whitewater::io::picture;
 use whitewater::water::{
     Convolution, FoamLook, FoamSettings, Gate, NoiseLook, Rule, Shading, Shadows, Smoothing, Splat,
 };
@@ -25,16 +30,20 @@ use whitewater_seas::Sea;
 
 use crate::bounds::Bounds;
 use crate::bubbles::Which;
+use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
-use crate::output;
+use crate::layers;
+use crate::output::{self, PictureFormat, Target};
 use crate::progress::Progress;
 use report::{Format, Report, Row};
 
 /// Arguments of `bench`.
 #[derive(Args, Debug)]
-#[command(group = ArgGroup::new("instead").args(["sea", "bubbles"]))]
+#[command(group = ArgGroup::new("instead").args(["sea", "bubbles", "shore"]))]
+#[command(group = ArgGroup::new("pictured").args(["sea", "shore"]))]
 pub struct BenchArgs {
-    /// Particle counts: 16k, 64k, 256k, 1m or any number; the pool is the same, resolved finer
+    /// Particle counts: 16k, 64k, 256k, 1m or any number; the pool is the same, resolved finer. Of a shore, of the water
+    /// that it is measured by
     #[arg(long, value_delimiter = ',', default_values = ["64k"], value_parser = parse_count)]
     particles: Vec<u32>,
     /// Picture sizes [default: 1280x720; of a sea the source's, 800x600 or 1280x960, of bubbles 640x480]
@@ -47,6 +56,13 @@ pub struct BenchArgs {
     /// the GPU and on the CPU
     #[arg(long, value_delimiter = ',', value_parser = crate::bubbles::named, conflicts_with_all = ["particles", "path"])]
     bubbles: Vec<Which>,
+    /// Instead of water shoreline and contact foam, beside frames without it and frames of the water in turn
+    #[arg(long, value_delimiter = ',', value_enum)]
+    shore: Vec<shore::Scenery>,
+    /// What of the picture the band of foam is to cover, where v is from 0 to 2: of `isles`, which are as large as that
+    /// asks for
+    #[arg(long, value_name = "SHARE", value_delimiter = ',', value_parser = shore::parse_cover, requires = "shore")]
+    cover: Vec<f64>,
     /// Diffuse particles of a sea: 20k, 0.8m, 29m (thousands and millions) or any number [default: as many as the
     /// source's: 0.82m, 9m, 15m, 29m]
     #[arg(long, value_delimiter = ',', value_parser = sea::parse_count, requires = "sea")]
@@ -68,13 +84,15 @@ pub struct BenchArgs {
         hide_default_value = true
     )]
     turned: f32,
-    /// Write the last frame, of a sea and one combination; an .exr with all layers of its foam
-    #[arg(long, value_name = "FILE", requires = "sea")]
+    /// Write the last frame, of a sea or a shore and one combination; an .exr with all layers of its foam
+    #[arg(long, value_name = "FILE", requires = "pictured")]
     picture: Option<PathBuf>,
-    /// TOML of settings, whose table [diffuse] says how the foam of a sea looks, and [bubbles] how bubble foam is drawn
+    /// TOML of settings, whose table [diffuse] says how the foam of a sea looks, [bubbles] how bubble foam is drawn, and
+    /// [shore], [shoreline] and [contact] how that of shores is
     #[arg(long, value_name = "FILE.toml", requires = "instead")]
     settings: Option<PathBuf>,
-    /// Ways to draw: `default` is what the library chooses on the device
+    /// Ways to draw: `default` is what the library chooses on the device. `all` is all of water, or with --shore all of
+    /// shores
     #[arg(long, value_delimiter = ',', value_enum, default_values = ["default"])]
     path: Vec<Path>,
     /// Frames counted
@@ -133,7 +151,8 @@ pub enum Path {
     Noise,
     /// With shadows and caustics of the water, maps of 512 texels a side
     Light,
-    /// Shadows of a plate over the pool, by percentage-closer filtering of its map of 2048 texels
+    /// Shadows of a plate over the pool, of a shore those of its land, by percentage-closer filtering of a map of 2048
+    /// texels
     Pcf,
     /// The same shadows by the map's Fourier basis, of as many texels as the library takes by itself
     Convolution,
@@ -147,8 +166,34 @@ pub enum Path {
     Baseline,
     /// The baseline with its noise and foam
     BaselineNoise,
-    /// All of the above, one after the other
+    /// Of shores, as all that follow: v from a map of distances
+    Map,
+    /// v from a strip
+    Strip,
+    /// v from the screen's depth
+    Screen,
+    /// Shoreline foam alone
+    Shoreline,
+    /// Contact foam alone
+    Contact,
+    /// Edges of shoreline foam clipped
+    Clip,
+    /// Edges by what foam covers of a pixel
+    Smooth,
+    /// The same by four samples
+    Coverage,
+    /// Of all settings the most: four layers of the web, noise on everything
+    Everything,
+    /// All that there are, one after the other
     All,
+}
+
+/// What a way to draw is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Of {
+    Water,
+    Shore,
+    Both,
 }
 
 impl Path {
@@ -156,10 +201,36 @@ impl Path {
         self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
     }
 
+    fn of(self) -> Of {
+        match self {
+            Self::Default | Self::Pcf | Self::All => Of::Both,
+            Self::Map
+            | Self::Strip
+            | Self::Screen
+            | Self::Shoreline
+            | Self::Contact
+            | Self::Clip
+            | Self::Smooth
+            | Self::Coverage
+            | Self::Everything => Of::Shore,
+            _ => Of::Water,
+        }
+    }
+
     fn configure(self, config: &mut Config) {
         let query = |gate| Some(Smoothing::Query(gate));
         match self {
             Self::Default | Self::All => {}
+            // No ways to draw water.
+            Self::Map
+            | Self::Strip
+            | Self::Screen
+            | Self::Shoreline
+            | Self::Contact
+            | Self::Clip
+            | Self::Smooth
+            | Self::Coverage
+            | Self::Everything => {}
             Self::Raster | Self::Compute => {
                 let splat = if self == Self::Raster { Splat::Raster } else { Splat::Compute };
                 config.depth_splat = Some(splat);
@@ -211,6 +282,8 @@ pub struct Drawn {
     /// How often they are gone through.
     pub goes: u64,
     pub foam: u64,
+    /// Full-resolution pixels with a coat of foam.
+    pub coat: u64,
     /// Active pixels summed over the iterations of the smoothing.
     pub iterations: u64,
     /// Most iterations of a pixel.
@@ -230,6 +303,7 @@ impl Drawn {
             diffuse: 0,
             goes: 0,
             foam: 0,
+            coat: 0,
             iterations: 0,
             most_iterations: 0,
         }
@@ -238,12 +312,9 @@ impl Drawn {
 
 /// Runs everything asked for and prints it: what was measured, also where it ends early.
 pub fn run(args: &BenchArgs) -> Outcome<()> {
-    let paths: Vec<Path> = if args.path.contains(&Path::All) {
-        Path::value_variants().iter().copied().filter(|p| *p != Path::All).collect()
-    } else {
-        args.path.clone()
-    };
-    sea::check(args)?;
+    let paths = paths(args)?;
+    shore::check(args)?;
+    check_picture(args, paths.len())?;
     let options = DeviceOptions { name: args.device.clone(), ..Default::default() };
     let device = Device::new(&options)?;
     let (adapter, driver) = (device.adapter.clone(), device.driver.clone());
@@ -255,12 +326,71 @@ pub fn run(args: &BenchArgs) -> Outcome<()> {
         sea::measure_all(args, &options, &report)
     } else if !args.bubbles.is_empty() {
         blobs::measure_all(args, &options, &report)
+    } else if !args.shore.is_empty() {
+        shore::measure_all(args, &paths, &options, &report)
     } else {
         measure_all(args, &paths, &options, &report)
     };
     // What there is is told, whatever became of the rest.
     let told = output::at_end();
     outcome.and(told)
+}
+
+/// The ways that are asked for.
+fn paths(args: &BenchArgs) -> Outcome<Vec<Path>> {
+    let (own, others) = match args.shore.is_empty() {
+        true => (Of::Water, Of::Shore),
+        false => (Of::Shore, Of::Water),
+    };
+    if let Some(path) = args.path.iter().find(|path| path.of() == others) {
+        let name = path.name();
+        return Err(Failure::usage(match own {
+            Of::Water => format!("--path {name}: a way to draw shores; add --shore isles"),
+            _ => format!("--path {name}: a way to draw water; leave it out, or --shore"),
+        }));
+    }
+    let all = || Path::value_variants().iter().copied();
+    Ok(match args.path.contains(&Path::All) {
+        true => all().filter(|path| *path != Path::All && path.of() != others).collect(),
+        false => args.path.clone(),
+    })
+}
+
+/// What can be said of the picture before anything is measured; `paths`: how many ways there are.
+fn check_picture(args: &BenchArgs, paths: usize) -> Outcome<()> {
+    let Some(path) = &args.picture else { return Ok(()) };
+    let (count, of) = match args.shore.is_empty() {
+        true => (sea::count(args), "sea, count, size and occlusion"),
+        false => (shore::count(args, paths), "shore, cover, size and path"),
+    };
+    if count != 1 {
+        return Err(Failure::usage(format!(
+            "--picture: expected one combination of {of}, found {count}; leave only one"
+        )));
+    }
+    Target::new(path, false)?;
+    output::probe(path)
+}
+
+/// Writes a picture of the last frame, with layers where it is an .exr.
+fn write_picture(
+    headless: &mut Headless,
+    path: &std::path::Path,
+    wanted: &str,
+    camera: &Camera,
+    exposure: f32,
+) -> Outcome<()> {
+    let vk::Extent2D { width, height } = headless.renderer().config().extent;
+    let format = Target::new(path, false)?.format;
+    let wanted = match format {
+        PictureFormat::Exr => layers::wanted(wanted)?,
+        PictureFormat::Png => Vec::new(),
+    };
+    let layers = layers::collect(headless, (width, height), &wanted, &Lens::new(camera)?)?;
+    output::write(path, |to| match format {
+        PictureFormat::Exr => picture::write_exr(&layers, to),
+        PictureFormat::Png => picture::write_png(&layers, exposure, to),
+    })
 }
 
 fn lock(report: &Mutex<Report>) -> MutexGuard<'_, Report> {
@@ -383,10 +513,11 @@ fn sample(
 }
 
 /// What the frames took, milliseconds.
+#[derive(Default)]
 struct Times {
     passes: Vec<(&'static str, Vec<f64>)>,
     totals: Vec<f64>,
-    calibration: f64,
+    calibration: Vec<f64>,
 }
 
 /// Draws all frames.
@@ -395,40 +526,47 @@ fn times(
     args: &BenchArgs,
     mut draw: impl FnMut(&mut Headless) -> Result<(), Error>,
 ) -> Result<Times, Error> {
-    let mut passes: Vec<(&'static str, Vec<f64>)> = Vec::new();
-    let mut totals = Vec::new();
-    let mut calibration = Vec::new();
+    let mut times = Times::default();
     for frame in 0..args.warmup + args.frames {
-        calibration.push(calibrate::milliseconds());
+        times.calibration.push(calibrate::milliseconds());
         draw(headless)?;
-        if frame < args.warmup {
-            continue;
+        if frame >= args.warmup {
+            times.note(headless);
         }
+    }
+    Ok(times)
+}
+
+impl Times {
+    /// Of the frame that was drawn last.
+    fn note(&mut self, headless: &mut Headless) {
         let mut total = 0.0;
         for timing in headless.timings() {
             let ms = timing.nanoseconds * 1e-6;
             total += ms;
-            match passes.iter_mut().find(|(name, _)| *name == timing.name) {
+            match self.passes.iter_mut().find(|(name, _)| *name == timing.name) {
                 Some((_, list)) => list.push(ms),
-                None => passes.push((timing.name, vec![ms])),
+                None => self.passes.push((timing.name, vec![ms])),
             }
         }
-        totals.push(total);
+        self.totals.push(total);
     }
-    Ok(Times { passes, totals, calibration: report::median(&mut calibration) })
-}
 
-impl Times {
+    /// Of a pass, frame by frame; nothing where there is none.
+    fn of(&self, pass: &str) -> &[f64] {
+        self.passes.iter().find(|(name, _)| *name == pass).map_or(&[], |(_, list)| list)
+    }
+
+    fn calibration(&self) -> f64 {
+        report::median(&mut self.calibration.clone())
+    }
+
     /// A row a pass, and one of the whole frame.
     fn rows(mut self, template: &Row, drawn: &Drawn) -> Vec<Row> {
-        let row = |pass: &str, list: &mut Vec<f64>, moved: Option<u64>| Row {
-            pass: pass.to_owned(),
-            median: report::median(list),
-            low: report::quantile(list, 0.1),
-            high: report::quantile(list, 0.9),
-            bytes: moved,
-            calibration: self.calibration,
-            ..template.clone()
+        let template = Row { calibration: self.calibration(), ..template.clone() };
+        let row = |pass: &str, list: &mut Vec<f64>, bytes: Option<u64>| Row {
+            bytes,
+            ..template.of_pass(pass, list)
         };
         let mut rows: Vec<Row> = self
             .passes

@@ -50,6 +50,9 @@ pub struct Row {
     /// Of bubble foam.
     #[serde(flatten)]
     pub blobs: Option<BlobRow>,
+    /// Of a shore.
+    #[serde(flatten)]
+    pub shore: Option<ShoreRow>,
 }
 
 /// What there is to say of a sea beside.
@@ -74,7 +77,36 @@ pub struct BlobRow {
     pub steps: u32,
 }
 
+/// What there is to say of a shore beside.
+#[derive(Clone, Debug, Serialize)]
+pub struct ShoreRow {
+    pub shore: &'static str,
+    /// What tells how far it is.
+    pub way: &'static str,
+    pub edge: &'static str,
+    /// What of the picture is to be water with v from 0 to 2, and what is; none without shoreline foam.
+    pub cover: Option<f64>,
+    pub covered: Option<f64>,
+    /// What of it has foam.
+    pub foam: f64,
+    /// Particles of the water in the same run.
+    pub water: u32,
+    /// Its foam as a part of that water's frame.
+    pub ratio: f64,
+}
+
 impl Row {
+    /// The same of a pass, by its times.
+    pub fn of_pass(&self, pass: &str, times: &mut [f64]) -> Self {
+        Self {
+            pass: pass.to_owned(),
+            median: median(times),
+            low: quantile(times, 0.1),
+            high: quantile(times, 0.9),
+            ..self.clone()
+        }
+    }
+
     /// What the renderer alone says.
     pub fn of(headless: &Headless) -> Self {
         let memory = headless.renderer().memory();
@@ -117,7 +149,8 @@ impl Report {
             Format::Csv => out::print(format_args!(
                 "adapter,driver,version,particles,width,height,path,pass,median_ms,p10_ms,p90_ms,\
                  bytes,calibration_ms,most_iterations,memory_bytes,sea,diffuse,occlusion,\
-                 input_bytes,ns_per_diffuse,bubble_scene,blobs,bubbles,layers,impostor,map,steps\n"
+                 input_bytes,ns_per_diffuse,bubble_scene,blobs,bubbles,layers,impostor,map,steps,\
+                 shore,way,edge,cover,covered,foam,water,ratio\n"
             ))?,
             Format::Json => {}
         }
@@ -166,8 +199,17 @@ fn csv(adapter: &str, driver: &str, r: &Row) -> String {
             format!("{bubble_scene},{blobs},{bubbles},{layers},{impostor},{map},{steps}")
         },
     );
+    let share = |share: Option<f64>| share.map_or_else(String::new, |share| format!("{share:.5}"));
+    let shore = r.shore.as_ref().map_or_else(
+        || ",,,,,,,".into(),
+        |s| {
+            let ShoreRow { shore, way, edge, cover, covered, foam, water, ratio } = s;
+            let (cover, covered) = (share(*cover), share(*covered));
+            format!("{shore},{way},{edge},{cover},{covered},{foam:.5},{water},{ratio:.5}")
+        },
+    );
     format!(
-        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{},{},{sea},{blobs}\n",
+        "\"{adapter}\",\"{driver}\",{VERSION},{},{},{},{},{},{:.4},{:.4},{:.4},{bytes},{:.4},{},{},{sea},{blobs},{shore}\n",
         r.particles,
         r.width,
         r.height,
@@ -186,8 +228,8 @@ fn csv(adapter: &str, driver: &str, r: &Row) -> String {
 fn table(rows: &[Row]) -> String {
     let Some(first) = rows.first() else { return String::new() };
     let mb = |bytes: u64| bytes as f64 * 1e-6;
-    let mut text = match (&first.sea, &first.blobs) {
-        (Some(sea), _) => format!(
+    let mut text = match (&first.sea, &first.blobs, &first.shore) {
+        (Some(sea), ..) => format!(
             "\n{}, {} diffuse particles, {}x{}, {} occlusion; renderer {:.1} MB, particles {:.1} MB ({:.1} a million)",
             sea.sea,
             sea.diffuse,
@@ -198,7 +240,7 @@ fn table(rows: &[Row]) -> String {
             mb(first.inputs),
             first.inputs as f64 / f64::from(sea.diffuse.max(1))
         ),
-        (None, Some(b)) => format!(
+        (None, Some(b), _) => format!(
             "\n{}, {} blobs of {} bubbles in all, {}x{}, {}, {} layers, {} of {} texels in {} steps; renderer {:.1} MB",
             b.bubble_scene,
             b.blobs,
@@ -212,14 +254,16 @@ fn table(rows: &[Row]) -> String {
             b.steps,
             mb(first.memory)
         ),
-        (None, None) => format!(
+        (None, None, Some(s)) => shore(first, s),
+        (None, None, None) => format!(
             "\n{} particles, {}x{}, {}, at most {} iterations",
             first.particles, first.width, first.height, first.path, first.most_iterations
         ),
     };
     text += &format!("; calibration loop {:.2} ms\n", first.calibration);
     let [a, b, c, d, e] = ["median ms", "p10", "p90", "MB at least", "GB/s"];
-    text += &format!("{:<12}{a:>10}{b:>10}{c:>10}{d:>11}{e:>10}\n", "pass");
+    let wide = rows.iter().map(|row| row.pass.len() + 1).fold(12, usize::max);
+    text += &format!("{:<wide$}{a:>10}{b:>10}{c:>10}{d:>11}{e:>10}\n", "pass");
     for r in rows {
         let (moved, rate) = match r.bytes {
             Some(b) => (
@@ -229,15 +273,38 @@ fn table(rows: &[Row]) -> String {
             None => ("-".into(), "-".into()),
         };
         text += &format!(
-            "{:<12}{:>10.3}{:>10.3}{:>10.3}{moved:>11}{rate:>10}\n",
+            "{:<wide$}{:>10.3}{:>10.3}{:>10.3}{moved:>11}{rate:>10}\n",
             r.pass, r.median, r.low, r.high
         );
         if let Some(each) = r.ns_per_diffuse {
-            text += &format!("{:<12}{each:>10.2} ns a particle\n", "");
+            text += &format!("{:<wide$}{each:>10.2} ns a particle\n", "");
         }
         if r.pass == "frame" {
-            text += &format!("{:<12}{:>10.2} calibration loops\n", "", r.median / r.calibration);
+            text += &format!("{:<wide$}{:>10.2} calibration loops\n", "", r.median / r.calibration);
         }
     }
+    if let (Some(s), Some(all)) = (&first.shore, rows.iter().find(|row| row.pass == FOAM)) {
+        text += &format!(
+            "{FOAM} {:.2} ms: {:.3} of the frame of {} particles\n",
+            all.median, s.ratio, s.water
+        );
+    }
     text
+}
+
+/// The row of all that foam of shores costs.
+pub const FOAM: &str = "foam";
+
+fn shore(row: &Row, s: &ShoreRow) -> String {
+    let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+    let covered = s.covered.map_or_else(String::new, |covered| {
+        let asked =
+            s.cover.map_or_else(String::new, |asked| format!(" ({} asked)", percent(asked)));
+        format!("v from 0 to 2 over {}{asked} of the picture, ", percent(covered))
+    });
+    let (ShoreRow { shore, way, edge, foam, .. }, Row { width, height, path, .. }) = (s, row);
+    format!(
+        "\n{shore}, {width}x{height}, {path}: v by {way}, {edge} edges; {covered}foam on {}",
+        percent(*foam)
+    )
 }

@@ -15,12 +15,9 @@ use whitewater::{Config, Error, Settings};
 use whitewater_seas::{Foam, Sea};
 
 use super::report::{Report, Row, SeaRow};
-use super::{BenchArgs, Drawn, lock, times};
-use crate::camera::Lens;
+use super::{BenchArgs, Drawn, lock, times, write_picture};
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
-use crate::layers;
-use crate::output::{self, PictureFormat, Target};
 use crate::progress::Progress;
 use crate::settings::SettingsFile;
 
@@ -109,17 +106,9 @@ fn cases(args: &BenchArgs) -> Vec<Case> {
     cases
 }
 
-/// What can be said before anything is measured.
-pub fn check(args: &BenchArgs) -> Outcome<()> {
-    let Some(path) = &args.picture else { return Ok(()) };
-    let count = cases(args).len();
-    if count != 1 {
-        return Err(Failure::usage(format!(
-            "--picture: expected one combination of sea, count, size and occlusion, found {count}; leave only one"
-        )));
-    }
-    Target::new(path, false)?;
-    output::probe(path)
+/// How many combinations are asked for.
+pub fn count(args: &BenchArgs) -> usize {
+    cases(args).len()
 }
 
 pub fn measure_all(
@@ -211,17 +200,7 @@ fn sample(
         ..Drawn::nothing(config)
     };
     if let Some(path) = &args.picture {
-        let size = (extent.width, extent.height);
-        let format = Target::new(path, false)?.format;
-        let wanted = match format {
-            PictureFormat::Exr => layers::wanted(LAYERS)?,
-            PictureFormat::Png => Vec::new(),
-        };
-        let layers = layers::collect(headless, size, &wanted, &Lens::new(&camera)?)?;
-        output::write(path, |to| match format {
-            PictureFormat::Exr => picture::write_exr(&layers, to),
-            PictureFormat::Png => picture::write_png(&layers, environment.exposure(), to),
-        })?;
+        write_picture(headless, path, LAYERS, &camera, environment.exposure())?;
     }
     let template = Row {
         width: extent.width,

@@ -33,6 +33,17 @@ pub enum By {
     None,
 }
 
+impl By {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Map => "map",
+            Self::Strip => "strip",
+            Self::Screen => "screen",
+            Self::None => "none",
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum EdgeTable {

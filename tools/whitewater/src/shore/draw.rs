@@ -69,17 +69,18 @@ enum Land {
 impl Shores {
     /// Contact foam on the particles' water alone, where a file asks for it.
     pub fn of_particles(file: &SettingsFile) -> Outcome<Option<Self>> {
-        let on = file.contact.on_particles();
-        on.then(|| {
-            let shore = Shore { surface: None, ..Shore::new(0.0) };
-            let config = file.shore.config();
-            Ok(Self { config, shore, land: Land::None, web: web(file)? })
-        })
-        .transpose()
+        file.contact.on_particles().then(|| Self::on_particles(file)).transpose()
+    }
+
+    /// The same, asked for or not.
+    pub fn on_particles(file: &SettingsFile) -> Outcome<Self> {
+        let shore = Shore { surface: None, ..Shore::new(0.0) };
+        let config = file.shore.config();
+        Ok(Self { config, shore, land: Land::None, web: web(file)? })
     }
 
     /// On the sea of a scene.
-    fn of(
+    pub fn of(
         file: &SettingsFile,
         scene: &Scene,
         level: f32,
@@ -134,9 +135,24 @@ impl Shores {
 
     /// The land where it is in the scene's frame, after another.
     pub fn moved(&self, headless: &mut Headless, scene: &Scene, before: u64) -> Result<(), Error> {
-        let Land::Map { area, .. } = &self.land else { return Ok(()) };
         let Some(changed) = changed(scene, before) else { return Ok(()) };
-        headless.shore_map_step(area, &transforms(scene, scene.frame), Some(changed))
+        self.step(headless, scene, Some(changed))
+    }
+
+    /// The map, where there is one, of the land of a scene's frame: what has changed of it, or all.
+    pub fn step(
+        &self,
+        headless: &mut Headless,
+        scene: &Scene,
+        changed: Option<[[f32; 2]; 2]>,
+    ) -> Result<(), Error> {
+        let Land::Map { area, .. } = &self.land else { return Ok(()) };
+        headless.shore_map_step(area, &transforms(scene, scene.frame), changed)
+    }
+
+    /// Whether a map tells how far the shore is.
+    pub fn by_map(&self) -> bool {
+        matches!(self.land, Land::Map { .. })
     }
 }
 
@@ -146,7 +162,7 @@ fn web(file: &SettingsFile) -> Outcome<Option<([u32; 2], Vec<f32>)>> {
 }
 
 /// Where each mesh is in a frame.
-fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
+pub fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
     let pose = |index: usize| {
         let motion = scene.motions.iter().find(|motion| motion.meshes.contains(&index));
         motion.map_or(Mat4::IDENTITY, |motion| motion.pose(frame))
@@ -155,7 +171,7 @@ fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
 }
 
 /// The least and the greatest x and z of what stands elsewhere than in another frame, then and now.
-fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
+pub fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
     let [then, now] = [before, scene.frame].map(|frame| transforms(scene, frame));
     let (mut least, mut most) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
     for (i, mesh) in scene.meshes.iter().enumerate().filter(|(i, _)| then[*i] != now[*i]) {
@@ -171,7 +187,7 @@ fn changed(scene: &Scene, before: u64) -> Option<[[f32; 2]; 2]> {
 }
 
 /// A scene by its name, how foam looks there and by what it knows the shore.
-fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(ShoreScene, By)> {
+pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(ShoreScene, By)> {
     let contact = &mut settings.shore.contact;
     Ok(match which {
         Which::Archipelago => (scenes::archipelago(), By::Map),

@@ -2,7 +2,8 @@
 
 mod draw;
 mod scenes;
-mod strip;
-mod terrain;
+pub mod strip;
+pub mod terrain;
 
-pub use draw::{Shores, Which, named, run};
+pub use draw::{Shores, Which, changed, named, run, scene_of, transforms};
+pub use scenes::ShoreScene;
