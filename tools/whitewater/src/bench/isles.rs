@@ -109,7 +109,7 @@ pub fn isles(
     let islands = islands();
     let scale = scale(&islands, size, cover, reach[0])?;
     let land = |p: Vec2| scale * height(inland(&islands, p / scale));
-    let patch = Patch { low: scale * LOW, high: scale * HIGH, cell: scale * 1.5 };
+    let patch = Patch { low: scale * LOW, high: scale * HIGH, cell: scale * 2.2 };
     let sand = Material::named("island").unwrap_or_default();
     let floor = scale * FLOOR;
     let meshes = vec![terrain::field(patch, 0.999 * floor, sand.clone(), land)];

@@ -1,5 +1,6 @@
 //! `bench`: what it prints, and that nothing measured is lost.
 
+use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
@@ -197,6 +198,126 @@ fn what_is_no_sea_is_an_error() {
         ("--sea wave,ship --picture a.png", "one combination"),
         ("--sea wave --picture a.jpg", ".png"),
         ("--settings a.toml", "--sea"),
+    ] {
+        let run = folder.run(&format!("bench {arguments}"));
+        assert_eq!(run.0.status.code(), Some(2), "{arguments}: {}", run.stderr());
+        assert!(run.stderr().contains(says), "{arguments}: {}", run.stderr());
+    }
+    assert!(folder.files().is_empty(), "{:?}", folder.files());
+}
+
+/// Each cell of a CSV's rows by its column's name; adapter and driver, which may have commas, left out.
+fn cells(text: &str) -> Vec<HashMap<&str, &str>> {
+    let mut lines = text.lines();
+    let head: Vec<_> = lines.next().unwrap().split(',').skip(2).collect();
+    lines
+        .map(|line| {
+            let (_, rest) = line.rsplit_once('"').unwrap();
+            let row: Vec<_> = rest.split(',').skip(1).collect();
+            assert_eq!(row.len(), head.len(), "{line}");
+            head.iter().copied().zip(row).collect()
+        })
+        .collect()
+}
+
+const QUICK_MAP: &str = "[shore]\nmap = 256\nweb_size = 64\n";
+
+/// What foam along shores covers and costs, by each of its ways, beside the water.
+#[test]
+fn shores_say_what_their_foam_costs() {
+    let folder = Folder::new();
+    folder.text("quick.toml", QUICK_MAP);
+    let quick = "bench --particles 64 --size 160x90 --frames 2 --warmup 0 --settings quick.toml";
+    let paths = "default,strip,contact";
+    let run = folder.run(&format!("{quick} --shore isles --path {paths} --format json")).ok();
+    let all: Value = serde_json::from_str(&run.stdout()).unwrap();
+    let rows = all["rows"].as_array().unwrap();
+    let number = |row: &Value, name: &str| row[name].as_f64().unwrap();
+    for path in paths.split(',') {
+        let find = |pass: &str| rows.iter().find(|r| r["path"] == path && r["pass"] == pass);
+        let row = |pass: &str| find(pass).unwrap_or_else(|| panic!("{path}, {pass}"));
+        let median = |pass: &str| number(row(pass), "median");
+        let foam = row("foam");
+        let way = match path {
+            "strip" => "strip",
+            "contact" => "none",
+            _ => "map",
+        };
+        assert_eq!([&foam["shore"], &foam["way"], &foam["edge"]], ["isles", way, "smooth"]);
+        // Foam is the pass and what the composite takes longer for it; all is told in parts of the water's frame.
+        let coat = median("composite") - median("composite without");
+        assert!((median("coat") - coat).abs() < 1e-9, "{path}: {coat}");
+        let sum = coat + median("shoreline");
+        assert!((number(foam, "median") - sum).abs() < 1e-9, "{path}: {sum}");
+        assert!((number(foam, "ratio") - sum / median("water frame")).abs() < 1e-9, "{path}");
+        assert!(median("shoreline") > 0.0 && median("composite without") > 0.0);
+        // As large as was asked for, and not without foam.
+        let shown = number(foam, "foam");
+        let band = foam["covered"].as_f64();
+        match path {
+            "contact" => assert!(band.is_none() && shown > 0.002, "{band:?}, {shown}"),
+            _ => {
+                let band = band.unwrap();
+                assert!((band - 0.2).abs() < 0.01, "{path}: {band}");
+                assert!((0.25 * band..band + 0.02).contains(&shown), "{path}: {shown} of {band}");
+            }
+        }
+        assert_eq!(find("map").is_some(), way == "map", "{path}");
+        if way == "map" {
+            let [whole, part, none] = ["map", "map in part", "map again"].map(median);
+            assert!(none < whole && none < part, "{whole}, {part}, {none}");
+        }
+    }
+    let quick = format!("{quick} --shore isles,splash --cover 0.1,0.4 --path clip --format csv");
+    let text = folder.run(&quick).ok().stdout();
+    let foam: Vec<_> = cells(&text).into_iter().filter(|row| row["pass"] == "foam").collect();
+    assert_eq!(foam.len(), 3, "{text}");
+    for (row, cover) in foam.iter().zip([0.1, 0.4]) {
+        assert_eq!((row["shore"], row["edge"]), ("isles", "clip"), "{text}");
+        assert_eq!(row["cover"].parse(), Ok(cover), "{text}");
+        let covered: f64 = row["covered"].parse().unwrap();
+        assert!((covered - cover).abs() < 0.01, "{covered}");
+        assert!(row["ratio"].parse::<f64>().unwrap() > 0.0, "{text}");
+    }
+    assert_eq!([foam[2]["shore"], foam[2]["way"], foam[2]["covered"]], ["splash", "none", ""]);
+}
+
+/// Contact foam on the water itself; and the picture.
+#[test]
+fn foam_on_the_water_is_timed() {
+    let folder = Folder::new();
+    folder.text("quick.toml", QUICK_MAP);
+    let quick = "bench --particles 4k --size 160x90 --frames 1 --warmup 0 --settings quick.toml";
+    let run = folder.run(&format!("{quick} --shore splash --picture splash.exr")).ok();
+    let text = run.stdout();
+    for part in ["splash, 160x90, default: v by none", "contact", "of the frame of"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let foam = folder.picture("splash.exr");
+    let some = foam.channel("contact.amount").unwrap().iter().filter(|v| **v > 0.0).count();
+    assert!(some > 30, "{some} pixels");
+    // A way that the scene does not have is passed over.
+    let run = folder.run(&format!("{quick} --shore splash --path strip")).ok();
+    assert!(run.stderr().contains("skipped"), "{}", run.stderr());
+}
+
+#[test]
+fn what_is_no_shore_is_an_error() {
+    let folder = Folder::new();
+    for (arguments, says) in [
+        ("--shore beach", "isles"),
+        ("--shore isles --sea wave", "--sea"),
+        ("--shore isles --cover 0", "from 0.001 to 1"),
+        ("--shore isles --cover nan", "from 0.001 to 1"),
+        ("--shore isles --cover 0.99 --size 64x48", "--cover: expected at most"),
+        ("--shore pool --cover 0.2", "of isles alone"),
+        ("--cover 0.2", "--shore"),
+        ("--shore isles --particles 64,128", "one water"),
+        ("--shore isles --path tiles", "a way to draw water"),
+        ("--path strip", "--shore isles"),
+        ("--picture a.png", "--sea"),
+        ("--shore isles --path all --picture a.png", "one combination"),
+        ("--shore isles --picture a.jpg", ".png"),
     ] {
         let run = folder.run(&format!("bench {arguments}"));
         assert_eq!(run.0.status.code(), Some(2), "{arguments}: {}", run.stderr());
