@@ -15,6 +15,7 @@
 #include "convolution.glsl"
 #include "intensity.glsl"
 #include "sunlight.glsl"
+#include "shore_light.glsl"
 #include "surface_noise.glsl"
 #include "scene_color.glsl"
 #include "shade.glsl"

@@ -4,9 +4,9 @@
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
-// light of diffuse particles, bubble foam.
+// light of diffuse particles, bubble foam, contact foam.
 // Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
-// surface_noise.glsl, intensity.glsl, scene_color.glsl.
+// shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -423,8 +423,8 @@ Surface towards(Surface surface, Surface other, float fade) {
     return surface;
 }
 
-// Colour of scene, water and foam at a pixel (its centre, at +0.5).
-vec3 layers_at(vec2 pixel, float front) {
+// Colour of scene, water and foam at a pixel (its centre, at +0.5), and the depth of the water's surface there.
+vec3 layers_at(vec2 pixel, float front, out float z) {
     float threshold = frame.surface.w;
     vec2 slope = ray_slope(pixel, frame.slope);
     float fade = 0.0;
@@ -482,6 +482,7 @@ vec3 layers_at(vec2 pixel, float front) {
         surface.dz = mix(surface.dz, other.dz, lost);
         surface.found += lost;
     }
+    z = surface.z;
 
     // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
@@ -567,10 +568,16 @@ vec3 with_soap(vec3 c, vec2 pixel) {
 
 // All layers at a pixel where water, foam or spray is: spray lies over the others.
 vec3 shade(vec2 pixel, float front) {
-    vec3 c = layers_at(pixel, front);
+    float z;
+    vec3 c = layers_at(pixel, front, z);
     if (SHORE == 1u && frame.target.z >= FOAM_TOO) {
-        vec4 coat = texelFetch(shore_foam, ivec2(pixel), 0);
-        c = with_contact(c, coat.w, coat.z);
+        float amount = texelFetch(shore_foam, ivec2(pixel), 0).w;
+        // What the texel knows of the sun is the host's surface's, behind.
+        float lost = 0.0;
+        for (bool go = SHADOW + CAST > 0u && amount > 0.0; go; go = false) {
+            lost = sun_lost(z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
+        }
+        c = with_contact(c, amount, lost);
     }
     if (DIFFUSE == 1u && frame.target.z >= FOAM_TOO) {
         float over = intensity_of(texelFetch(diffuse_thickness, ivec2(pixel), 0).x);

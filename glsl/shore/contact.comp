@@ -1,7 +1,7 @@
 #version 460
 // Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam), whose surface is the smoothed one.
-// Reads: depth, smoothed, levels, scene depth, web, mask, what sunlight.glsl reads. Writes: contact foam, and what of the
-// sun's light does not come there, of the pixels that have some.
+// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, of the pixels that have some. What of the
+// sun's light comes there `composite` finds: the host's surface behind may have another light.
 
 #include "frame.glsl"
 #include "level.glsl"
@@ -9,16 +9,11 @@
 #include "shore.glsl"
 #include "shoreline.glsl"
 #include "contact.glsl"
-#include "convolution.glsl"
-#include "intensity.glsl"
-#include "sunlight.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
-
-#include "shore_light.glsl"
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -40,7 +35,7 @@ void main() {
         amount *= shore.mask_part.w;
         if (amount > 0.0) {
             vec4 there = imageLoad(foam, texel);
-            imageStore(foam, texel, vec4(there.xy, sun_lost(ray * z, pixel), amount));
+            imageStore(foam, texel, vec4(there.xyz, amount));
         }
     }
 }

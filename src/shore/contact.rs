@@ -7,7 +7,6 @@ use super::Given;
 use super::settings::ShoreConfig;
 use super::shoreline::{AFTER, Shore, edge_constant};
 use super::textures::Textures;
-use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, FRAGMENT_SAMPLED};
@@ -22,8 +21,8 @@ pub struct Contact {
 }
 
 impl Contact {
-    pub fn new(gpu: &Gpu, config: &Config, shore: &ShoreConfig) -> Result<Self, Error> {
-        let constants = [&[edge_constant(shore)][..], &crate::light::constants(config)].concat();
+    pub fn new(gpu: &Gpu, shore: &ShoreConfig) -> Result<Self, Error> {
+        let constants = [edge_constant(shore)];
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
@@ -46,7 +45,7 @@ impl Contact {
         gpu.barriers(cmd, &to.concat(), &[]);
         let sampled =
             |image: &crate::gpu::image::Image| Resource::Sampled(image.view, gpu.samplers.nearest);
-        let own = [
+        let resources = [
             (0, r.uniforms),
             (1, r.shore),
             (2, r.scene_depth),
@@ -58,7 +57,6 @@ impl Contact {
             (8, Resource::storage(foam)),
             (7, r.levels),
         ];
-        let resources = [&own[..], &r.sunlight.resources()].concat();
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
         r.dispatch_over(r.extent, self.pipeline.local_size);
         let back = [

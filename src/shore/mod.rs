@@ -334,7 +334,7 @@ impl Shore {
                 None => Arc::new(Textures::new(gpu, shore)?),
             },
             shoreline: shoreline::Shore::new(gpu, config, shore)?,
-            contact: contact::Contact::new(gpu, config, shore)?,
+            contact: contact::Contact::new(gpu, shore)?,
         })
     }
 

@@ -13,13 +13,13 @@ use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 
-const WAYS: [Shading; 2] = [Shading::Raster, Shading::Compute];
+pub const WAYS: [Shading; 2] = [Shading::Raster, Shading::Compute];
 
 fn land(at: DVec2) -> f64 {
     0.4 * (4.0 - (at - DVec2::new(7.0, -5.0)).length())
 }
 
-fn coasts(gpu: &Gpu) -> Mapped<'_> {
+pub fn coasts(gpu: &Gpu) -> Mapped<'_> {
     let mut coasts = Mapped::new(gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
     coasts
@@ -35,7 +35,7 @@ fn look() -> ShoreLook {
 }
 
 /// A bottom under the level that comes up to it, and foam along the map's shore.
-fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
+pub fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
     let size = extent(96, 64);
     let mut shot = Shot::new(size, Lens::Standard, 0.2, points);
     let level = water(&shot, DVec3::Y, 0.0);
@@ -52,7 +52,7 @@ fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
 }
 
 /// The coat over a colour, by the foam that was found.
-fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [f64; 4] {
+pub fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [f64; 4] {
     let part = texel.map(|v| f64::from(v) / 255.0);
     let (s, c) = (&shot.settings.shore.shoreline, &shot.settings.shore.contact);
     let light = &shot.settings.light;
@@ -77,9 +77,9 @@ fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) -> [
 
 /// Filters know a place to some u of the image's width, and a channel changes by no more than about 2 from texel to texel;
 /// sums and products are some tens.
-const OFF: f64 = 2.0 * 4.0 * 96.0 * U + 40.0 * U;
+pub const OFF: f64 = 2.0 * 4.0 * 96.0 * U + 40.0 * U;
 
-fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
+pub fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
     let shore = drawn.shore.as_ref().expect("foam");
     let mut seen = 0;
     for (i, texel) in shore.data.iter().enumerate() {

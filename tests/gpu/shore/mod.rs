@@ -4,6 +4,7 @@ mod composite;
 mod contact;
 mod life;
 mod map;
+mod shade;
 mod shoreline;
 mod strip;
 mod temporal;
