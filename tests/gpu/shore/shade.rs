@@ -1,17 +1,122 @@
 //! Foam of shores and contacts in the shade of the host's scene.
 
-use glam::{Mat4, Vec3};
+use ash::vk;
+use glam::{DVec3, Mat4, Vec3};
 use whitewater::shore::Edge;
 use whitewater::water::Shadows;
-use whitewater::{Config, Shadow};
+use whitewater::{Config, Shadow, Shore, Shoreline, Strip, Triangles};
 
-use super::composite::{OFF, WAYS, coasts, coated, shot};
-use super::with_shore;
+use super::composite::{OFF, WAYS, check, coasts, coated, shot};
+use super::{STEP, U, exact, water, with_shore};
 use crate::light::shadows;
 use crate::reference::Image;
+use crate::reference::shore::{Bounded, Point};
 use crate::support::device::Gpu;
-use crate::support::rig::Rig;
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Rig, Shot, stream};
 use crate::support::scenes;
+
+/// Texels of the shadow map, of which the first half of each row has a roof over it.
+const MAP: [usize; 2] = [24, 18];
+
+/// What of the sun's light is lost at a point of the level under the roof's edge: nine comparisons a texel apart, each
+/// filtered, are a box of three texels, of which so much is under the roof; beside the map nothing. None where rounding
+/// tells whether it is beside it.
+fn under_the_roof(shot: &Shot, point: &Point, light: &Mat4, snapped: f64) -> Option<Bounded> {
+    let [east, north] = point.place.map(|p| p.value);
+    let p = DVec3::new(east, 0.0, north);
+    let ray = point.ray.map(|r| r.value);
+    let eye = shot.camera_view().inverse().w_axis.truncate().length();
+    // To eye space and back, by a matrix that is rounded itself.
+    let by = point.depth.error * DVec3::from(ray).length()
+        + snapped
+        + U * (8.0 * point.depth.value + 24.0 * (p.length() + 2.0 * eye));
+    let rows = light.as_dmat4().transpose();
+    let texels: [Bounded; 2] = std::array::from_fn(|i| {
+        let (row, size) = ([rows.x_axis, rows.y_axis][i], MAP[i] as f64);
+        let (long, at) = (row.truncate().length(), row.dot(p.extend(1.0)));
+        let off = long * (by + 2.0 * U * p.length()) + 4.0 * U * (long * p.length() + row.w.abs());
+        exact(size * (0.5 + 0.5 * at)).wider(0.5 * size * off + 4.0 * U * size)
+    });
+    let within = |low: f64, high: f64, size: usize| low > 0.0 && high < size as f64;
+    let sure = texels.iter().zip(MAP).all(|(t, size)| within(t.low(), t.high(), size));
+    let may = texels.iter().zip(MAP).all(|(t, size)| within(t.high(), t.low(), size));
+    let part = (exact(0.5 * MAP[0] as f64 + 1.5) - texels[0]) / 3.0;
+    match (sure, may) {
+        // Sixteen weights, of which each is rounded, are summed.
+        (true, _) => Some(part.clamp(0.0, 1.0).wider(24.0 * U)),
+        (false, true) => None,
+        (false, false) => Some(exact(0.0)),
+    }
+}
+
+/// By a map of the sun's, under a roof with a straight edge: the shade on the water goes by how far from the edge's shadow it
+/// is, of shoreline foam by the map of distances and by a strip as of contact foam, and the picture is as dark as that.
+#[test]
+fn foam_is_in_the_shade_of_a_map() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let base = shot(&coasts, &[]);
+    let config = Config { shadow: Some(Shadows::Map), ..with_shore(base.size, Edge::Smooth) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let corners =
+        [[3.0_f32, -9.0], [11.0, -9.0], [3.0, -1.0], [11.0, -9.0], [3.0, -1.0], [11.0, -1.0]];
+    let vertices = corners.map(|[x, z]| [x, 0.0, z, 0.25 * (x - 3.0)]);
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let vertices = rig.stub.data(bytemuck::cast_slice(&vertices), usage);
+    let strip = Shoreline::Strip(Strip {
+        triangles: Triangles { positions: stream(&vertices, 0, 16), vertices: 6, indices: None },
+        v: stream(&vertices, 12, 16),
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    });
+    let bits = f64::from(1_u32 << gpu.limits().sub_pixel_precision_bits);
+    let (sun, at) = (Vec3::new(0.6, 0.7, 0.3).normalize(), Vec3::new(7.0, 0.0, -5.0));
+    let view = Mat4::look_to_rh(at + 30.0 * sun, -sun, Vec3::new(0.3, 0.0, 1.0));
+    for (name, near, far, roof, shoreline) in [
+        ("map", 0.0, 60.0, 0.2, base.shore.and_then(|shore| shore.shoreline)),
+        ("reversed", 60.0, 0.0, 0.8, None),
+        ("strip", 0.0, 60.0, 0.2, Some(strip)),
+    ] {
+        let light = Mat4::orthographic_rh(-6.0, 6.0, -5.0, 5.0, near, far) * view;
+        let none = if near < far { 1.0 } else { 0.0 };
+        let texels =
+            Image::from_fn(MAP[0], MAP[1], |x, _| if 2 * x < MAP[0] { roof } else { none });
+        let image = shadows(&rig, Shadows::Map, &texels);
+        let mut shot = base.clone();
+        shot.settings.light.direction = sun.to_array();
+        let host = image.host_image();
+        shot.sun.shadow = Some(Shadow { image: host, view_projection: light, bias: 0.1 });
+        // With a strip nothing but that: of a texel that has both one of them says what the light is.
+        let is_strip = name == "strip";
+        let surface = base.shore.and_then(|shore| shore.surface).filter(|_| !is_strip);
+        shot.shore = Some(Shore { surface, shoreline, ..Shore::new(0.0) });
+        let drawn = rig.draw(&shot);
+        let level = water(&shot, DVec3::Y, 0.0);
+        let (mut seen, mut edge, mut dark) = ([0; 2], 0, 0);
+        for (i, texel) in drawn.shore.as_ref().expect("foam").data.iter().enumerate() {
+            if texel[0] == 0 && texel[1] == 0 {
+                continue;
+            }
+            let point = level.at([(i % 96) as f64 + 0.5, (i / 96) as f64 + 0.5]);
+            // A vertex is where a device snaps it to, and so is what is between them.
+            let moved = point.change.iter().flatten().map(|c| c.value.abs()).sum::<f64>();
+            let snapped = if is_strip { moved / bits } else { 0.0 };
+            let Some(lost) = under_the_roof(&shot, &point, &light, snapped) else { continue };
+            let off = (f64::from(texel[2]) / 255.0 - lost.value).abs();
+            assert!(off < lost.error + STEP + 4.0 * U, "{name}, {i}: {texel:?}, expected {lost:?}");
+            assert!(lost.error < 0.01, "{name}, {i}: {lost:?} tells little");
+            seen = [0, 1].map(|k| seen[k] + u32::from(texel[k] > 0));
+            edge += u32::from((0.05..0.95).contains(&lost.value));
+            dark += u32::from(lost.value == 1.0);
+        }
+        println!("{name}: {seen:?} pixels with foam, {edge} at the edge, {dark} in the dark");
+        let kinds = [shoreline.is_some(), !is_strip];
+        assert!((0..2).all(|k| (seen[k] > 300) == kinds[k]), "{name}: {seen:?}");
+        assert!(edge > 50 && dark > 80, "{name}: {edge} {dark}");
+        check(name, &shot, &drawn);
+    }
+}
 
 /// Foam on the particles' water and on the host's surface behind it in one pixel, each in the sun or not by itself: a light
 /// along the view or against it, and a plane of shade between both.
