@@ -121,7 +121,7 @@ fn circles_and_lines_are_as_far_as_they_are() {
 }
 
 /// Triangles between the middles of the texels, and beyond the map's edge as at it.
-struct Mesh {
+pub struct Mesh {
     positions: Data,
     indices: Data,
     counts: [u32; 2],
@@ -137,7 +137,7 @@ impl Mesh {
         }
     }
 
-    fn of(coasts: &Mapped<'_>, area: &Area, height: impl Fn(DVec2) -> f64) -> Self {
+    pub fn of(coasts: &Mapped<'_>, area: &Area, height: impl Fn(DVec2) -> f64) -> Self {
         let n = coasts.size as usize + 2;
         let corner = DVec2::from(area.corner(coasts.size).map(f64::from));
         let texel = f64::from(area.edge) / f64::from(coasts.size);
@@ -158,7 +158,7 @@ impl Mesh {
         Self::new(coasts, &positions, &indices)
     }
 
-    fn mesh(&self, transform: Mat4) -> MapMesh {
+    pub fn mesh(&self, transform: Mat4) -> MapMesh {
         let [vertices, indices] = self.counts;
         let triangles = Triangles {
             positions: stream(&self.positions, 0, 12),

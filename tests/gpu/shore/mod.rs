@@ -2,6 +2,7 @@
 
 mod composite;
 mod contact;
+mod flight;
 mod life;
 mod map;
 mod shade;
