@@ -26,7 +26,7 @@ pub fn coasts(gpu: &Gpu) -> Mapped<'_> {
 }
 
 /// Foam of both kinds, in colours and light of three different channels.
-fn look() -> ShoreLook {
+pub fn look() -> ShoreLook {
     let mut look = plain();
     (look.shoreline.color, look.shoreline.opacity) = ([0.9, 0.5, 0.25], 0.8);
     let c = &mut look.contact;

@@ -9,6 +9,7 @@ mod shade;
 mod shoreline;
 mod strip;
 mod temporal;
+mod unchanged;
 
 use std::sync::OnceLock;
 
