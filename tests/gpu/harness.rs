@@ -208,7 +208,7 @@ fn a_missing_barrier_of_the_hosts_is_reported() {
 }
 
 /// Old layers name the message, newer ones say it.
-fn is_hazard(message: &str) -> bool {
+pub fn is_hazard(message: &str) -> bool {
     message.contains("SYNC-HAZARD") || message.contains("hazard detected")
 }
 

@@ -1,5 +1,5 @@
 //! A spy in the device's function table: counts calls, follows what is made and destroyed, and lets
-//! a call fail. One at a time, as the tests.
+//! a call fail; keeps in what order commands use buffers, and leaves a barrier out. One at a time, as the tests.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_void};
@@ -63,7 +63,9 @@ impl Function {
 
 /// Functions with a result: the spy's stand-ins. `made`: how many objects a success makes.
 macro_rules! spied {
-    ($($id:ident $name:literal ($($arg:ident: $type:ty),*) made $made:expr;)*) => {
+    ($(
+        $id:ident $name:literal ($($arg:ident: $type:ty),*) made $made:expr $(, notes $note:expr)?;
+    )*) => {
         $(
             pub static $id: Function = Function::new($name);
         )*
@@ -75,6 +77,7 @@ macro_rules! spied {
                     if let Some(result) = super::$id.called() {
                         return result;
                     }
+                    $($note;)?
                     // SAFETY: the pointer is the driver's function of this signature.
                     let result = unsafe {
                         let real: unsafe extern "system" fn($($type),*) -> vk::Result =
@@ -122,12 +125,16 @@ spied! {
     CREATE_COMPUTE_PIPELINES c"vkCreateComputePipelines"
         (d: vk::Device, c: u64, n: u32, i: P, a: P, o: P) made n as i32;
     ALLOCATE_SETS c"vkAllocateDescriptorSets" (d: vk::Device, i: P, o: P) made 0;
-    RESET_DESCRIPTOR_POOL c"vkResetDescriptorPool" (d: vk::Device, p: u64, f: u32) made 0;
+    RESET_DESCRIPTOR_POOL c"vkResetDescriptorPool" (d: vk::Device, p: u64, f: u32) made 0,
+        notes held(&SETS).clear();
 }
 
 /// Commands, which return nothing, and what destroys.
 macro_rules! spied_void {
-    ($($id:ident $name:literal ($($arg:ident: $type:ty),*) $(undoes $maker:ident if $alive:ident)?;)*) => {
+    ($(
+        $id:ident $name:literal ($($arg:ident: $type:ty),*)
+        $(undoes $maker:ident if $alive:ident)? $(notes $note:expr)?;
+    )*) => {
         $(
             pub static $id: Function = Function::new($name);
         )*
@@ -142,6 +149,7 @@ macro_rules! spied_void {
                             super::$maker.live.fetch_sub(1, SeqCst);
                         }
                     )?
+                    $($note;)?
                     // SAFETY: the pointer is the driver's function of this signature.
                     unsafe {
                         let real: unsafe extern "system" fn($($type),*) =
@@ -158,9 +166,19 @@ macro_rules! spied_void {
 
 spied_void! {
     CMD_BIND_PIPELINE c"vkCmdBindPipeline" (c: vk::CommandBuffer, b: i32, p: u64);
-    CMD_DISPATCH c"vkCmdDispatch" (c: vk::CommandBuffer, x: u32, y: u32, z: u32);
-    CMD_DISPATCH_INDIRECT c"vkCmdDispatchIndirect" (c: vk::CommandBuffer, b: u64, o: u64);
-    CMD_DRAW_INDIRECT c"vkCmdDrawIndirect" (c: vk::CommandBuffer, b: u64, o: u64, n: u32, s: u32);
+    CMD_BIND_SETS c"vkCmdBindDescriptorSets"
+        (c: vk::CommandBuffer, p: i32, l: u64, f: u32, n: u32, s: P, m: u32, d: P)
+        notes bind(p, n, s);
+    CMD_FILL c"vkCmdFillBuffer" (c: vk::CommandBuffer, b: u64, o: u64, s: u64, v: u32)
+        notes use_of(b, By::Transfer);
+    CMD_UPDATE c"vkCmdUpdateBuffer" (c: vk::CommandBuffer, b: u64, o: u64, s: u64, d: P)
+        notes use_of(b, By::Transfer);
+    CMD_DISPATCH c"vkCmdDispatch" (c: vk::CommandBuffer, x: u32, y: u32, z: u32)
+        notes use_bound(By::Compute);
+    CMD_DISPATCH_INDIRECT c"vkCmdDispatchIndirect" (c: vk::CommandBuffer, b: u64, o: u64)
+        notes (use_bound(By::Compute), use_of(b, By::Indirect));
+    CMD_DRAW_INDIRECT c"vkCmdDrawIndirect" (c: vk::CommandBuffer, b: u64, o: u64, n: u32, s: u32)
+        notes (use_bound(By::Graphics), use_of(b, By::Indirect));
     CMD_BEGIN_PASS c"vkCmdBeginRenderPass" (c: vk::CommandBuffer, i: P, s: i32);
     CMD_RESET_QUERIES c"vkCmdResetQueryPool" (c: vk::CommandBuffer, p: u64, f: u32, n: u32);
     CMD_TIMESTAMP c"vkCmdWriteTimestamp2" (c: vk::CommandBuffer, s: u64, p: u64, q: u32);
@@ -264,7 +282,109 @@ unsafe extern "system" fn create_descriptor_pool(d: vk::Device, i: P, a: P, o: P
     result
 }
 
-/// Made by hand: it keeps the images.
+/// What uses a buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// A fill or an update.
+    Transfer,
+    /// A dispatch whose descriptor set has it.
+    Compute,
+    /// An indirect draw whose set has it.
+    Graphics,
+    /// A draw or a dispatch whose arguments it has.
+    Indirect,
+}
+
+/// A use of a buffer by a command, or a barrier.
+#[derive(Clone, Copy, Debug)]
+pub enum Event {
+    Use {
+        buffer: vk::Buffer,
+        by: By,
+    },
+    /// Of all buffers where it says none.
+    Barrier {
+        buffer: Option<vk::Buffer>,
+        before: Scope,
+        after: Scope,
+    },
+}
+
+/// Stages and accesses of a barrier.
+pub type Scope = (vk::PipelineStageFlags2, vk::AccessFlags2);
+
+/// While they are watched.
+static EVENTS: Mutex<Option<Vec<Event>>> = Mutex::new(None);
+/// Storage buffers of the sets since a pool was reset, by set and binding: a set is bound as it is made.
+static SETS: Mutex<BTreeMap<(u64, u32), vk::Buffer>> = Mutex::new(BTreeMap::new());
+/// Of compute and of graphics.
+static BOUND_SETS: [AtomicU64; 2] = [AtomicU64::new(0), AtomicU64::new(0)];
+/// Which of a buffer's barriers is left out.
+static LEFT_OUT: Mutex<Option<(vk::Buffer, usize)>> = Mutex::new(None);
+
+/// Watches uses of buffers by fills, updates, dispatches and indirect draws, and all barriers of them.
+pub fn watch() {
+    *held(&EVENTS) = Some(Vec::new());
+}
+
+/// Those since then, of which no more are watched.
+pub fn take_events() -> Vec<Event> {
+    held(&EVENTS).take().expect("watched")
+}
+
+fn note(event: Event) {
+    if let Some(events) = &mut *held(&EVENTS) {
+        events.push(event);
+    }
+}
+
+/// Buffers of the library's of a size.
+pub fn buffers_of_size(bytes: u64) -> Vec<vk::Buffer> {
+    let sizes = held(&SIZES);
+    sizes.iter().filter(|(_, size)| **size == bytes).map(|b| vk::Buffer::from_raw(*b.0)).collect()
+}
+
+/// Buffers that are in a set with another.
+pub fn buffers_beside(buffer: vk::Buffer) -> Vec<vk::Buffer> {
+    let sets = held(&SETS);
+    let with = sets.iter().filter(|(_, other)| **other == buffer).map(|(at, _)| at.0);
+    let with: Vec<u64> = with.collect();
+    sets.iter().filter(|(at, _)| with.contains(&at.0)).map(|(_, other)| *other).collect()
+}
+
+/// Neither the driver nor a layer gets the `nth` barrier of a buffer that is watched next, from 0.
+pub fn leave_out(buffer: vk::Buffer, nth: usize) {
+    *held(&LEFT_OUT) = Some((buffer, nth));
+}
+
+fn use_of(buffer: u64, by: By) {
+    note(Event::Use { buffer: vk::Buffer::from_raw(buffer), by });
+}
+
+fn use_bound(by: By) {
+    let set = BOUND_SETS[usize::from(by == By::Graphics)].load(SeqCst);
+    let all: Vec<_> = held(&SETS).range((set, 0)..=(set, u32::MAX)).map(|b| *b.1).collect();
+    all.into_iter().for_each(|buffer| use_of(buffer.as_raw(), by));
+}
+
+fn bind(point: i32, count: u32, sets: P) {
+    let graphics = point == vk::PipelineBindPoint::GRAPHICS.as_raw();
+    assert_eq!(count, 1, "sets at once");
+    // SAFETY: so many handles.
+    BOUND_SETS[usize::from(graphics)].store(unsafe { *sets.cast::<u64>() }, SeqCst);
+}
+
+/// Whether a buffer's barrier is to be left out.
+fn is_left_out(buffer: vk::Buffer) -> bool {
+    let events = held(&EVENTS);
+    let Some(events) = &*events else { return false };
+    let own =
+        |event: &&Event| matches!(event, Event::Barrier { buffer: Some(of), .. } if *of == buffer);
+    let before = events.iter().filter(own).count();
+    held(&LEFT_OUT).take_if(|which| *which == (buffer, before)).is_some()
+}
+
+/// Made by hand: it keeps the barriers.
 pub static CMD_BARRIER: Function = Function::new(c"vkCmdPipelineBarrier2");
 /// The image of each image barrier since the last reset.
 static IMAGE_BARRIERS: Mutex<Vec<vk::Image>> = Mutex::new(Vec::new());
@@ -278,13 +398,35 @@ unsafe extern "system" fn cmd_barrier(c: vk::CommandBuffer, i: P) {
     CMD_BARRIER.called();
     // SAFETY: the driver's function, with a valid dependency info.
     unsafe {
-        let info = &*i.cast::<vk::DependencyInfo<'_>>();
+        let info = *i.cast::<vk::DependencyInfo<'_>>();
         for n in 0..info.image_memory_barrier_count as usize {
             held(&IMAGE_BARRIERS).push((*info.p_image_memory_barriers.add(n)).image);
         }
+        let mut given = Vec::new();
+        for n in 0..info.buffer_memory_barrier_count as usize {
+            let barrier = *info.p_buffer_memory_barriers.add(n);
+            if is_left_out(barrier.buffer) {
+                continue;
+            }
+            given.push(barrier);
+            note(Event::Barrier {
+                buffer: Some(barrier.buffer),
+                before: (barrier.src_stage_mask, barrier.src_access_mask),
+                after: (barrier.dst_stage_mask, barrier.dst_access_mask),
+            });
+        }
+        for n in 0..info.memory_barrier_count as usize {
+            let barrier = *info.p_memory_barriers.add(n);
+            note(Event::Barrier {
+                buffer: None,
+                before: (barrier.src_stage_mask, barrier.src_access_mask),
+                after: (barrier.dst_stage_mask, barrier.dst_access_mask),
+            });
+        }
+        let info = info.buffer_memory_barriers(&given);
         let real: unsafe extern "system" fn(vk::CommandBuffer, P) =
             std::mem::transmute(CMD_BARRIER.real.load(SeqCst));
-        real(c, i);
+        real(c, (&raw const info).cast());
     }
 }
 
@@ -385,6 +527,9 @@ unsafe extern "system" fn update_sets(d: vk::Device, n: u32, w: P, copies: u32, 
             for info in std::slice::from_raw_parts(write.p_buffer_info, count) {
                 let vk::DescriptorBufferInfo { buffer, offset, range } = *info;
                 held(&BOUND).push(Bound { kind: write.descriptor_type, buffer, offset, range });
+                if write.descriptor_type == vk::DescriptorType::STORAGE_BUFFER {
+                    held(&SETS).insert((write.dst_set.as_raw(), write.dst_binding), buffer);
+                }
             }
         }
         let real: unsafe extern "system" fn(vk::Device, u32, P, u32, P) =

@@ -5,6 +5,7 @@ mod contact;
 mod flight;
 mod life;
 mod map;
+mod order;
 mod shade;
 mod shoreline;
 mod strip;
