@@ -8,6 +8,7 @@ mod map;
 mod order;
 mod shade;
 mod shoreline;
+mod slopes;
 mod strip;
 mod temporal;
 mod unchanged;

@@ -76,7 +76,7 @@ fn rich() -> ShoreLook {
 }
 
 /// The four texels of the map about a place as v, and its change a pixel.
-fn v_by_map(
+pub fn v_by_map(
     (map, area, size): (&Map, &Area, u32),
     look: &ShorelineLook,
     place: [Bounded; 2],
@@ -153,7 +153,7 @@ fn compared(name: &str, rig: &mut Rig<'_>, shot: &Shot, map: &Map, edge: Edge) -
 }
 
 /// The distances as they were found: what they are is the map's test.
-fn twin_map(coasts: &Mapped<'_>) -> Map {
+pub fn twin_map(coasts: &Mapped<'_>) -> Map {
     let found = coasts.distances();
     let values = found.data.iter().map(|v| exact(f64::from(*v))).collect();
     Map { width: found.width, height: found.height, values }

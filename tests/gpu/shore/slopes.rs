@@ -1,0 +1,105 @@
+//! The web's slopes where pixels are much longer than wide: they are those of a web that is turned.
+
+use glam::{Mat4, Vec3};
+use whitewater::shore::{Area, Edge, Noise, ShoreLook, ShorelineLook, WebLayer};
+use whitewater::{Shore, Shoreline};
+
+use super::shoreline::{AREA, amount, heights, twin_map, v_by_map};
+use super::{Mapped, Tally, water, with_shore};
+use crate::reference::shore::Bounded;
+use crate::reference::shore::foam::Pixel;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, extent};
+use crate::support::scenes::Lens;
+
+/// Degrees by which the web is turned.
+const ANGLE: f32 = 30.0;
+
+/// The web alone, of so many layers that are turned alike.
+fn look(layers: usize) -> ShoreLook {
+    let all = [0.3, 0.47, 0.21].map(|scale| WebLayer {
+        weight: 1.0 / layers as f32,
+        scale,
+        angle: ANGLE,
+        speed: [0.1, 0.0],
+    });
+    let shoreline = ShorelineLook {
+        reach: [50.0, 50.0],
+        wave_ratio: 0.0,
+        web_ratio: 1.0,
+        web_rise: [0.0; 2],
+        threshold: 0.5,
+        threshold_noise: Noise::NONE,
+        rise_noise: Noise::NONE,
+        frequency_noise: Noise::NONE,
+        speed_noise: Noise::NONE,
+        web_warp: Noise::NONE,
+        layers: std::array::from_fn(|i| if i < layers { all[i] } else { WebLayer::NONE }),
+        ..ShorelineLook::default()
+    };
+    ShoreLook { time: 12.75, shoreline, ..ShoreLook::default() }
+}
+
+/// A way that is turned back by twice the web's angle: of a twin that turns it by the angle what a transposed turn makes.
+/// What it spans keeps its area, and with it the web its level of detail.
+fn transposed([x, y]: [Bounded; 2]) -> [Bounded; 2] {
+    let (sine, cosine) = (2.0 * f64::from(ANGLE)).to_radians().sin_cos();
+    [x * cosine + y * sine, y * cosine - x * sine]
+}
+
+/// Low over the water pixels are many times as long as wide: what a slope is along them goes by how the web is turned. Of the
+/// twin the picture is within the bounds; of one whose turn of slopes alone is transposed it is far beyond.
+#[test]
+fn slopes_are_turned_with_the_web() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let area = Area { reach: AREA.edge, ..AREA };
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&area, &heights(&area, 64, |at| 0.3 * (at.x - 7.0)), None);
+    let map = twin_map(&coasts);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    for layers in [1, 3] {
+        let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
+        let (eye, along) = (Vec3::new(4.0, 0.7, 9.0), Vec3::new(0.3, -0.3, -1.0));
+        shot.camera.view = Mat4::look_to_rh(eye, along, Vec3::Y);
+        let shoreline = Some(Shoreline::Map(coasts.coast()));
+        shot.shore = Some(Shore { shoreline, ..Shore::new(area.level) });
+        shot.settings.shore = look(layers);
+        let found = rig.draw(&shot).shore.expect("foam");
+        let level = water(&shot, Vec3::Y.as_dvec3(), 0.0);
+        let (mut own, mut other, mut longest) = (Tally::default(), Tally::default(), 0.0_f64);
+        for (i, texel) in found.data.iter().enumerate() {
+            let at = [i % found.width, i / found.width];
+            let point = level.at(at.map(|v| v as f64 + 0.5));
+            if point.depth.low() <= 0.0 {
+                continue;
+            }
+            let look = &shot.settings.shore;
+            let of = (&map, &area, 64);
+            let told = v_by_map(of, &look.shoreline, point.place, point.change);
+            let Some((v, dv)) = told else { continue };
+            let long = point.change.map(|way| way[0].value.hypot(way[1].value));
+            longest = longest.max(long[0].max(long[1]) / long[0].min(long[1]));
+            let pixel = Pixel { place: point.place, v, across: point.change, dv };
+            let turned = Pixel { across: point.change.map(transposed), ..pixel };
+            for (tally, pixel) in [(&mut own, pixel), (&mut other, turned)] {
+                if let Some(expected) = amount(look, Edge::Smooth, &pixel, at) {
+                    tally.add((at[0], at[1]), texel[0], expected);
+                }
+            }
+        }
+        let name = format!("layers: {layers}");
+        let far = other.error / f64::from(other.partial);
+        println!(
+            "{name}: pixels up to {longest:.1} times as long as wide; transposed {} of {} are beyond the bounds, {far:.4} in the mean, at worst {:.0} of them",
+            other.beyond, other.partial, other.worst
+        );
+        own.check(&name, 500, 0.02);
+        assert!(
+            other.beyond > 200 && other.worst > 10.0,
+            "{name}: {} {}",
+            other.beyond,
+            other.worst
+        );
+    }
+}
