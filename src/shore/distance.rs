@@ -224,7 +224,11 @@ impl Part {
         Self { first: [0; 2], end: [size as i32; 2] }
     }
 
+    /// Of what lies beside the map nothing grows into it.
     fn grown(self, by: i32, size: u32) -> Self {
+        if self.is_empty() {
+            return self;
+        }
         Self {
             first: self.first.map(|v| v.saturating_sub(by).clamp(0, size as i32)),
             end: self.end.map(|v| v.saturating_add(by).clamp(0, size as i32)),
