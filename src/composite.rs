@@ -18,7 +18,7 @@ use crate::gpu::descriptors::Resource;
 use crate::gpu::graveyard::Owned;
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
-use crate::shore::Shore;
+use crate::shore::{COAT_DISPATCH, Shore};
 use crate::water::coarsening;
 use crate::water::settings::Shading;
 use crate::water::split::{DISPATCHES, KINDS};
@@ -30,6 +30,32 @@ const DEFAULT_SHADING: Shading = Shading::Raster;
 /// The way a configuration takes.
 pub fn way(config: &Config) -> Shading {
     config.composite.unwrap_or(DEFAULT_SHADING)
+}
+
+/// What every device can blend with; others may, but are read instead.
+fn blends(output: vk::Format) -> bool {
+    use vk::Format as F;
+    matches!(
+        output,
+        F::R8G8B8A8_UNORM
+            | F::R8G8B8A8_SRGB
+            | F::B8G8R8A8_UNORM
+            | F::B8G8R8A8_SRGB
+            | F::A8B8G8R8_UNORM_PACK32
+            | F::A8B8G8R8_SRGB_PACK32
+            | F::A2B10G10R10_UNORM_PACK32
+            | F::R16G16B16A16_SFLOAT
+    )
+}
+
+/// Colour over so much of the output as alpha says; the output's own alpha stays.
+fn over() -> vk::PipelineColorBlendAttachmentState {
+    no_blend()
+        .blend_enable(true)
+        .src_color_blend_factor(vk::BlendFactor::ONE)
+        .dst_color_blend_factor(vk::BlendFactor::SRC_ALPHA)
+        .src_alpha_blend_factor(vk::BlendFactor::ZERO)
+        .dst_alpha_blend_factor(vk::BlendFactor::ONE)
 }
 
 /// What the pass takes beside the layers.
@@ -108,6 +134,7 @@ impl Composite {
                     )
                 })?;
                 let coat = |_| {
+                    let blended = blends(format);
                     Pipeline::graphics(
                         gpu,
                         &Graphics {
@@ -115,8 +142,8 @@ impl Composite {
                             fragment: shader::SHORE_COAT_FRAG,
                             topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                             pass: pass.handle,
-                            blend: &[no_blend()],
-                            constants: &[(24, 1)],
+                            blend: &[if blended { over() } else { no_blend() }],
+                            constants: &[(0, u32::from(blended)), (24, 1)],
                         },
                     )
                 };
@@ -267,9 +294,14 @@ impl Composite {
                     .dst_stage_mask(COMPUTE_WRITE.stage)
                     .dst_access_mask(COMPUTE_WRITE.access)];
                 let written = vk::DependencyInfo::default().memory_barriers(&written);
-                if let Some(pipeline) = coat {
-                    r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
-                    r.dispatch_over(r.extent, pipeline.local_size);
+                if let (Some(pipeline), Some(shore)) = (coat, shore) {
+                    let (list, arguments, places) = shore.tiles(r.extent);
+                    let lists = [(32, Resource::buffer(list)), (33, Resource::buffer(arguments))];
+                    r.descriptors.bind(gpu, cmd, pipeline, &[&resources[..], &lists].concat())?;
+                    pipeline.push(gpu, cmd, &places);
+                    let (arguments, at) = (arguments.handle, COAT_DISPATCH);
+                    // SAFETY: outside a render pass; the arguments are visible since `shoreline`.
+                    unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments, at) };
                 }
                 for (i, pipeline) in (0..).zip(pipelines) {
                     let Some(pipeline) = pipeline else { continue };

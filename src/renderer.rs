@@ -306,7 +306,7 @@ impl Renderer {
         if let Some(shore) = &self.shore {
             shore.record_shoreline(&mut r, &given, general)?;
             if given.shore.is_some() && frame.settings.shore.contact.particle_opacity > 0.0 {
-                shore.record_contact(&mut r, &given, &self.water.layers())?;
+                shore.record_contact(&mut r, (&given, general), &self.water.layers())?;
             }
         }
         if let Some(foam) = &self.foam {

@@ -16,17 +16,21 @@ float eased(float x) {
     return x * x / (2.0 * (x * x - x) + 1.0);
 }
 
-// Of the pattern, at a place of the surface.
-float masked(vec2 pixel, vec2 p, float width) {
-    float pattern = 1.0;
-    bool own = shore.contact_mask.w > 0.5;
-    for (int i = own || shore.contact.z == 0.0 ? 0 : 1; i > 0; --i) {
-        float scale = shore.contact_mask.x;
-        pattern = web_at(p * scale + shore.contact_mask.yz, scale, width).x;
-    }
-    for (int i = own ? 1 : 0; i > 0; --i) {
+// The pattern at a place of the surface, 0 to 1, its change a pixel to the right and down.
+vec3 pattern_at(vec2 pixel, vec2 p, mat2 across) {
+    float scale = shore.contact_mask.x;
+    float level = level_of(sqrt(abs(determinant(across))) * scale * shore.web.z);
+    vec4 web = web_at(p * scale + shore.contact_mask.yz, level);
+    vec3 pattern = vec3(web.x, web.zw * (scale * across));
+    if (GENERAL == 1u) {
         ivec2 texel = clamp(ivec2(pixel * shore.mask.xy), ivec2(0), ivec2(shore.mask.zw) - 1);
-        pattern = texelFetch(contact_mask, texel + ivec2(shore.mask_part.xy), 0).x;
+        float host = texelFetch(contact_mask, texel + ivec2(shore.mask_part.xy), 0).x;
+        pattern = shore.contact_mask.w > 0.5 ? vec3(host, 0.0, 0.0) : pattern;
     }
-    return mix(1.0, clamp(pattern, 0.0, 1.0), shore.contact.z);
+    return pattern;
+}
+
+// How much foam there is: far is the distance over the depth of foam.
+float contact_foam(float far, float pattern) {
+    return eased((1.0 - clamp(far, 0.0, 1.0)) * mix(1.0, clamp(pattern, 0.0, 1.0), shore.contact.z));
 }

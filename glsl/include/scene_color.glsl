@@ -29,10 +29,19 @@ vec3 coated(vec3 c, vec4 coat) {
     return with_contact(c, coat.y, coat.z);
 }
 
+// What of the scene is seen through both.
+float uncovered(vec4 coat) {
+    return (1.0 - coat.x * frame.shore_color.w) * (1.0 - coat.y);
+}
+
 // At a place, filtered.
-vec3 scene_at(vec2 pixel) {
+vec3 uncoated_at(vec2 pixel) {
     vec2 texel = clamp(pixel * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
     texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
-    vec3 c = textureLod(scene_color, texel, 0.0).rgb;
+    return textureLod(scene_color, texel, 0.0).rgb;
+}
+
+vec3 scene_at(vec2 pixel) {
+    vec3 c = uncoated_at(pixel);
     return SHORE == 1u ? coated(c, coat_at(pixel)) : c;
 }

@@ -63,6 +63,11 @@ float width_of(Water w) {
     return sqrt(abs(determinant(w.across)));
 }
 
+// Eye depth of the scene; where nothing is 0, and not that of the far plane.
+float scene_of(float device_depth) {
+    return device_depth == frame.before_lens.w ? 0.0 : eye_depth(device_depth);
+}
+
 // Whether solids at a depth (0 and less: none) leave the surface to be seen.
 bool seen_before(float z, float scene) {
     return z > 0.0 && z < EMPTY && !(scene > 0.0 && scene + shore.surface_part.w < z);

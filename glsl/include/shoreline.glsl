@@ -7,6 +7,39 @@ layout(set = 0, binding = 29) uniform sampler2D shore_web;
 // 0: clipped, 1: smooth, 2: by four samples.
 layout(constant_id = 0) const uint EDGE = 1;
 
+// The level of a texture that is as fine as a place is wide.
+float level_of(float texels) {
+    return log2(max(texels, 1.0e-6));
+}
+
+vec4 noise_at(vec2 p, float scale, float width) {
+    return textureLod(shore_noise, p * scale, level_of(width * scale * shore.web.w));
+}
+
+// Of a web as it is, at its own places: its mean and that of its square, its slope each way.
+vec4 web_at(vec2 uv, float level) {
+    return textureLod(shore_web, uv, level);
+}
+
+// What the noises add at a place: to the frequency, the phase, what is affine, the threshold; how far they move the web.
+struct Noises {
+    vec4 sum;
+    vec2 moved;
+};
+
+Noises noises_at(vec2 p, float width) {
+    Noises noises = Noises(vec4(0.0), vec2(0.0));
+    vec2 bent = p;
+    // The world's bend first, the web's last.
+    for (int i = 0; i < LOOKS; ++i) {
+        vec4 n = noise_at(bent + shore.look_moved[i].xy, shore.look[i].x, width);
+        noises.sum += shore.noise[i] * n;
+        bent += shore.look[i].y * n.xy;
+        noises.moved += shore.look[i].y * n.xy + shore.look[i].z * n.zw;
+    }
+    return noises;
+}
+
 // How far the mix is over the threshold, its change a pixel to the right and down, and the variance of what a pixel leaves
 // out of it.
 struct Mixed {
@@ -15,56 +48,55 @@ struct Mixed {
     float variance;
 };
 
-vec4 noise_at(vec2 p, float scale, float width) {
-    return textureLod(shore_noise, p * scale, log2(max(width * scale * shore.web.w, 1.0e-6)));
-}
+// What a place has for all pixels about it: of what the noises change from one to the next little is known, and it is little.
+struct Place {
+    vec4 noise;     // what they add
+    vec2 moved;     // p, by them
+    mat2 across;    // metres of p a pixel to the right, and down
+    vec2 dv;        // change of v
+    float kept;     // of the waves, what a pixel does not leave out
+    vec4 levels;    // how fine each layer of the web is to be
+};
 
-// Mean of the web and of its square, and its slope each way.
-vec4 web_at(vec2 uv, float scale, float width) {
-    return textureLod(shore_web, uv, log2(max(width * scale * shore.web.z, 1.0e-6)));
-}
-
-// dv: change of v a pixel to the right, and down. What the noises change from pixel to pixel is little.
-Mixed shoreline_at(vec2 p, float v, mat2 across, vec2 dv) {
+Place place_at(vec2 p, mat2 across, vec2 dv) {
     float width = sqrt(abs(determinant(across)));
-    vec4 noise = vec4(0.0);
-    vec2 bent = vec2(0.0);
-    // The world's bend first, the web's last.
-    for (int i = 0; i < LOOKS; ++i) {
-        vec4 n = noise_at(p + shore.look_moved[i].xy, shore.look[i].x, width);
-        noise += shore.noise[i] * n;
-        p += shore.look[i].y * n.xy;
-        bent += shore.look[i].z * n.zw;
-    }
-    float frequency = shore.waves.x + noise.x;
+    Noises noises = noises_at(p, width);
     // Mean of the wave over a pixel, as if it were over a normal distribution of a box's variance.
+    float frequency = shore.waves.x + noises.sum.x;
     float kept = exp(-frequency * frequency * dot(dv, dv) / 24.0);
+    vec4 levels = vec4(0.0);
+    for (int i = 0; i < LAYERS; ++i) {
+        levels[i] = level_of(width * length(shore.layer[i].xy) * shore.web.z);
+    }
+    return Place(noises.sum, p + noises.moved, across, dv, kept, levels);
+}
+
+// The mix so many pixels from a place.
+Mixed mixed_at(Place place, float v, vec2 off) {
+    vec4 noise = place.noise;
+    float frequency = shore.waves.x + noise.x;
     float phase = frequency * v + shore.waves.y + noise.y;
     // Nothing is promised of a sine beyond half a turn.
     phase -= 6.2831853 * round(phase / 6.2831853);
-    float waves = kept * sin(phase) + shore.waves.z * v + shore.waves.w + noise.z;
-    float steep = waves > shore.mixed.x ? kept * frequency * cos(phase) + shore.waves.z : 0.0;
-    waves = max(waves, shore.mixed.x);
-
-    vec2 q = p + bent;
+    float waves = place.kept * sin(phase) + shore.waves.z * v + shore.waves.w + noise.z;
+    float steep = waves > shore.mixed.x ? place.kept * frequency * cos(phase) + shore.waves.z : 0.0;
     float web = shore.web.x * v + shore.web.y + noise.z;
-    vec2 change = shore.web.x * dv;
-    float fine = 0.0;
+    float ends = smoothstep(0.0, shore.reach.z, v) * smoothstep(0.0, shore.reach.z, 2.0 - v);
+    vec2 ratio = shore.mixed.yz;
+    Mixed mixed;
+    mixed.over = ratio.x * max(waves, shore.mixed.x) + ratio.y * web - shore.mixed.w - noise.w - 2.0 * (1.0 - ends);
+    mixed.change = (ratio.x * steep + ratio.y * shore.web.x) * place.dv;
+    mixed.variance = ratio.x * ratio.x * 0.5 * (1.0 - place.kept * place.kept);
+    vec2 q = place.moved + place.across * off;
     for (int i = 0; i < LAYERS; ++i) {
         vec4 layer = shore.layer[i];
         mat2 turn = mat2(layer.x, layer.y, -layer.y, layer.x);
-        vec4 there = web_at(turn * q + layer.zw, length(layer.xy), width);
-        float weight = shore.layer_weight[i];
-        web += weight * there.x;
-        change += weight * (there.zw * (turn * across));
-        fine += weight * weight * max(there.y - there.x * there.x, 0.0);
+        vec4 there = web_at(turn * q + layer.zw, place.levels[i]);
+        float weight = ratio.y * shore.layer_weight[i];
+        mixed.over += weight * there.x;
+        mixed.change += weight * (there.zw * (turn * place.across));
+        mixed.variance += weight * weight * max(there.y - there.x * there.x, 0.0);
     }
-    vec2 ratio = shore.mixed.yz;
-    float ends = smoothstep(0.0, shore.reach.z, v) * smoothstep(0.0, shore.reach.z, 2.0 - v);
-    Mixed mixed;
-    mixed.over = ratio.x * waves + ratio.y * web - shore.mixed.w - noise.w - 2.0 * (1.0 - ends);
-    mixed.change = ratio.x * steep * dv + ratio.y * change;
-    mixed.variance = ratio.x * ratio.x * 0.5 * (1.0 - kept * kept) + ratio.y * ratio.y * fine;
     return mixed;
 }
 

@@ -1,5 +1,5 @@
 #version 460
-// Pass `composite`, raster: a quad a tile that may have foam on the scene's water.
+// Pass `composite`, raster: a quad a tile that has foam on the scene's water.
 // Reads: list. Writes: its corners.
 
 #include "frame.glsl"
@@ -12,7 +12,7 @@ layout(push_constant, std430) uniform Push {
 
 void main() {
     uint tile = list[push.first + gl_InstanceIndex];
-    uvec2 corner = 16u * (uvec2(tile % push.across, tile / push.across) + uvec2(gl_VertexIndex & 1, gl_VertexIndex >> 1));
+    uvec2 corner = 8u * (uvec2(tile % push.across, tile / push.across) + uvec2(gl_VertexIndex & 1, gl_VertexIndex >> 1));
     vec2 pixel = min(vec2(corner), frame.extent.xy);
     gl_Position = vec4(pixel / frame.extent.xy * 2.0 - 1.0, 0.5, 1.0);
 }

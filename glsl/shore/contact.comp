@@ -10,19 +10,31 @@
 #include "shoreline.glsl"
 #include "contact.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+// Four tiles a group.
+layout(local_size_x = 256) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
+// As `contact_tiles.comp` made them.
+layout(set = 0, binding = 9, std430) readonly buffer Lists { uint list[]; };
+layout(set = 0, binding = 10, std430) readonly buffer Arguments { uint arguments[24]; };
+layout(push_constant, std430) uniform Push {
+    uint across; // tiles
+    uint most;   // of a list
+} push;
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, ivec2(frame.extent.xy)))) {
+    uint i = 4u * (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) + gl_LocalInvocationID.x / 64u;
+    bool listed = i < arguments[23];
+    uint tile = list[4u * push.most + (listed ? i : 0u)];
+    uvec2 own = uvec2(gl_LocalInvocationID.x & 7u, gl_LocalInvocationID.x >> 3u & 7u);
+    ivec2 texel = ivec2(8u * uvec2(tile % push.across, tile / push.across) + own);
+    if (!listed || any(greaterThanEqual(texel, ivec2(frame.extent.xy)))) {
         return;
     }
     float front = texelFetch(depth, texel, 0).x;
     vec2 pixel = vec2(texel) + 0.5;
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    float scene = scene_of(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
     // The smoothed surface is off by less than the border's threshold.
     float near = contact_distance(ray, front + frame.surface.w, scene) * shore.contact.y;
@@ -31,7 +43,7 @@ void main() {
         float z = smoothed_at(pixel, front);
         float far = contact_distance(ray, z, scene) * shore.contact.y;
         Water w = water_point(ray, z);
-        float amount = far < 1.0 ? eased(clamp(1.0 - far, 0.0, 1.0) * masked(pixel, w.p, width_of(w))) : 0.0;
+        float amount = far < 1.0 ? contact_foam(far, pattern_at(pixel, w.p, w.across).x) : 0.0;
         amount *= shore.mask_part.w;
         if (amount > 0.0) {
             vec4 there = imageLoad(foam, texel);

@@ -13,15 +13,16 @@
 #include "intensity.glsl"
 #include "sunlight.glsl"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+// Four tiles a group, two by two pixels an invocation.
+layout(local_size_x = 64) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
-layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
-layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[4]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
     uint most;   // of a list
 } push;
+
+#include "shore_drawn.glsl"
 
 // What tiles may have, 1: shoreline foam, 2: contact foam, 3: both. A pipeline each, not branches: a CPU runs them whole.
 layout(constant_id = 1) const uint PARTS = 3;
@@ -39,7 +40,7 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
         float best = EMPTY;
         for (int k = -1; k < 2; k += 2) {
             vec2 beside = clamp(pixel + float(k) * to, vec2(0.5), frame.extent.xy - 0.5);
-            float z = eye_depth(texelFetch(scene_depth, scene_texel(beside), 0).x);
+            float z = scene_of(texelFetch(scene_depth, scene_texel(beside), 0).x);
             if (z > 0.0 && abs(z - scene) < abs(best - scene) && beside != pixel) {
                 best = z;
                 places[i] = vec3(ray_slope(beside, frame.slope), -1.0) * z;
@@ -54,39 +55,113 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     return v_of(-max(below, 0.0) * up / max(level, 1.0e-3 * up + 1.0e-20));
 }
 
-void main() {
-    uint i = gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x;
-    bool inside = i < arguments[PARTS].w;
-    uint tile = list[(PARTS - 1u) * push.most + (inside ? i : 0u)];
-    uvec2 texel = 16u * uvec2(tile % push.across, tile / push.across) + gl_LocalInvocationID.xy;
+// A place of the surface. As far as the horizon is none of its foam is seen.
+Water water_at(vec2 pixel) {
+    vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
+    float z = surface_at(pixel, ray);
+    return water_point(ray, z > 0.0 ? min(z, 1.0e6) : 1.0e6);
+}
+
+// Shades a pixel; device: the scene's depth.
+bool shaded(uvec2 texel, bool listed, float device, Mixed mixed, float v, float pattern) {
     vec2 pixel = vec2(texel) + 0.5;
-    inside = inside && all(lessThan(pixel, frame.extent.xy));
+    bool inside = listed && all(lessThan(pixel, frame.extent.xy));
     pixel = min(pixel, frame.extent.xy - 0.5);
     vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    float scene = scene_of(device);
     float z = surface_at(pixel, ray);
     bool own = inside && seen_before(z, scene);
-    Water w = water_point(ray, own ? z : 1.0);
     float line = 0.0;
     if ((PARTS & 1u) != 0u) {
-        vec2 dv = vec2(0.0);
-        float v = mapped(w, dv);
-        if (GENERAL == 1u && shore.reach.w > 2.5) {
-            v = v_by_depth(pixel, ray, scene);
-            dv = vec2(0.0);
-        }
-        v = clamp(v, 0.0, 2.0);
-        line = own && v > 0.0 && v < 2.0 ? covered(shoreline_at(w.p, v, w.across, dv), pixel) : 0.0;
+        line = own && v > 0.0 && v < 2.0 ? covered(mixed, pixel) : 0.0;
     }
     float amount = 0.0;
     if ((PARTS & 2u) != 0u) {
         float far = contact_distance(ray, z, scene) * shore.contact.x;
-        float part = eased((1.0 - clamp(far, 0.0, 1.0)) * masked(pixel, w.p, width_of(w))) * shore.mask_part.z;
+        float part = contact_foam(far, pattern) * shore.mask_part.z;
         amount = own && far >= 0.0 ? part : 0.0;
     }
-    if (line + amount > 0.0) {
+    bool foams = line + amount > 0.0;
+    if (foams) {
         // Where there is a strip its foam is here.
         float strip = PARTS == 2u ? imageLoad(foam, ivec2(texel)).x : 0.0;
         imageStore(foam, ivec2(texel), vec4(max(line, strip), amount, sun_lost(ray * z, pixel), 0.0));
+    }
+    return foams;
+}
+
+// Of any surface, each pixel by itself.
+bool shaded_alone(uvec2 texel, bool listed) {
+    vec2 pixel = min(vec2(texel) + 0.5, frame.extent.xy - 0.5);
+    Water w = water_at(pixel);
+    float device = texelFetch(scene_depth, scene_texel(pixel), 0).x;
+    Mixed mixed;
+    float v = 0.0;
+    float pattern = 0.0;
+    if ((PARTS & 1u) != 0u) {
+        vec2 dv;
+        v = mapped(w, dv);
+        if (shore.reach.w > 2.5) {
+            float scene = scene_of(device);
+            v = scene > 0.0 ? v_by_depth(pixel, w.ray, scene) : 0.0;
+            dv = vec2(0.0);
+        }
+        v = clamp(v, 0.0, 2.0);
+        mixed = mixed_at(place_at(w.p, w.across, dv), v, vec2(0.0));
+    }
+    if ((PARTS & 2u) != 0u) {
+        pattern = pattern_at(pixel, w.p, w.across).x;
+    }
+    return shaded(texel, listed, device, mixed, v, pattern);
+}
+
+// Of a level surface 2x2 pixels: what changes little from one to the next is found once.
+bool shaded_together(uvec2 first, bool listed) {
+    vec2 middle = vec2(first) + 1.0;
+    Water w = water_at(middle);
+    vec2 dv = vec2(0.0);
+    float v = 0.0;
+    Place place;
+    vec3 pattern = vec3(0.0);
+    if ((PARTS & 1u) != 0u) {
+        v = mapped(w, dv);
+        dv = v > 0.0 ? dv : vec2(0.0);
+        place = place_at(w.p, w.across, dv);
+    }
+    if ((PARTS & 2u) != 0u) {
+        pattern = pattern_at(middle, w.p, w.across);
+    }
+    vec2 texture_size = vec2(textureSize(scene_depth, 0));
+    vec4 devices = textureGather(scene_depth, (middle + frame.scene_origin.xy) / texture_size).wzxy;
+    bool foams = false;
+    for (int i = 0; i < 4; ++i) {
+        uvec2 to = uvec2(i & 1, i >> 1);
+        vec2 off = vec2(to) - 0.5;
+        float here = v + dot(dv, off);
+        Mixed mixed;
+        if ((PARTS & 1u) != 0u) {
+            mixed = mixed_at(place, clamp(here, 0.0, 2.0), off);
+        }
+        foams = shaded(first + to, listed, devices[i], mixed, here, pattern.x + dot(pattern.yz, off)) || foams;
+    }
+    return foams;
+}
+
+void main() {
+    uint i = 4u * (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) + gl_LocalInvocationID.x / 16u;
+    bool listed = i < arguments[4u * PARTS + 3u];
+    uint tile = list[(PARTS - 1u) * push.most + (listed ? i : 0u)];
+    uvec2 quad = uvec2(gl_LocalInvocationID.x & 3u, gl_LocalInvocationID.x >> 2u & 3u);
+    uvec2 first = 8u * uvec2(tile % push.across, tile / push.across) + 2u * quad;
+    bool foams = false;
+    if (GENERAL == 0u) {
+        foams = shaded_together(first, listed);
+    } else {
+        for (uint k = 0u; k < 4u; ++k) {
+            foams = shaded_alone(first + uvec2(k & 1u, k >> 1), listed) || foams;
+        }
+    }
+    if (foams) {
+        draws(tile);
     }
 }

@@ -24,8 +24,8 @@ void main() {
     float z = -eye.z;
     Water w = water_point(eye / z, z);
     vec2 dv = vec2(dFdxFine(v), dFdyFine(v));
-    float line = covered(shoreline_at(w.p, v, w.across, dv), pixel);
-    float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    float line = covered(mixed_at(place_at(w.p, w.across, dv), v, vec2(0.0)), pixel);
+    float scene = scene_of(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     line *= seen_before(z, scene) && v > 0.0 && v < 2.0 ? 1.0 : 0.0;
     float lost = 0.0;
     for (bool go = line > 0.0; go; go = false) {

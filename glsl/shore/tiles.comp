@@ -1,72 +1,106 @@
 #version 460
-// Pass `shoreline`, first part: the tiles of 16x16 pixels in which there may be foam on the host's surface, by sixteen
-// pixels at a time. Not in the sources: most of a picture has none, and what tells is much less than what it is.
-// Reads: scene depth, surface depth, map of distances. Writes: marks.
+// Pass `shore-tiles`: lists of the tiles of 8x8 pixels that may have foam on the host's surface, by what they may have, with
+// the dispatches over them. Not in the sources: most of a picture has none, and what tells is much less than what it is.
+// Reads: scene depth, surface depth, map of distances. Writes: lists, arguments.
 
 #include "frame.glsl"
 #include "shore.glsl"
 #include "shore_place.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 0, binding = 2) uniform sampler2D scene_depth;
-layout(set = 0, binding = 8, std430) buffer Marks { uint marks[]; };
-layout(push_constant, std430) uniform Push { uint across; } push; // tiles
+#include "shore_tiles.glsl"
 
-// Eye depths of the scene at four pixels from one on: as they are gathered.
-vec4 scene_at_four(ivec2 first) {
-    vec2 middle = min(vec2(first) + 1.0, frame.scene_depth.zw - 0.5) + frame.scene_origin.xy;
-    vec4 four = textureGather(scene_depth, middle / vec2(textureSize(scene_depth, 0)));
-    // Not a texel a pixel.
-    if (GENERAL == 1u) {
-        for (int i = 0; i < 4; ++i) {
-            ivec2 to = ivec2(i == 1 || i == 2, i < 2);
-            four[i] = texelFetch(scene_depth, scene_texel(vec2(first + to) + 0.5), 0).x;
-        }
-    }
-    return frame.depth.x / (four + frame.depth.y);
+const float NONE = -3.0e38;
+
+// The scene's depths are compared as they are, but turned so that what is nearer is more: all is asked of many.
+struct Range {
+    vec4 seen;    // the surface is hidden where the scene's are more
+    vec4 contact; // no contact foam where they are less
+};
+
+// The reciprocal of an eye depth as such a depth.
+vec4 device(vec4 reciprocal) {
+    return abs(frame.depth.x) * reciprocal - (frame.depth.x < 0.0 ? -frame.depth.y : frame.depth.y);
 }
 
-// Whether contact foam may be on any of four pixels, and whether the surface is seen in any.
-bvec2 four_at(ivec2 first) {
-    vec4 scene = scene_at_four(first);
-    float most = shore.mask_part.z > 0.0 ? shore.contact.x : EMPTY;
-    bvec2 found = bvec2(false);
+// Of reciprocals of the surface's eye depths: no pixel has less than the least or more than the most; part: of a metre of
+// view that counts as near. With some to spare for rounding: what has foam is asked again.
+Range range_of(vec4 least, vec4 most, vec4 part) {
+    const float SPARE = 1.0e-5;
+    float ulps = 2.5e-7 * (1.0 + abs(frame.depth.y));
+    vec4 before = most / max(1.0 - shore.surface_part.w * most, SPARE);
+    vec4 behind = least * part / max(part + least / shore.contact.x, 1.0e-20);
+    Range range;
+    range.seen = mix(vec4(NONE), device((1.0 + SPARE) * before) + ulps, greaterThan(most, vec4(0.0)));
+    range.contact = shore.mask_part.z > 0.0 ? device((1.0 - SPARE) * behind) - ulps : vec4(EMPTY);
+    return range;
+}
+
+// Reciprocal of the level's eye depth on a ray; where it is not met 0.
+float level_on(vec3 ray) {
+    return shore.height.w == 0.0 ? 0.0 : max(-dot(shore.height.xyz, ray) / shore.height.w, 0.0);
+}
+
+// Of a surface that need not be level, at four pixels from one on.
+Range range_at_four(vec2 first) {
+    vec4 own, part;
     for (int i = 0; i < 4; ++i) {
-        vec2 pixel = vec2(first) + vec2(i == 1 || i == 2 ? 1.5 : 0.5, i < 2 ? 1.5 : 0.5);
-        vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
-        float z = surface_at(pixel, ray);
-        bool seen = seen_before(z, scene[i]);
-        // No farther than by any measure.
-        float part = shore.contact.w == 2.0 ? -dot(shore.height.xyz, ray) : 1.0;
-        bool near = seen && scene[i] > 0.0 && (scene[i] - z) * part * most < 1.0;
-        found = bvec2(found.x || near, found.y || seen);
+        vec3 ray = vec3(ray_slope(pixel_of(first, i), frame.slope), -1.0);
+        float z = surface_at(pixel_of(first, i), ray);
+        own[i] = z > 0.0 && z < EMPTY ? 1.0 / z : 0.0;
+        part[i] = counted(ray);
     }
-    return found;
+    return range_of(own, own, part);
 }
 
 void main() {
-    ivec2 first = 4 * ivec2(gl_GlobalInvocationID.xy);
-    bool inside = all(lessThan(vec2(first), frame.extent.xy));
-    bvec2 found = bvec2(false);
+    vec2 first = vec2(TILE * gl_GlobalInvocationID.xy);
+    bool inside = all(lessThan(first, frame.extent.xy));
+    // What a level surface has in a tile lies between what it has at its corners: so do reciprocals of depths.
+    float least = EMPTY, most = 0.0, part = EMPTY;
+    vec2 low = vec2(EMPTY), high = vec2(-EMPTY);
     for (int i = 0; i < 4; ++i) {
-        ivec2 four = min(first + 2 * ivec2(i & 1, i >> 1), ivec2(frame.extent.xy) - 1);
-        bvec2 here = four_at(four);
-        found = bvec2(found.x || here.x, found.y || here.y);
+        vec2 corner = first + 0.5 + float(TILE - 1) * vec2(i & 1, i >> 1);
+        vec3 ray = vec3(ray_slope(corner, frame.slope), -1.0);
+        float own = level_on(ray);
+        least = min(least, own);
+        most = max(most, own);
+        part = min(part, counted(ray));
+        vec2 level = vec2(dot(shore.east.xyz, ray), dot(shore.north.xyz, ray));
+        vec2 p = level / max(own, 1.0 / EMPTY) + vec2(shore.east.w, shore.north.w);
+        low = min(low, p);
+        high = max(high, p);
     }
-    vec2 pixel = min(vec2(first) + 2.0, frame.extent.xy - 0.5);
-    vec3 ray = vec3(ray_slope(pixel, frame.slope), -1.0);
-    Water w = water_point(ray, surface_at(pixel, ray));
-    vec2 texel = (w.p - shore.map.xy) * shore.map.z;
-    vec2 inner = clamp(texel, vec2(0.0), vec2(max(shore.map.w - 1.0, 0.0)));
-    // The texel's middle is less than one and a half away, no pixel's more than two and a half.
-    float off = 1.5 / max(shore.map.z, 1.0e-9) + 2.5 * (length(w.across[0]) + length(w.across[1]));
-    float distance = texelFetch(map, ivec2(inner), 0).x;
-    bool band = (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0
-        && length(texel - inner) < off * max(shore.map.z, 1.0e-9);
-    bool line = found.y && (shore.reach.w > 2.5 || shore.reach.w == 2.0 && (band || shore.surface_part.z > 1.5));
-    // A strip may be anywhere.
-    uint mark = (line ? 1u : 0u) | (found.x ? 2u : 0u) | (shore.reach.w == 1.0 ? 4u : 0u);
-    if (mark != 0u && inside) {
-        atomicOr(marks[uint(first.y >> 4) * push.across + uint(first.x >> 4)], mark);
+    // Of the map, in its texels.
+    low = clamp((low - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
+    high = clamp((high - shore.map.xy) * shore.map.z, vec2(-1.0), vec2(shore.map.w + 1.0));
+    bool over = all(lessThan(low, vec2(shore.map.w))) && all(greaterThan(high, vec2(0.0)));
+    vec2 middle = clamp(0.5 * (low + high), vec2(0.0), vec2(max(shore.map.w - 1.0, 0.0)));
+    // The texel's middle is less than one away, those about a place less than one and a half.
+    float off = (0.5 * length(high - low) + 2.5) / max(shore.map.z, 1.0e-9);
+    float distance = texelFetch(map, ivec2(middle), 0).x;
+    bool band = over && (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;
+    bool near_shore = shore.reach.w > 2.5 || shore.reach.w == 2.0 && (band || shore.surface_part.z > 1.5);
+    // The depths only where the surface is in view and they are a matter.
+    bool asked = inside && (near_shore || shore.mask_part.z > 0.0) && (most > 0.0 || GENERAL == 1u);
+    Range range = range_of(vec4(least), vec4(most), vec4(part));
+    float side = sign(frame.depth.x);
+    vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
+    // Of what does not hide the surface, how much more than where contacts begin the most is. What lies beyond the
+    // picture may be among it: it is asked again.
+    vec4 nearest = vec4(NONE);
+    for (int i = 0; i < (asked ? TILE * TILE / 4 : 0); ++i) {
+        vec2 four = four_of(first, i);
+        vec4 scene = side * scene_at_four(four, texel);
+        if (GENERAL == 1u) {
+            range = range_at_four(four);
+        }
+        nearest = max(nearest, mix(vec4(NONE), scene - range.contact, lessThanEqual(scene, range.seen)));
+    }
+    float found = max(max(nearest.x, nearest.y), max(nearest.z, nearest.w));
+    bool line = near_shore && found > NONE;
+    uint kind = asked ? (line ? 1u : 0u) | (found > 0.0 ? 2u : 0u) : 0u;
+    if (kind != 0u) {
+        adds(kind);
     }
 }

@@ -1,12 +1,13 @@
 //! Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam). Its surface is the smoothed one,
 //! so it comes when that is there; `shoreline` has what lies on the host's surface.
 //!
-//! Reads: depth, smoothed, scene depth, web, mask. Writes: foam, of the pixels that have some.
+//! Reads: depth, smoothed, scene depth, web, mask. Writes: tiles that may have some, foam of the pixels that have.
 
 use super::Given;
 use super::settings::ShoreConfig;
 use super::shoreline::{AFTER, Shore, edge_constant};
 use super::textures::Textures;
+use super::tiles::{CONTACT_DISPATCH, Tiles};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, FRAGMENT_SAMPLED};
@@ -30,7 +31,8 @@ impl Contact {
     pub fn record(
         &self,
         r: &mut Recording<'_>,
-        (shore, given): (&Shore, &Given<'_>),
+        (shore, tiles): (&Shore, &Tiles),
+        (given, general): (&Given<'_>, bool),
         textures: &Textures,
         water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
@@ -45,6 +47,8 @@ impl Contact {
         gpu.barriers(cmd, &to.concat(), &[]);
         let sampled =
             |image: &crate::gpu::image::Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        tiles.record_on_particles(r, sampled(water.depth), general)?;
+        let [list, arguments, _] = tiles.buffers();
         let resources = [
             (0, r.uniforms),
             (1, r.shore),
@@ -54,11 +58,15 @@ impl Contact {
             (5, sampled(water.smoothed)),
             (29, textures.web()),
             (30, given.mask.unwrap_or(r.scene_depth)),
-            (8, Resource::storage(foam)),
             (7, r.levels),
+            (8, Resource::storage(foam)),
+            (9, Resource::buffer(list)),
+            (10, Resource::buffer(arguments)),
         ];
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
-        r.dispatch_over(r.extent, self.pipeline.local_size);
+        self.pipeline.push(gpu, cmd, &tiles.places(r.extent));
+        // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible (`record_on_particles`).
+        unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments.handle, CONTACT_DISPATCH) };
         let back = [
             &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED)[..],
             &[access::image(foam, COMPUTE_READ_WRITE, AFTER)],

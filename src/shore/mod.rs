@@ -7,6 +7,7 @@ pub mod settings;
 mod shoreline;
 pub mod texture;
 mod textures;
+mod tiles;
 
 use std::sync::Arc;
 
@@ -32,6 +33,7 @@ pub use settings::{
     ContactLook, Edge, Measure, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
 };
 use textures::Textures;
+pub(crate) use tiles::COAT_DISPATCH;
 
 /// The block `ShoreFrame` of `glsl/include/shore.glsl`; its comments say what each member holds.
 #[repr(C)]
@@ -145,8 +147,9 @@ impl ShoreUniforms {
     pub fn is_general(&self, scene_depth: vk::Extent2D, frame: vk::Extent2D) -> bool {
         let [looks, layers, ..] = self.counts;
         let [_, _, kind, _] = self.surface_part;
+        let [.., mask] = self.contact_mask;
         let [_, _, _, way] = self.reach;
-        looks > 2.0 || layers > 2.0 || kind > 1.5 || way > 2.5 || scene_depth != frame
+        looks > 2.0 || layers > 2.0 || kind > 1.5 || mask > 0.5 || way > 2.5 || scene_depth != frame
     }
 
     /// `edges`: of web and noise, in texels. Without a [`Frame::shore`] nothing is drawn by it.
@@ -315,6 +318,7 @@ pub(crate) fn surface_of(shore: &crate::contract::Shore) -> Option<&HostImage> {
 pub(crate) struct Shore {
     /// Those of the renderer before a `reconfigure`, where they fit.
     textures: Arc<Textures>,
+    tiles: tiles::Tiles,
     shoreline: shoreline::Shore,
     contact: contact::Contact,
 }
@@ -333,6 +337,7 @@ impl Shore {
                 Some(kept) => kept.clone(),
                 None => Arc::new(Textures::new(gpu, shore)?),
             },
+            tiles: tiles::Tiles::new(gpu, config)?,
             shoreline: shoreline::Shore::new(gpu, config, shore)?,
             contact: contact::Contact::new(gpu, shore)?,
         })
@@ -345,6 +350,7 @@ impl Shore {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
+        self.tiles.resize(gpu, config, retired)?;
         self.shoreline.resize(gpu, config, retired)
     }
 
@@ -380,21 +386,25 @@ impl Shore {
         given: &Given<'_>,
         general: bool,
     ) -> Result<(), Error> {
+        let scope = r.begin(c"shore-tiles");
+        self.tiles.record(r, (given, general))?;
+        r.end(scope);
         let scope = r.begin(c"shoreline");
-        self.shoreline.record(r, (given, general), &self.textures)?;
+        self.shoreline.record(r, (given, general), &self.tiles, &self.textures)?;
         r.end(scope);
         Ok(())
     }
 
-    /// Where it lies on the particles' water.
+    /// Where it lies on the particles' water. `general`: as above.
     pub fn record_contact(
         &self,
         r: &mut Recording<'_>,
-        given: &Given<'_>,
+        (given, general): (&Given<'_>, bool),
         water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
         let scope = r.begin(c"contact");
-        self.contact.record(r, (&self.shoreline, given), &self.textures, water)?;
+        let (into, what) = ((&self.shoreline, &self.tiles), (given, general));
+        self.contact.record(r, into, what, &self.textures, water)?;
         r.end(scope);
         Ok(())
     }
@@ -405,10 +415,12 @@ impl Shore {
         self.shoreline.image()
     }
 
-    /// Which tiles may have foam on the host's surface, the draw of their quads; how many there are in a row of a frame, and
+    /// The tiles that have foam on the host's surface, the draw of their quads; how many there are in a row of a frame, and
     /// where in the list they begin.
     pub fn tiles(&self, extent: vk::Extent2D) -> (&Buffer, &Buffer, [u32; 2]) {
-        self.shoreline.tiles(extent)
+        let [list, arguments, _] = self.tiles.buffers();
+        let [across, most] = self.tiles.places(extent);
+        (list, arguments, [across, 3 * most])
     }
 
     /// The layer of a frame of a size for the host.
@@ -426,7 +438,7 @@ impl Shore {
 
     /// Bytes of images and of buffers.
     pub fn memory(&self) -> (u64, u64) {
-        let (textures, shoreline) = (self.textures.memory(), self.shoreline.memory());
-        (textures.0 + shoreline.0, textures.1 + shoreline.1)
+        let (images, buffers) = self.textures.memory();
+        (images + self.shoreline.memory(), buffers + self.tiles.memory())
     }
 }

@@ -185,8 +185,7 @@ pub struct Textures {
     /// The web of an image of the host's.
     hosts: Pipeline,
     _setup: Descriptors,
-    /// Of the web, of the noise.
-    samplers: [Owned<vk::Sampler>; 2],
+    sampler: Owned<vk::Sampler>,
 }
 
 impl Textures {
@@ -194,10 +193,11 @@ impl Textures {
         let web = texture::web(config.web_size, config.seed);
         let noise = texture::noise(NOISE, config.seed);
         let repeat = vk::SamplerAddressMode::REPEAT;
+        // One level, not two mixed: what a level leaves out is kept as a variance, so that the next is another by little.
         let sampler = vk::SamplerCreateInfo::default()
             .mag_filter(vk::Filter::LINEAR)
             .min_filter(vk::Filter::LINEAR)
-            .mipmap_mode(vk::SamplerMipmapMode::LINEAR)
+            .mipmap_mode(vk::SamplerMipmapMode::NEAREST)
             .max_lod(vk::LOD_CLAMP_NONE)
             .address_mode_u(repeat)
             .address_mode_v(repeat)
@@ -210,14 +210,7 @@ impl Textures {
             noise: texture(("shore/noise", NOISE, true), bytemuck::cast_slice(&noise))?,
             hosts: Pipeline::compute(gpu, shader::SHORE_TEXTURE_COMP, &[(0, 0), (1, 2)])?,
             _setup: setup,
-            // A level of the noise has what is coarse of the one before: between two of them is no more.
-            samplers: [
-                gpu.sampler("repeat", &sampler)?,
-                gpu.sampler(
-                    "repeat, a level",
-                    &sampler.mipmap_mode(vk::SamplerMipmapMode::NEAREST),
-                )?,
-            ],
+            sampler: gpu.sampler("repeat, a level", &sampler)?,
         })
     }
 
@@ -257,11 +250,11 @@ impl Textures {
     }
 
     pub fn web(&self) -> Resource {
-        Resource::Sampled(self.web.image.view, self.samplers[0].handle)
+        Resource::Sampled(self.web.image.view, self.sampler.handle)
     }
 
     pub fn noise(&self) -> Resource {
-        Resource::Sampled(self.noise.image.view, self.samplers[1].handle)
+        Resource::Sampled(self.noise.image.view, self.sampler.handle)
     }
 
     /// Edges of the web and of the noise.

@@ -296,3 +296,66 @@ fn a_bias_lets_the_surface_be_in_the_depth() {
     // Only beyond what the scene's depth has.
     assert!(hidden < 10 && seen > 500, "{hidden} and {seen}");
 }
+
+/// The coat is blended with where the format can be, else it is mixed with the scene's colour that is read: either shows all
+/// the foam there is, in the same colour.
+///
+/// Of half floats a number is off by 2^-10 of itself (a device may round to 0), of eight bits by half a step; a blend rounds what it is given, the part
+/// that stays, the product and the sum.
+#[test]
+fn the_coat_is_the_same_in_every_format() {
+    use ash::vk::Format;
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    let mut shot = shot(&coasts, &[]);
+    // What is over 1 is another's matter.
+    shot.settings.light.irradiance = [1.0, 2.0, 3.0];
+    let mut first: Option<Image<[u8; 4]>> = None;
+    for way in WAYS {
+        for (format, relative, absolute) in [
+            (Format::R32G32B32A32_SFLOAT, 0.0, 0.0),
+            (Format::R16G16B16A16_SFLOAT, 1.0 / 1024.0, 0.0),
+            (Format::R8G8B8A8_UNORM, 0.0, 0.5 / 255.0),
+        ] {
+            let blended = way == Shading::Raster && format != Format::R32G32B32A32_SFLOAT;
+            let roundings = if blended { 4.0 } else { 1.0 };
+            let name = format!("{way:?}, {format:?}");
+            let base = with_shore(shot.size, Edge::Smooth);
+            let config = Config { composite: Some(way), output_format: format, ..base };
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            let bare = rig.draw(&Shot { shore: None, ..shot.clone() }).output;
+            let drawn = rig.draw(&shot);
+            let foam = drawn.shore.as_ref().expect("foam");
+            let (mut seen, mut shown, mut worst) = (0, 0, 0.0_f64);
+            for (i, texel) in foam.data.iter().enumerate() {
+                let (found, under) = (drawn.output.data[i], bare.data[i]);
+                if texel[..2] == [0, 0] {
+                    assert_eq!(found, under, "{name}: {i} has no foam");
+                    continue;
+                }
+                seen += 1;
+                let expected = coated(&shot, *texel, under, true);
+                let mut differs = false;
+                for c in 0..3 {
+                    let size = expected[c].abs() + f64::from(under[c]);
+                    let most = OFF + roundings * (relative * size + absolute);
+                    let off = (f64::from(found[c]) - expected[c]).abs();
+                    worst = worst.max(off / most);
+                    assert!(
+                        off <= most,
+                        "{name}: {i}: {found:?}, expected {expected:?}, foam {texel:?}"
+                    );
+                    differs |= (expected[c] - f64::from(under[c])).abs() > most;
+                }
+                assert!(!differs || found[..3] != under[..3], "{name}: {i} shows nothing");
+                shown += u32::from(differs);
+            }
+            println!(
+                "{name}: {seen} pixels with foam, {shown} that must show it, {worst:.2} of the bound"
+            );
+            assert!(seen > 1000 && 10 * shown > 8 * seen, "{name}: {shown} of {seen}");
+            let first = first.get_or_insert_with(|| foam.clone());
+            assert_eq!(first.data, foam.data, "{name}: other foam");
+        }
+    }
+}

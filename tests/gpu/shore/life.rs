@@ -167,14 +167,15 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     let mut tally = Tally::default();
     for (i, texel) in found.data.iter().enumerate() {
         let (x, y) = (i % 96, i / 96);
-        let point = water.at([x as f64 + 0.5, y as f64 + 0.5]);
+        let (at, off) = super::shared_at(super::is_shared(&shot), [x, y]);
+        let point = water.at(at);
         let to = DVec2::new(point.place[0].value, point.place[1].value) - DVec2::new(7.0, -5.0);
         // Well within the band, where v does not count.
         if point.depth.low() <= 0.0 || !(4.0..8.0).contains(&to.length()) {
             continue;
         }
-        let pixel =
-            Pixel { place: point.place, v: exact(1.0), across: point.change, dv: [exact(0.0); 2] };
+        let (place, across) = (point.place, point.change);
+        let pixel = Pixel { off, place, v: exact(1.0), across, dv: [exact(0.0); 2] };
         let foam = shoreline(&look, noise, &web, &pixel);
         tally.add((x, y), texel[0], covered(foam.over, foam.variance, foam.change));
     }

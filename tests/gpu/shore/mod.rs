@@ -11,6 +11,7 @@ mod shoreline;
 mod slopes;
 mod strip;
 mod temporal;
+mod tiles;
 mod unchanged;
 
 use std::sync::OnceLock;
@@ -21,11 +22,11 @@ use whitewater::shore::texture;
 use whitewater::shore::{
     Area, Edge, Heights, Measure, ShoreConfig, ShoreLook, ShoreMap, ShoreMapConfig, ShoreMapStep,
 };
-use whitewater::{Access, Coast, Config, Error, Slot};
+use whitewater::{Access, Coast, Config, Error, Shoreline, Slot, Surface};
 
 use crate::reference::Image;
 use crate::reference::shore as twin;
-use crate::reference::shore::foam::{self, Shoreline};
+use crate::reference::shore::foam;
 use crate::reference::shore::texture::Texture as Levels;
 use crate::reference::shore::{Bounded, Clock, U, Water, exact};
 use crate::support::device::Gpu;
@@ -175,16 +176,43 @@ fn water(shot: &Shot, up: DVec3, level: f64) -> Water {
     }
 }
 
+/// Whether pixels are shaded two by two: what most frames have.
+fn is_shared(shot: &Shot) -> bool {
+    let Some(shore) = &shot.shore else { return false };
+    let s = &shot.settings.shore.shoreline;
+    let noises = [s.frequency_noise, s.speed_noise, s.rise_noise, s.threshold_noise];
+    let mut scales: Vec<_> =
+        noises.iter().filter(|n| n.amplitude != 0.0).map(|n| n.scale.to_bits()).collect();
+    scales.sort_unstable();
+    scales.dedup();
+    let bends = [s.warp, s.web_warp].iter().filter(|n| n.amplitude != 0.0).count();
+    let layers = s.layers.iter().filter(|layer| layer.weight > 0.0).count();
+    !matches!(shore.surface, Some(Surface::Depth(_)))
+        && !matches!(shore.shoreline, Some(Shoreline::Screen))
+        && shore.mask.is_none()
+        && shot.depth_extent == shot.size
+        && scales.len() + bends <= 2
+        && layers <= 2
+}
+
+/// The place in pixels that what a pixel shares is of, and how many pixels it lies from there.
+fn shared_at(is_shared: bool, pixel: [usize; 2]) -> ([f64; 2], [f64; 2]) {
+    match is_shared {
+        true => (pixel.map(|v| ((v & !1) + 1) as f64), pixel.map(|v| (v & 1) as f64 - 0.5)),
+        false => (pixel.map(|v| v as f64 + 0.5), [0.0; 2]),
+    }
+}
+
 fn clock(look: &ShoreLook) -> Clock {
     Clock { time: look.time, period: look.period.map(f64::from) }
 }
 
 /// The twin of a look.
-fn look_of(look: &ShoreLook) -> Shoreline {
+fn look_of(look: &ShoreLook) -> foam::Shoreline {
     let (s, clock) = (&look.shoreline, clock(look));
     let noise = |n: whitewater::shore::Noise| foam::noise(n.amplitude, n.scale);
     let layers = s.layers.iter().filter(|own| own.weight > 0.0);
-    Shoreline {
+    foam::Shoreline {
         frequency: f64::from(s.frequency),
         phases: clock.phases(s.speed, s.swing, s.swing_by, s.speed_period),
         frequency_noise: noise(s.frequency_noise),

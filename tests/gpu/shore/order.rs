@@ -4,14 +4,15 @@
 use ash::vk;
 use whitewater::shore::Edge;
 use whitewater::water::Shading;
-use whitewater::{Config, Frame, Shore, Shoreline, Slot};
+use whitewater::{Config, Frame, Shore, Shoreline, Slot, Strip, Triangles};
 
 use super::composite::look;
 use super::shoreline::{AREA, heights};
 use super::{Mapped, with_shore};
 use crate::harness::is_hazard;
 use crate::support::device::{Gpu, validates};
-use crate::support::rig::{Rig, Shot, extent};
+use crate::support::host::HOST_WRITE;
+use crate::support::rig::{Rig, Shot, extent, stream};
 use crate::support::scenes::Lens;
 use crate::support::spy::{self, By, Event, Scope};
 
@@ -22,32 +23,68 @@ const READ: Mask = Mask::SHADER_STORAGE_READ;
 const WRITE: Mask = Mask::SHADER_STORAGE_WRITE;
 const BOTH: Mask = Mask::from_raw(READ.as_raw() | WRITE.as_raw());
 
-/// How a frame uses a buffer, in its order.
-type Uses = [(By, Mask)];
+/// How a frame uses a buffer, in its order; of a part of it, none where a command has the rest.
+type Uses = Vec<(By, Mask)>;
 
-/// By a fill, the tiles' marks, the lists.
-const MARKS: &Uses =
-    &[(By::Transfer, Mask::TRANSFER_WRITE), (By::Compute, BOTH), (By::Compute, READ)];
-/// By the lists, the shading of each of three, the coat's draw.
-const LIST: &Uses = &[
-    (By::Compute, WRITE),
-    (By::Compute, READ),
-    (By::Compute, READ),
-    (By::Compute, READ),
-    (By::Graphics, READ),
-];
-/// By an update, the lists, the shading of each, which they are the arguments of too, the coat's draw.
-const ARGUMENTS: &Uses = &[
-    (By::Transfer, Mask::TRANSFER_WRITE),
-    (By::Compute, BOTH),
-    (By::Compute, READ),
-    (By::Indirect, Mask::INDIRECT_COMMAND_READ),
-    (By::Compute, READ),
-    (By::Indirect, Mask::INDIRECT_COMMAND_READ),
-    (By::Compute, READ),
-    (By::Indirect, Mask::INDIRECT_COMMAND_READ),
-    (By::Indirect, Mask::INDIRECT_COMMAND_READ),
-];
+const UPDATE: (By, Mask) = (By::Transfer, Mask::TRANSFER_WRITE);
+const COMMAND: (By, Mask) = (By::Indirect, Mask::INDIRECT_COMMAND_READ);
+const NO_COMMAND: (By, Mask) = (By::Indirect, Mask::empty());
+
+fn compute(how: Mask) -> (By, Mask) {
+    (By::Compute, how)
+}
+
+/// What of a frame there is once or not at all: a strip, contact foam on the particles' water.
+#[derive(Clone, Copy)]
+struct Has {
+    strip: usize,
+    contacts: usize,
+}
+
+/// A buffer's uses: by what fills it and lists tiles; by what a strip has of it and the shading of each of three lists has;
+/// by what lists and shades tiles of the particles' water; by the coat's draw.
+fn uses(
+    has: Has,
+    filled: &[(By, Mask)],
+    [strip, adds]: [&[(By, Mask)]; 2],
+    contacts: &[(By, Mask)],
+    draw: &[(By, Mask)],
+) -> Uses {
+    let (strip, contacts) = (strip.repeat(has.strip), contacts.repeat(has.contacts));
+    [filled, &strip, &adds.repeat(3), &contacts, draw].concat()
+}
+
+/// Which tiles have foam.
+fn uses_of_marks(has: Has) -> [Uses; 1] {
+    let adds = [compute(BOTH)];
+    [uses(has, &[UPDATE], [&adds, &adds], &[], &[])]
+}
+
+/// The lists of the surface, of which the last grows as the others are read; that of the particles' water.
+fn uses_of_lists(has: Has) -> [Uses; 2] {
+    let (adds, none) = ([compute(BOTH)], [compute(Mask::empty())]);
+    let contacts = [compute(WRITE), compute(READ)];
+    [
+        uses(has, &[compute(WRITE)], [&adds, &adds], &none.repeat(2), &[(By::Graphics, READ)]),
+        uses(has, &none, [&none, &none], &contacts, &[(By::Graphics, Mask::empty())]),
+    ]
+}
+
+/// The arguments: of the dispatches over the surface's lists, with how many tiles each has; of the draw of those that have
+/// foam; of the dispatch over the list of the particles' water, where that is.
+fn uses_of_arguments(has: Has) -> Vec<Uses> {
+    let none = compute(Mask::empty());
+    let idle = [none, none, NO_COMMAND];
+    let lists = [compute(READ), COMMAND];
+    let contacts = [compute(BOTH), compute(READ), COMMAND];
+    let drawn = [compute(BOTH), NO_COMMAND];
+    let all = [
+        uses(has, &[UPDATE, compute(BOTH)], [&[none], &lists], &idle, &[NO_COMMAND]),
+        uses(has, &[UPDATE, none], [&drawn[..1], &drawn], &idle, &[COMMAND]),
+        uses(has, &[UPDATE, none], [&[none], &[none, NO_COMMAND]], &contacts, &[NO_COMMAND]),
+    ];
+    all[..2 + has.contacts].to_vec()
+}
 
 /// A use, and what is ordered after it.
 struct Past {
@@ -61,7 +98,7 @@ fn is_write(access: Mask) -> bool {
 
 /// What is wrong with the order of a buffer's uses, of frame after frame: each must be after the write before it, and a write
 /// after all reads since, by a barrier between them. (Which is narrower than Vulkan, to which a chain of them will do.)
-fn unordered(events: &[Event], buffer: vk::Buffer, uses: &Uses) -> Vec<String> {
+fn unordered(events: &[Event], buffer: vk::Buffer, uses: &[(By, Mask)]) -> Vec<String> {
     let mut wrong = Vec::new();
     let (mut past, mut count): (Vec<Past>, usize) = (Vec::new(), 0);
     for event in events {
@@ -81,6 +118,10 @@ fn unordered(events: &[Event], buffer: vk::Buffer, uses: &Uses) -> Vec<String> {
                 if by != expected {
                     wrong.push(format!("use {count} is by {by:?}, not {expected:?}"));
                     return wrong;
+                }
+                if access.is_empty() {
+                    count += 1;
+                    continue;
                 }
                 let stage = match by {
                     // As older layers book it (src/gpu/access.rs).
@@ -132,16 +173,16 @@ fn recorded(rig: &mut Rig<'_>, shot: &Shot) -> Vec<Event> {
     events
 }
 
-/// Every barrier is needed, and what goes on without it is seen: by the log; by the validation layer too, but for one.
+/// Every barrier is needed, and what goes on without it is seen: by the log; by the validation layer too, but for some.
 ///
-/// That is between the marks and the lists. Layer 1.3.239 takes a buffer that a shader changes by atomics alone for one that
-/// is read: to it nothing is written there. (With a store in place of the atomic it sees it.) And a device that ends a
-/// dispatch before it begins another, as lavapipe, draws the same picture without any of these barriers.
+/// Those are after dispatches that change a buffer by atomics alone, which layer 1.3.239 takes for one that is read, and
+/// between dispatches of which both write one. And a device that ends a dispatch before it begins another, as lavapipe,
+/// draws the same picture without any of these barriers.
 #[test]
 fn each_barrier_of_the_tiles_lists_is_needed() {
     let mut gpu = Gpu::spied();
     spy::install(&mut gpu);
-    // 13 by 11 tiles: no other buffer is as large.
+    // 25 by 22 tiles: no other buffer is as large.
     let size = extent(200, 170);
     let mut coasts = Mapped::new(&gpu, 64);
     coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
@@ -149,42 +190,69 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
     let mut rig = Rig::with_slots(&gpu, &config, 2);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     shot.settings.shore = look();
-    let shoreline = Some(Shoreline::Map(coasts.coast()));
-    shot.shore = Some(Shore { shoreline, ..Shore::new(AREA.level) });
-    let good = recorded(&mut rig, &shot);
-    let one = |bytes| match spy::buffers_of_size(bytes)[..] {
-        [buffer] => buffer,
-        ref all => panic!("{} buffers of {bytes} bytes", all.len()),
-    };
-    let [marks, list] = [one(4 * 13 * 11), one(16 * 13 * 11)];
-    let beside = spy::buffers_beside(marks);
-    let arguments = spy::buffers_of_size(64).into_iter().find(|own| beside.contains(own));
-    let arguments = arguments.expect("in a set with the marks");
-    // Of each barrier of a frame, the first of which is after the frame before, whether the layer sees that it is missing.
-    for (name, buffer, uses, seen) in [
-        ("marks", marks, MARKS, &[true, true, false][..]),
-        ("list", list, LIST, &[true, true]),
-        ("arguments", arguments, ARGUMENTS, &[true, true, true]),
-    ] {
-        assert_eq!(unordered(&good, buffer, uses), Vec::<String>::new(), "{name}");
-        let own = |event: &&Event| matches!(event, Event::Barrier { buffer: Some(of), .. } if *of == buffer);
-        assert_eq!(
-            good.iter().filter(own).count(),
-            2 * seen.len(),
-            "{name}: barriers of two frames"
-        );
-        assert_eq!(gpu.expect_messages(), Vec::<String>::new(), "{name}: no fault, no message");
-        // Before the first there is nothing.
-        for nth in 1..2 * seen.len() {
-            spy::leave_out(buffer, nth);
-            let events = recorded(&mut rig, &shot);
-            let wrong = unordered(&events, buffer, uses);
-            let messages = gpu.expect_messages();
-            println!("{name} {nth}: {} uses, {} messages", wrong.len(), messages.len());
-            assert!(!wrong.is_empty(), "{name}: without barrier {nth} nothing is wrong");
-            if validates() && seen[nth % seen.len()] {
-                let hazard = messages.iter().any(|message| is_hazard(message));
-                assert!(hazard, "{name}: without barrier {nth} the layer says {messages:?}");
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let corners = [[4.0_f32, 0.0, -9.0, 0.0], [11.0, 0.0, -9.0, 1.0], [4.0, 0.0, -1.0, 2.0]];
+    let vertices = rig.stub.data(bytemuck::cast_slice(&corners), usage);
+    let strip = Shoreline::Strip(Strip {
+        triangles: Triangles { positions: stream(&vertices, 0, 16), vertices: 3, indices: None },
+        v: stream(&vertices, 12, 16),
+        before: HOST_WRITE,
+        after: HOST_WRITE,
+    });
+    let map = Shoreline::Map(coasts.coast());
+    for (way, shoreline, strip, contacts) in
+        [("map", map, 0, 0), ("strip", strip, 1, 0), ("particles", map, 0, 1)]
+    {
+        let has = Has { strip, contacts };
+        shot.settings.shore.contact.particle_opacity = contacts as f32;
+        shot.shore = Some(Shore { shoreline: Some(shoreline), ..Shore::new(AREA.level) });
+        let good = recorded(&mut rig, &shot);
+        let one = |bytes| match spy::buffers_of_size(bytes)[..] {
+            [buffer] => buffer,
+            ref all => panic!("{} buffers of {bytes} bytes", all.len()),
+        };
+        let [marks, list] = [one(4 * 25 * 22), one(20 * 25 * 22)];
+        let beside = spy::buffers_beside(marks);
+        let arguments = spy::buffers_of_size(96).into_iter().find(|own| beside.contains(own));
+        let arguments = arguments.expect("in a set with the marks");
+        // Of a frame's barriers, of which the first is after the frame before, those that the layer sees to be missing.
+        let last = 4 + strip + 2 * contacts;
+        let seen: [&dyn Fn(usize) -> bool; 3] =
+            [&|at| at < 2, &|at| at == 0 || at == last, &|at| at < 3];
+        for (name, buffer, uses, count, seen) in [
+            ("marks", marks, uses_of_marks(has).to_vec(), 4, seen[0]),
+            ("list", list, uses_of_lists(has).to_vec(), 5 + 2 * contacts, seen[1]),
+            ("arguments", arguments, uses_of_arguments(has), 6 + 2 * contacts, seen[2]),
+        ] {
+            let name = format!("{way}, {name}");
+            let wrong_of = |events: &[Event]| -> Vec<String> {
+                uses.iter().flat_map(|uses| unordered(events, buffer, uses)).collect()
+            };
+            assert_eq!(wrong_of(&good), Vec::<String>::new(), "{name}");
+            let own = |event: &&Event| matches!(event, Event::Barrier { buffer: Some(of), .. } if *of == buffer);
+            let barriers = count + strip;
+            assert_eq!(good.iter().filter(own).count(), 2 * barriers, "{name}: of two frames");
+            assert_eq!(gpu.expect_messages(), Vec::<String>::new(), "{name}: no fault, no message");
+            // Before the first there is nothing.
+            for nth in 1..2 * barriers {
+                spy::leave_out(buffer, nth);
+                let events = recorded(&mut rig, &shot);
+                let wrong = wrong_of(&events);
+                let messages = gpu.expect_messages();
+                println!("{name} {nth}: {} uses, {} messages", wrong.len(), messages.len());
+                // Before the tiles of the particles' water, two of which are for those who take a buffer for one: of its own
+                // list and arguments all is ordered before, of the others it is after.
+                let spare = contacts > 0
+                    && buffer != marks
+                    && [2, 3].contains(&(barriers - nth % barriers));
+                assert!(
+                    spare || !wrong.is_empty(),
+                    "{name}: without barrier {nth} nothing is wrong"
+                );
+                if validates() && seen(nth % barriers) {
+                    let hazard = messages.iter().any(|message| is_hazard(message));
+                    assert!(hazard, "{name}: without barrier {nth} the layer says {messages:?}");
+                }
             }
         }
     }

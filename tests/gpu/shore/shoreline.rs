@@ -1,14 +1,15 @@
 //! Pass `shoreline`: how much foam a pixel has along shores, against the twin.
 
-use glam::{DVec2, DVec3};
+use ash::vk;
+use glam::{DVec2, DVec3, Mat4, Vec3};
 use whitewater::shore::{Area, Edge, Noise, ShoreLook, ShorelineLook, WebLayer};
 use whitewater::{Shore, Shoreline, Surface};
 
-use super::{Mapped, Tally, look_of, textures, water, with_shore};
+use super::{Mapped, Tally, is_shared, look_of, shared_at, textures, water, with_shore};
 use crate::reference::Image;
 use crate::reference::shore::foam::{Pixel, by_samples, clipped, coordinate, covered, shoreline};
 use crate::reference::shore::map::Map;
-use crate::reference::shore::{Bounded, U, exact};
+use crate::reference::shore::{Bounded, U, Water, exact};
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot, extent};
 use crate::support::scenes::Lens;
@@ -75,13 +76,14 @@ fn rich() -> ShoreLook {
     look
 }
 
-/// The four texels of the map about a place as v, and its change a pixel.
-pub fn v_by_map(
-    (map, area, size): (&Map, &Area, u32),
+/// The four texels of the map about a place as v, which may be beyond its ends, and its change a pixel.
+fn v_by_map(
+    (map, area): (&Map, &Area),
     look: &ShorelineLook,
     place: [Bounded; 2],
     across: [[Bounded; 2]; 2],
 ) -> Option<(Bounded, [Bounded; 2])> {
+    let size = map.width as u32;
     let edge = f64::from(area.edge) / f64::from(size);
     let texels = Map::texels(place, area.corner(size).map(f64::from), edge);
     if !map.inside(texels)? {
@@ -100,13 +102,30 @@ pub fn v_by_map(
         exact(own).wider(U * own)
     };
     let dv = across.map(|way| (slope[0] * way[0] + slope[1] * way[1]) * part);
-    Some((v.clamp(0.0, 2.0), dv))
+    Some((v, dv))
+}
+
+/// What a pixel sees of a level with a map; none where rounding decides whether that is below it.
+pub fn pixel_by_map(
+    shot: &Shot,
+    water: &Water,
+    of: (&Map, &Area),
+    at: [usize; 2],
+) -> Option<Pixel> {
+    let (place, off) = shared_at(is_shared(shot), at);
+    let point = water.at(place);
+    if point.depth.low() <= 0.0 {
+        return None;
+    }
+    let (v, dv) = v_by_map(of, &shot.settings.shore.shoreline, point.place, point.change)?;
+    Some(Pixel { off, place: point.place, v, across: point.change, dv })
 }
 
 /// How much of a pixel is foam by the twin; none where rounding decides.
 pub fn amount(look: &ShoreLook, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Option<Bounded> {
     let [noise, web] = textures();
-    if pixel.v.high() <= 0.0 || pixel.v.low() >= 2.0 {
+    let v = pixel.own_v();
+    if v.high() <= 0.0 || v.low() >= 2.0 {
         return Some(exact(0.0));
     }
     let foam = shoreline(&look_of(look), noise, web, pixel);
@@ -115,7 +134,7 @@ pub fn amount(look: &ShoreLook, edge: Edge, pixel: &Pixel, at: [usize; 2]) -> Op
         Edge::Smooth => covered(foam.over, foam.variance, foam.change),
         Edge::Coverage => by_samples(covered(foam.over, foam.variance, foam.change), at),
     };
-    let ends = pixel.v.low() <= 0.0 || pixel.v.high() >= 2.0;
+    let ends = v.low() <= 0.0 || v.high() >= 2.0;
     Some(if ends { Bounded::between(0.0, part.value, part.high()) } else { part })
 }
 
@@ -132,13 +151,10 @@ fn compared(name: &str, rig: &mut Rig<'_>, shot: &Shot, map: &Map, edge: Edge) -
     let look = &shot.settings.shore;
     let expected = Image::from_fn(found.width, found.height, |x, y| {
         let point = water.at([x as f64 + 0.5, y as f64 + 0.5]);
-        if point.depth.value <= 0.0 {
+        if point.depth.low() <= 0.0 {
             return (point.depth.high() < 0.0).then_some(exact(0.0));
         }
-        let size = map.width as u32;
-        let (v, dv) = v_by_map((map, &AREA, size), &look.shoreline, point.place, point.change)?;
-        let pixel = Pixel { place: point.place, v, across: point.change, dv };
-        amount(look, edge, &pixel, [x, y])
+        amount(look, edge, &pixel_by_map(shot, &water, (map, &AREA), [x, y])?, [x, y])
     });
     let mut tally = Tally::default();
     for y in 0..found.height {
@@ -180,10 +196,91 @@ fn a_level_s_foam_is_the_twin_s() {
     }
 }
 
-/// Not general and general, whose frames have more of this or that, are one function: what the first draws the second, made
-/// to by a scene's depth of another size, draws too.
+/// The same frame by the other pipeline, made to by a scene's depth of another size.
+fn generally(shot: &Shot) -> Shot {
+    let mut other = shot.clone();
+    let vk::Extent2D { width, height } = shot.size;
+    other.depth_extent = extent(width / 2, height / 2);
+    other.scene_depth(|_, _| None);
+    other
+}
+
+/// How many of 255 steps the foam of two pictures is apart, in the mean and at most.
+fn apart(a: &Image<[u8; 4]>, b: &Image<[u8; 4]>) -> (f64, u8) {
+    let steps = || a.data.iter().zip(&b.data).map(|(a, b)| a[0].abs_diff(b[0]));
+    (steps().map(f64::from).sum::<f64>() / a.data.len() as f64, steps().max().unwrap_or(0))
+}
+
+/// Seen straight from above, along a straight shore and without noises, what pixels share changes evenly from one to the
+/// next: shaded two by two, or each by itself where a frame has more of this or that, they have the same foam.
 #[test]
 fn both_pipelines_draw_the_same() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    // Between two columns of the map: of all texels the distance is what it is in exact arithmetic.
+    coasts.image_step(&AREA, &heights(&AREA, 64, |at| 0.4 * (at.x - 7.0)), None);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let mut shot = Shot::new(size, Lens::ReversedInfinite, 0.1, &[]);
+    shot.camera.view = Mat4::look_to_rh(Vec3::new(7.0, 20.0, -5.0), Vec3::NEG_Y, Vec3::Z);
+    let mut look = plain();
+    let s = &mut look.shoreline;
+    for noise in [
+        &mut s.frequency_noise,
+        &mut s.speed_noise,
+        &mut s.threshold_noise,
+        &mut s.rise_noise,
+        &mut s.web_warp,
+    ] {
+        *noise = Noise::NONE;
+    }
+    // No bend where the shore is.
+    s.reach = [4.0; 2];
+    with_map(&coasts, &mut shot, &look);
+    let together = rig.draw(&shot).shore.expect("shoreline foam");
+    let alone = rig.draw(&generally(&shot)).shore.expect("shoreline foam");
+    let partial = together.data.iter().filter(|c| (3..252).contains(&c[0])).count();
+    let (mean, most) = apart(&together, &alone);
+    println!("{partial} pixels in between: {mean:.5} steps in the mean, {most} at most");
+    assert!(partial > 300, "{partial} pixels in between");
+    // What is found another way is rounded otherwise: by much less than a step, which may tip one.
+    assert!(most <= 1, "{most} steps");
+}
+
+/// Of a bent shore with noises each is what its own definition says, and in the mean they are near: where a border goes
+/// through a pixel it is elsewhere by what a noise and the distance leave out of a change that is even.
+#[test]
+fn what_is_shared_changes_little() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut coasts = Mapped::new(&gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let map = twin_map(&coasts);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    with_map(&coasts, &mut shot, &plain());
+    let other = generally(&shot);
+    compared("together", &mut rig, &shot, &map, Edge::Smooth).check("together", 100, 0.05);
+    compared("alone", &mut rig, &other, &map, Edge::Smooth).check("alone", 100, 0.05);
+    let few = rig.draw(&shot).shore.expect("shoreline foam");
+    let all = rig.draw(&other).shore.expect("shoreline foam");
+    let covers =
+        few.data.iter().map(|c| f64::from(c[0])).sum::<f64>() / (255.0 * few.data.len() as f64);
+    let foamy = few.data.iter().filter(|c| c[0] > 0).count();
+    let (mean, most) = apart(&few, &all);
+    let worst = few.data.iter().zip(&all.data).position(|(a, b)| a[0].abs_diff(b[0]) == most);
+    let at = worst.map(|i| (i % few.width, i / few.width));
+    println!(
+        "of {covers:.4} covered {:.5} in the mean, {most} steps at most, {at:?}",
+        mean / 255.0
+    );
+    assert!(foamy > 500, "{foamy}");
+    assert!(mean / 255.0 < 0.1 * covers, "{mean} steps of {covers}");
+}
+
+/// What stands before the surface hides it, what stands behind it does not.
+#[test]
+fn what_stands_before_the_surface_hides_its_foam() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let mut coasts = Mapped::new(&gpu, 64);
@@ -192,16 +289,7 @@ fn both_pipelines_draw_the_same() {
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     with_map(&coasts, &mut shot, &plain());
     let few = rig.draw(&shot).shore.expect("shoreline foam");
-    shot.depth_extent = extent(48, 32);
-    shot.scene_depth(|_, _| None);
-    let all = rig.draw(&shot).shore.expect("shoreline foam");
-    assert!(few.data.iter().filter(|c| c[0] > 0).count() > 500);
-    let off = few.data.iter().zip(&all.data).map(|(a, b)| a[0].abs_diff(b[0])).max();
-    // Compiled by themselves they may round otherwise: by much less than a step, which may tip one.
-    assert!(off <= Some(1), "{off:?} steps");
-    // What stands before the surface hides it, what stands behind it does not.
     for (at, seen) in [(0.3, false), (1.0e3, true)] {
-        shot.depth_extent = size;
         shot.scene_depth(|_, _| Some(at));
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let some = found.data.iter().any(|c| c[0] > 0);
@@ -322,11 +410,12 @@ fn a_shaped_surface_s_foam_is_the_twin_s() {
                 }
                 let point = level.at_depth(level.ray([x as f64 + 0.5, y as f64 + 0.5]), z);
                 let look = &shot.settings.shore;
-                let of = (&map, &AREA, 64);
+                let of = (&map, &AREA);
                 let Some((v, dv)) = v_by_map(of, &look.shoreline, point.place, point.change) else {
                     continue;
                 };
-                let pixel = Pixel { place: point.place, v, across: point.change, dv };
+                let (place, across) = (point.place, point.change);
+                let pixel = Pixel { off: [0.0; 2], place, v, across, dv };
                 if let Some(expected) = amount(look, Edge::Smooth, &pixel, [x, y]) {
                     tally.add((x, y), found.at(x, y)[0], expected);
                 }
@@ -374,10 +463,8 @@ fn up_may_be_any_axis() {
             if point.depth.low() <= 0.0 {
                 continue;
             }
-            let of = (&map, &area, 64);
-            let told = v_by_map(of, &look.shoreline, point.place, point.change);
-            let Some((v, dv)) = told else { continue };
-            let pixel = Pixel { place: point.place, v, across: point.change, dv };
+            let told = pixel_by_map(&shot, &water, (&map, &area), [x, y]);
+            let Some(pixel) = told else { continue };
             if let Some(expected) = amount(look, Edge::Smooth, &pixel, [x, y]) {
                 tally.add((x, y), found.data[i][0], expected);
             }

@@ -4,7 +4,7 @@ use glam::{Mat4, Vec3};
 use whitewater::shore::{Area, Edge, Noise, ShoreLook, ShorelineLook, WebLayer};
 use whitewater::{Shore, Shoreline};
 
-use super::shoreline::{AREA, amount, heights, twin_map, v_by_map};
+use super::shoreline::{AREA, amount, heights, pixel_by_map, twin_map};
 use super::{Mapped, Tally, water, with_shore};
 use crate::reference::shore::Bounded;
 use crate::reference::shore::foam::Pixel;
@@ -75,13 +75,17 @@ fn slopes_are_turned_with_the_web() {
                 continue;
             }
             let look = &shot.settings.shore;
-            let of = (&map, &area, 64);
-            let told = v_by_map(of, &look.shoreline, point.place, point.change);
-            let Some((v, dv)) = told else { continue };
+            let told = pixel_by_map(&shot, &level, (&map, &area), at);
+            let Some(pixel) = told else { continue };
             let long = point.change.map(|way| way[0].value.hypot(way[1].value));
             longest = longest.max(long[0].max(long[1]) / long[0].min(long[1]));
-            let pixel = Pixel { place: point.place, v, across: point.change, dv };
-            let turned = Pixel { across: point.change.map(transposed), ..pixel };
+            let across = pixel.across.map(transposed);
+            // Of the slopes alone: the web is from where it was.
+            let place = [0, 1].map(|i| {
+                let moved = [0, 1].map(|k| (pixel.across[k][i] - across[k][i]) * pixel.off[k]);
+                pixel.place[i] + moved[0] + moved[1]
+            });
+            let turned = Pixel { place, across, ..pixel };
             for (tally, pixel) in [(&mut own, pixel), (&mut other, turned)] {
                 if let Some(expected) = amount(look, Edge::Smooth, &pixel, at) {
                     tally.add((at[0], at[1]), texel[0], expected);

@@ -96,7 +96,7 @@ fn a_strip_s_foam_is_the_twin_s() {
             let place = [0, 1].map(|i| own.place[i].wider((moved[0][i] + moved[1][i]) / bits));
             let part = (moved[0][0] + moved[0][1] + moved[1][0] + moved[1][1]) / bits;
             let across = own.change.map(|way| way.map(|w: Bounded| w.wider(part * w.value.abs())));
-            let pixel = Pixel { place, v: v(x, y), across, dv };
+            let pixel = Pixel { off: [0.0; 2], place, v: v(x, y), across, dv };
             if let Some(expected) = amount(&shot.settings.shore, Edge::Smooth, &pixel, [x, y]) {
                 tally.add((x, y), found.data[i][0], expected);
             }
@@ -156,7 +156,8 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
                 .wider(far * 6.0 * off / (wide * tangent) + off / (tangent * reach));
             let v = v.clamp(0.0, 2.0);
             let dv = [exact(0.0); 2];
-            let pixel = Pixel { place: own.place, v, across: own.change, dv };
+            let (place, across) = (own.place, own.change);
+            let pixel = Pixel { off: [0.0; 2], place, v, across, dv };
             if let Some(expected) = amount(&shot.settings.shore, Edge::Smooth, &pixel, [x, y]) {
                 tally.add((x, y), found.data[i][0], expected);
             }

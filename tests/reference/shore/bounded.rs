@@ -216,3 +216,11 @@ pub fn mix(a: Bounded, b: Bounded, t: Bounded) -> Bounded {
     let sizes = a.value.abs() * weights[0] + b.value.abs() * weights[1] + error;
     Bounded { value, error: error + 3.0 * U * (sizes + a.value.abs() * t.error) }
 }
+
+/// What changes evenly, so many pixels from where it is known.
+pub fn beside(at: Bounded, change: [Bounded; 2], off: [f64; 2]) -> Bounded {
+    match off {
+        [0.0, 0.0] => at,
+        [x, y] => sum(&[at, change[0] * x, change[1] * y]),
+    }
+}

@@ -8,8 +8,12 @@
 //! mean and mean square: `variance` is of what is finer than a pixel. With the change of `over` across a pixel, by
 //! the slopes of the waves and of the web, as if it were even, it has the width `w = sqrt(|change|² + 12 variance)`, and `over / w + 1/2` of the pixel is
 //! foam.
+//!
+//! Pixels that share it have the noises, k, the web's levels, v and its change, and where the web is, of a point between
+//! them: v is that at the point and the change on the way, the web where the way leads. Their waves, their web and all that
+//! is made of it are their own.
 
-use super::bounded::{Bounded, U, dot, exact, held, sum};
+use super::bounded::{Bounded, U, beside, dot, exact, held, sum};
 use super::texture::Texture;
 use super::{Clock, Phases};
 
@@ -137,14 +141,31 @@ impl Shoreline {
 /// What of the water a pixel sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Pixel {
+    /// Pixels from the point that the rest is of.
+    pub off: [f64; 2],
     /// Metres.
     pub place: [Bounded; 2],
     /// 0 at the sea's edge, 1 at the shore, 2 inland.
     pub v: Bounded,
-    /// Change of it from a pixel to the next, along x and along y.
+    /// Change of the place from a pixel to the next, along x and along y.
     pub across: [[Bounded; 2]; 2],
     /// Change of v from a pixel to the next, along x and along y.
     pub dv: [Bounded; 2],
+}
+
+impl Pixel {
+    /// Its own v. What is beyond an end has none, nor do those that share it.
+    pub fn own_v(&self) -> Bounded {
+        let moved = beside(self.v, self.dv, self.off);
+        match (self.v.low() > 0.0, self.v.high() > 0.0) {
+            (true, _) => moved,
+            (false, true) => {
+                let [low, high] = [self.v.low().min(moved.low()), self.v.high().max(moved.high())];
+                Bounded::between(low, moved.value, high)
+            }
+            (false, false) => self.v,
+        }
+    }
 }
 
 /// What there is of foam.
@@ -166,7 +187,8 @@ pub struct Foam {
 
 /// The foam of a pixel.
 pub fn shoreline(look: &Shoreline, noise: &Texture<4>, texels: &Texture<4>, pixel: &Pixel) -> Foam {
-    let Pixel { place, v, across, dv } = *pixel;
+    let Pixel { off, place, across, dv, .. } = *pixel;
+    let v = pixel.own_v().clamp(0.0, 2.0);
     let [[ax, ay], [bx, by]] = across;
     let width = (ax * by - bx * ay).abs().sqrt();
     let moved = |p: [Bounded; 2], by: Noise, [x, y]: [Bounded; 2]| {
@@ -218,6 +240,7 @@ pub fn shoreline(look: &Shoreline, noise: &Texture<4>, texels: &Texture<4>, pixe
         let [_, _, x, y] = noise.at(at, look.web_warp.scale, width);
         q = moved(q, look.web_warp, [x, y]);
     }
+    let q = [0, 1].map(|i| beside(q[i], across.map(|way| way[i]), off));
     let [a, b] = look.web_rise;
     let (mut means, mut fine) = (vec![v * a, exact(b), rise], Vec::new());
     let mut changes = dv.map(|dv| vec![dv * a]);

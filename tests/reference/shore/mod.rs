@@ -23,6 +23,7 @@ mod single;
 #[cfg(test)]
 mod tests;
 
+use bounded::beside;
 pub use bounded::{Bounded, U, dot, exact, held, length, mix};
 use texture::Texture;
 
@@ -235,11 +236,13 @@ impl Contact {
         measure(self.measure, depths, ray, up) / self.depth
     }
 
-    /// The mask by place.
-    pub fn masked(&self, web: &Texture<4>, place: [Bounded; 2], width: Bounded) -> Bounded {
-        let uv = [0, 1].map(|i| place[i] * self.mask_scale + self.mask_offset[i]);
-        let [pattern, ..] = web.sample(uv, web.detail(width, self.mask_scale));
-        self.mask_of(pattern)
+    /// The mask so many pixels from where its pattern and the change of that are found.
+    pub fn masked(&self, web: &Texture<4>, point: &Point, off: [f64; 2]) -> Bounded {
+        let uv = [0, 1].map(|i| point.place[i] * self.mask_scale + self.mask_offset[i]);
+        let detail = web.detail(point.width, self.mask_scale);
+        let (pattern, _, slope) = web.spread(uv, detail);
+        let change = point.change.map(|way| dot(slope, way.map(|w| w * self.mask_scale)));
+        self.mask_of(beside(pattern, change, off))
     }
 
     /// The mask of a pattern.

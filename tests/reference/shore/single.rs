@@ -44,12 +44,10 @@ fn bilinear<const C: usize>(texture: &Texture<C>, level: usize, uv: [f32; 2]) ->
     std::array::from_fn(|i| lerp(lerp(a[i], b[i], fx), lerp(c[i], d[i], fx), fy))
 }
 
+/// Of the level nearest to the level of detail.
 pub fn sample<const C: usize>(texture: &Texture<C>, uv: [f32; 2], detail: f32) -> [f32; C] {
-    let detail = detail.clamp(0.0, texture.last() as f32);
-    let level = detail.floor() as usize;
-    let near = bilinear(texture, level, uv);
-    let far = bilinear(texture, (level + 1).min(texture.last()), uv);
-    std::array::from_fn(|i| lerp(near[i], far[i], weight(detail - detail.floor())))
+    let level = detail.round().clamp(0.0, texture.last() as f32);
+    bilinear(texture, level as usize, uv)
 }
 
 pub fn detail<const C: usize>(texture: &Texture<C>, width: f32, scale: f32) -> f32 {
@@ -77,6 +75,7 @@ pub fn water(water: &Water, pixel: [f32; 2]) -> (f32, [f32; 2], f32) {
 
 /// A pixel, all that it is made of exact.
 pub struct Pixel {
+    pub off: [f32; 2],
     pub place: [f32; 2],
     pub v: f32,
     pub across: [[f32; 2]; 2],
@@ -91,12 +90,14 @@ pub fn shoreline(
     pixel: &Pixel,
     by: f32,
 ) -> (f32, f32, [f32; 2]) {
-    let &Pixel { place, v, across, dv } = pixel;
+    let &Pixel { off, place, v, across, dv } = pixel;
+    let v = if v > 0.0 { v + (dv[0] * off[0] + dv[1] * off[1]) } else { v };
+    let v = v.clamp(0.0, 2.0);
     let [[ax, ay], [bx, by_]] = across;
     let width = (ax * by_ - bx * ay).abs().sqrt();
     let at = |p: [f32; 2], by: Noise| {
         let scale = by.scale as f32;
-        sample(noise, p.map(|p| p * scale), detail(noise, width, scale).round())
+        sample(noise, p.map(|p| p * scale), detail(noise, width, scale))
             .map(|n| n * by.amplitude as f32)
     };
     let mut p = place;
@@ -124,6 +125,7 @@ pub fn shoreline(
         let n = at([p[0] + moved[0], p[1] + moved[1]], look.web_warp);
         q = [q[0] + n[2], q[1] + n[3]];
     }
+    let q = [0, 1].map(|i| q[i] + (across[0][i] * off[0] + across[1][i] * off[1]));
     let [a, b] = look.web_rise.map(|v| v as f32);
     let (mut mean, mut fine, mut change) = (a * v + b + rise, 0.0, dv.map(|dv| a * dv));
     for layer in &look.layers {

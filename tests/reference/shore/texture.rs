@@ -1,8 +1,8 @@
-//! A square texture on a torus, its levels in half precision, filtered linearly within and between them.
+//! A square texture on a torus, its levels in half precision, filtered linearly within the nearest of them.
 //!
 //! A filter knows a place and a level to 1/256: half a step is 2^-9 of the differences between the texels
 //! involved. A place that is off by so many texels adds as many of the largest difference of neighbours that it
-//! may pass; a level that is off, as much of the difference between levels. Neither leaves the range of a level.
+//! may pass, and does not leave the range of the level; where two levels are as near it is of either.
 
 use super::bounded::{Bounded, U, exact};
 
@@ -12,8 +12,8 @@ pub const STEP: f64 = 1.0 / 512.0;
 /// Place and level are found in single precision, of no less than this many texels a pixel.
 const LEAST: f64 = 1e-6;
 
-/// Of a filter in single precision: linear three times over, of three operations each.
-const ROUNDINGS: f64 = 9.0;
+/// Of a filter in single precision: linear twice over, of three operations each.
+const ROUNDINGS: f64 = 6.0;
 
 /// More texels than this in a row are not looked at one by one.
 const MANY: i64 = 16;
@@ -96,18 +96,23 @@ impl<const C: usize> Texture<C> {
         (width * scale * self.size as f64).max(LEAST).log2()
     }
 
-    /// At a place in metres, of the level nearest to the level of detail; where two are as near, of either.
+    /// At a place in metres.
     pub fn at(&self, place: [Bounded; 2], scale: f64, width: Bounded) -> [Bounded; C] {
-        let detail = self.detail(width, scale).wider(STEP).clamp(0.0, self.last() as f64);
         let uv = place.map(|p| p * scale);
-        let level = |at: f64| self.sample(uv, exact(at));
-        // Half a step and 8 u of it: a tie is of either.
-        let [low, high] = [
-            (detail.low() - 0.5).ceil().max(0.0),
-            (detail.high() + 0.5).floor().min(self.last() as f64),
-        ];
-        let own = level(detail.value.round());
-        let all: Vec<_> = (low as usize..=high as usize).map(|l| level(l as f64)).collect();
+        self.nearest(self.detail(width, scale), |level| self.sample(uv, level))
+    }
+
+    /// Of the level nearest to the level of detail; where two are as near, of either.
+    fn nearest<const D: usize>(
+        &self,
+        detail: Bounded,
+        of: impl Fn(usize) -> [Bounded; D],
+    ) -> [Bounded; D] {
+        let detail = detail.wider(STEP).clamp(0.0, self.last() as f64);
+        let (low, high) = ((detail.low() - 0.5).ceil(), (detail.high() + 0.5).floor());
+        let (low, high) = (low.max(0.0) as usize, (high as usize).min(self.last()));
+        let own = of(detail.value.round() as usize);
+        let all: Vec<_> = (low..=high).map(of).collect();
         std::array::from_fn(|c| {
             let ends = all.iter().fold((own[c].low(), own[c].high()), |(low, high), other| {
                 (other[c].low().min(low), other[c].high().max(high))
@@ -117,41 +122,13 @@ impl<const C: usize> Texture<C> {
     }
 
     /// At a place in repetitions.
-    pub fn sample(&self, uv: [Bounded; 2], detail: Bounded) -> [Bounded; C] {
-        let moved = self.mixed(uv, detail, &|t| *t, &|range| *range);
+    pub fn sample(&self, uv: [Bounded; 2], level: usize) -> [Bounded; C] {
+        let moved = self.filtered(level, uv, &|t| *t, &|range| *range);
         std::array::from_fn(|c| moved[c].wider(ROUNDINGS * U * self.most[c]))
     }
 
-    /// Of numbers made of a texel, what a filter that may be off a place and a level has, without roundings.
+    /// Of numbers made of a texel, what a filter that may be off a place has, without roundings.
     /// `ranges`: of these numbers from those of the texels.
-    fn mixed<const D: usize>(
-        &self,
-        uv: [Bounded; 2],
-        detail: Bounded,
-        of: &impl Fn(&[f64; C]) -> [f64; D],
-        ranges: &impl Fn(&[f64; C]) -> [f64; D],
-    ) -> [Bounded; D] {
-        let last = self.last() as f64;
-        let off = if detail.error == 0.0 { 0.0 } else { STEP };
-        let detail = detail.wider(off).clamp(0.0, last);
-        let (low, high) = (detail.low().max(0.0).floor(), detail.high().min(last).ceil());
-        let (low, high) = (low as usize, high as usize);
-        let found: Vec<_> =
-            (low..=high).map(|level| self.filtered(level, uv, of, ranges)).collect();
-        let floor = (detail.value.floor() as usize).min(self.last());
-        let part = detail.value - floor as f64;
-        std::array::from_fn(|c| {
-            let at = |level: usize| found[level - low][c].value;
-            let beyond = if part > 0.0 { part * (at(floor + 1) - at(floor)) } else { 0.0 };
-            let own = found.iter().fold(0.0, |most: f64, level| most.max(level[c].error));
-            let slope = (low..high)
-                .map(|level| (at(level + 1) - at(level)).abs())
-                .fold(0.0, |most: f64, by| most.max(by));
-            exact(at(floor) + beyond).wider(own + slope * detail.error)
-        })
-    }
-
-    /// One level of it.
     fn filtered<const D: usize>(
         &self,
         level: usize,
@@ -230,23 +207,26 @@ impl Texture<4> {
         Self::new(size, &(0..size * size).map(texel).collect::<Vec<_>>())
     }
 
-    /// The mean m at a place in repetitions, and the variance, what the mean square s is more than m², at least 0.
+    /// The mean m at a place in repetitions, the variance, what the mean square s is more than m², at least 0, and the slopes.
     ///
     /// Both channels have the same weights: with m off by e the variance is that of `s - 2 m t`, of which m is
     /// held, off by what its own differences are, and e² at most. Roundings are those of s, of twice m times m,
     /// of the square and the difference.
-    /// Then the slopes.
     pub fn spread(&self, uv: [Bounded; 2], detail: Bounded) -> (Bounded, Bounded, [Bounded; 2]) {
-        let [mean, square, across, down] = self.sample(uv, detail);
-        let m = mean.value;
-        let of = |t: &[f64; 4]| [t[1] - 2.0 * m * t[0]];
-        let ranges = |range: &[f64; 4]| [range[1] + 2.0 * m.abs() * range[0]];
-        let [held] = self.mixed(uv, detail, &of, &ranges);
-        let sizes = ROUNDINGS * (self.most[1] + 2.0 * m.abs() * self.most[0])
-            + m * m
-            + (square.value - m * m).abs();
-        let moved = held.error + mean.error * mean.error;
-        let variance = exact(square.value - m * m).wider(moved + 2.0 * U * sizes);
-        (mean, variance.max(0.0), [across, down])
+        let of = |level| {
+            let [mean, square, across, down] = self.sample(uv, level);
+            let m = mean.value;
+            let of = |t: &[f64; 4]| [t[1] - 2.0 * m * t[0]];
+            let ranges = |range: &[f64; 4]| [range[1] + 2.0 * m.abs() * range[0]];
+            let [held] = self.filtered(level, uv, &of, &ranges);
+            let sizes = ROUNDINGS * (self.most[1] + 2.0 * m.abs() * self.most[0])
+                + m * m
+                + (square.value - m * m).abs();
+            let moved = held.error + mean.error * mean.error;
+            let variance = exact(square.value - m * m).wider(moved + 2.0 * U * sizes);
+            [mean, variance.max(0.0), across, down]
+        };
+        let [mean, variance, across, down] = self.nearest(detail, of);
+        (mean, variance, [across, down])
     }
 }

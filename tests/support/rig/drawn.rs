@@ -372,6 +372,10 @@ fn words(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
 fn picture(format: vk::Format, extent: vk::Extent2D, bytes: &[u8]) -> Image<[f32; 4]> {
     let data: Vec<[f32; 4]> = match host::texel_size(format) {
         16 => bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect(),
+        4 if format == vk::Format::R8G8B8A8_UNORM => bytes
+            .chunks_exact(4)
+            .map(|c| [c[0], c[1], c[2], c[3]].map(|v| f32::from(v) / 255.0))
+            .collect(),
         4 => {
             assert_eq!(format, vk::Format::R8G8B8A8_SNORM);
             let part = |v: u8| (f32::from(v.cast_signed()) / 127.0).max(-1.0);

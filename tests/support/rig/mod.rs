@@ -306,6 +306,10 @@ fn color_bytes(format: vk::Format, color: &[[f32; 4]]) -> Vec<u8> {
             let half = |c: &[f32; 4]| c.map(|v| half::f16::from_f32(v).to_bits());
             color.iter().flat_map(half).flat_map(u16::to_le_bytes).collect()
         }
+        _ if format == vk::Format::R8G8B8A8_UNORM => {
+            let step = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
+            color.iter().flat_map(|c| c.map(step)).collect()
+        }
         _ => panic!("{format:?} is not made here"),
     }
 }

@@ -111,8 +111,10 @@ pub fn moved(pass: &str, drawn: &Drawn) -> Option<u64> {
         "radiance" => (16 + 4 + 16 + 8) * full + 8 * foam,
         // Twice: depth and light in, light out; where there is foam its normal in.
         "blur" => 2 * ((16 + 8 + 8) * full + 8 * foam),
-        // Depth in, of the whole picture; foam cleared, and out where there is some.
-        "shoreline" => 8 * full + 4 * drawn.coat,
+        // Depth in, of the whole picture.
+        "shore-tiles" => 4 * full,
+        // Foam cleared; depth in and foam out where there is some.
+        "shoreline" => 4 * full + 8 * drawn.coat,
         // A copy of half-float colour.
         "scene" => 16 * full,
         // Depth, thickness and surface shares, scene colour and depth in, colour out; depth, thickness and light of

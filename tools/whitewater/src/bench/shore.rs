@@ -459,7 +459,7 @@ impl Costs {
         let coat: Vec<_> = more.iter().zip(less).map(|(more, less)| more - less).collect();
         let coat_median = median(more) - median(less);
         let (mut all, mut all_median) = (coat.clone(), coat_median);
-        for own in ["shoreline", "contact"].map(|pass| with.of(pass)) {
+        for own in ["shore-tiles", "shoreline", "contact"].map(|pass| with.of(pass)) {
             if own.is_empty() {
                 continue;
             }

@@ -1,0 +1,54 @@
+// What the passes that list tiles share: an invocation of 8x8 a tile. Needs frame.glsl, shore.glsl.
+// Reads: scene depth. Writes: lists, arguments.
+
+layout(set = 0, binding = 2) uniform sampler2D scene_depth;
+// Tiles of each list.
+layout(set = 0, binding = 9, std430) writeonly buffer Lists { uint list[]; };
+// Of each list groups in x, y, z and how many tiles; before the first the draw of the fourth.
+layout(set = 0, binding = 10, std430) buffer Arguments { uint arguments[24]; };
+layout(push_constant, std430) uniform Push {
+    uint across; // tiles
+    uint most;   // of a list
+} push;
+
+const int TILE = 8;
+const uint TILES = 4u;           // of a group of what goes over them
+const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
+
+// The invocation's tile to a list, from 1 on.
+void adds(uint kind) {
+    uint slot = atomicAdd(arguments[4u * kind + 3u], 1u);
+    list[(kind - 1u) * push.most + slot] = gl_GlobalInvocationID.y * push.across + gl_GlobalInvocationID.x;
+    uint group = slot / TILES;
+    atomicMax(arguments[4u * kind], min(group + 1u, MOST_GROUPS));
+    atomicMax(arguments[4u * kind + 1u], 1u + group / MOST_GROUPS);
+}
+
+// The first of four pixels of a tile, one of its sixteen.
+vec2 four_of(vec2 first, int i) {
+    return first + 2.0 * vec2(i & TILE / 2 - 1, i / (TILE / 2));
+}
+
+// A pixel of four, as they are gathered.
+vec2 pixel_of(vec2 first, int i) {
+    return first + vec2(i == 1 || i == 2 ? 1.5 : 0.5, i < 2 ? 1.5 : 0.5);
+}
+
+// The scene's depths at four pixels from one on; texel: one over the size of their image. What lies beyond the picture may
+// be among them.
+vec4 scene_at_four(vec2 first, vec2 texel) {
+    if (GENERAL == 0u) {
+        return textureGather(scene_depth, (first + 1.0 + frame.scene_origin.xy) * texel);
+    }
+    // Not a texel a pixel.
+    vec4 four;
+    for (int i = 0; i < 4; ++i) {
+        four[i] = texelFetch(scene_depth, scene_texel(min(pixel_of(first, i), frame.extent.xy - 0.5)), 0).x;
+    }
+    return four;
+}
+
+// By the vertical measure what is seen from above is nearer.
+float counted(vec3 ray) {
+    return shore.contact.w == 2.0 ? max(-dot(shore.height.xyz, ray), 0.0) : 1.0;
+}

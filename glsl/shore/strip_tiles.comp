@@ -1,0 +1,25 @@
+#version 460
+// Pass `shoreline`: which tiles of 8x8 pixels a strip's foam is in, when it is drawn.
+// Reads: foam. Writes: list of tiles, its draw.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 0, binding = 8) uniform sampler2D foam;
+layout(push_constant, std430) uniform Push {
+    uint across; // tiles
+    uint most;   // of a list
+} push;
+
+#include "shore_drawn.glsl"
+
+void main() {
+    uvec2 tile = gl_GlobalInvocationID.xy;
+    vec2 size = vec2(textureSize(foam, 0));
+    // Beyond the frame there is none.
+    vec4 most = vec4(0.0);
+    for (int i = 0; i < 16; ++i) {
+        most = max(most, textureGather(foam, vec2(8u * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));
+    }
+    if (tile.x < push.across && dot(most, vec4(1.0)) > 0.0) {
+        draws(tile.y * push.across + tile.x);
+    }
+}

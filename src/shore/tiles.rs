@@ -1,0 +1,210 @@
+//! Pass `shore-tiles`: where foam may lie on the host's surface, by tiles of pixels. Not in the sources: most of a picture
+//! has none, and what tells is much less than what it is.
+//!
+//! Reads: scene depth, the surface's, the map of distances. Writes: lists of tiles, dispatches over them.
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+
+use super::Given;
+use crate::contract::Config;
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    Access, COMPUTE_READ, COMPUTE_READ_WRITE, COPY_WRITE, INDIRECT, VERTEX_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::retire::RetireList;
+use crate::gpu::shader;
+use crate::water::Recording;
+
+/// Edge of a tile in pixels (glsl/shore/tiles.comp).
+const TILE: u32 = 8;
+/// Lists of tiles: that may have shoreline foam, contact foam, both; that have any; that may have contact foam on the particles'
+/// water.
+const LISTS: u32 = 5;
+/// A quad's draw of no tiles; dispatches over none and how many they are (glsl/include/shore_drawn.glsl).
+const NO_TILES: [[u32; 4]; 6] =
+    [[4, 0, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0]];
+/// Where the dispatch over the fourth list is among them, in bytes.
+pub const COAT_DISPATCH: u64 = 64;
+/// Over the fifth.
+pub const CONTACT_DISPATCH: u64 = 80;
+/// How `shoreline` has them: it draws what the lists say and makes the fourth.
+const SHADED: Access = COMPUTE_READ_WRITE.and(INDIRECT);
+/// How `composite` reads that and its draw.
+const READ: Access = COMPUTE_READ.and(VERTEX_READ).and(INDIRECT);
+
+/// Buffers by the size of the picture.
+struct Lists {
+    /// Tiles of a list.
+    most: u32,
+    list: Buffer,
+    /// Of each tile whether it has foam.
+    marks: Buffer,
+}
+
+/// Tiles of an extent.
+pub fn extent_in_tiles(extent: vk::Extent2D) -> vk::Extent2D {
+    let vk::Extent2D { width, height } = extent;
+    vk::Extent2D { width: width.div_ceil(TILE), height: height.div_ceil(TILE) }
+}
+
+impl Lists {
+    fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let vk::Extent2D { width: x, height: y } = extent_in_tiles(config.extent);
+        let words = |name, each: u32| {
+            let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+            let bytes = 4 * u64::from(each * x * y);
+            Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
+        };
+        Ok(Self { most: x * y, marks: words("shore/marks", 1)?, list: words("shore/list", LISTS)? })
+    }
+}
+
+/// The pass.
+pub struct Tiles {
+    /// For what most frames have, and for all there is (glsl/include/shore.glsl).
+    pipelines: [Pipeline; 2],
+    /// Of the particles' water, likewise.
+    on_particles: [Pipeline; 2],
+    /// The draw of the tiles' quads, the dispatches over them.
+    arguments: Buffer,
+    lists: Lists,
+}
+
+impl Tiles {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::INDIRECT_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST;
+        let name = "shore/arguments";
+        let ways = |shader| -> Result<_, Error> {
+            let way = |general| Pipeline::compute(gpu, shader, &[(3, general)]);
+            Ok([way(0)?, way(1)?])
+        };
+        Ok(Self {
+            pipelines: ways(shader::SHORE_TILES_COMP)?,
+            on_particles: ways(shader::SHORE_CONTACT_TILES_COMP)?,
+            arguments: Buffer::new(gpu, name, 96, usage, MemoryLocation::GpuOnly)?,
+            lists: Lists::new(gpu, config)?,
+        })
+    }
+
+    pub fn resize(
+        &mut self,
+        gpu: &Gpu,
+        config: &Config,
+        retired: &mut RetireList,
+    ) -> Result<(), Error> {
+        let new = Lists::new(gpu, config)?;
+        self.lists.most = new.most;
+        retired.replace(&mut self.lists.marks, new.marks);
+        retired.replace(&mut self.lists.list, new.list);
+        Ok(())
+    }
+
+    /// The lists, the dispatches over them and the draw of the last, what marks a tile.
+    pub fn buffers(&self) -> [&Buffer; 3] {
+        [&self.lists.list, &self.arguments, &self.lists.marks]
+    }
+
+    /// How many tiles there are in a row of a frame, and the most of a list.
+    pub fn places(&self, extent: vk::Extent2D) -> [u32; 2] {
+        [extent_in_tiles(extent).width, self.lists.most]
+    }
+
+    /// `general`: the frame has more than most have.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        (given, general): (&Given<'_>, bool),
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let [list, arguments, marks] = self.buffers();
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(marks.handle, COMPUTE_READ_WRITE, COPY_WRITE),
+                buffer(arguments.handle, READ, COPY_WRITE),
+                buffer(list.handle, READ, COMPUTE_READ_WRITE),
+            ],
+        );
+        // SAFETY: outside a render pass; the frame before has read both (barrier).
+        unsafe {
+            gpu.device.cmd_fill_buffer(cmd, marks.handle, 0, vk::WHOLE_SIZE, 0);
+            let none = bytemuck::bytes_of(&NO_TILES);
+            gpu.device.cmd_update_buffer(cmd, arguments.handle, 0, none);
+        }
+        let filled = [
+            buffer(marks.handle, COPY_WRITE, COMPUTE_READ_WRITE),
+            buffer(arguments.handle, COPY_WRITE, COMPUTE_READ_WRITE),
+        ];
+        gpu.barriers(cmd, &[], &filled);
+        if given.shore.is_some_and(|shore| shore.surface.is_some()) {
+            let pipeline = &self.pipelines[usize::from(general)];
+            let resources = [
+                (0, r.uniforms),
+                (1, r.shore),
+                (2, r.scene_depth),
+                // What a frame does not have is not read.
+                (3, given.surface.unwrap_or(r.scene_depth)),
+                (6, given.map(gpu).unwrap_or(r.scene_depth)),
+                (9, Resource::buffer(list)),
+                (10, Resource::buffer(arguments)),
+            ];
+            r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+            pipeline.push(gpu, cmd, &self.places(r.extent));
+            r.dispatch_over(extent_in_tiles(r.extent), pipeline.local_size);
+        }
+        let made = [
+            buffer(list.handle, COMPUTE_READ_WRITE, SHADED),
+            buffer(arguments.handle, COMPUTE_READ_WRITE, SHADED),
+        ];
+        gpu.barriers(cmd, &[], &made);
+        Ok(())
+    }
+
+    /// Where there may be contact foam on the particles' water, whose depth this is; the list and the dispatch are for
+    /// reading then.
+    pub fn record_on_particles(
+        &self,
+        r: &mut Recording<'_>,
+        depth: Resource,
+        general: bool,
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let [list, arguments, _] = self.buffers();
+        let own = |from, to| [list, arguments].map(|own| buffer(own.handle, from, to));
+        gpu.barriers(cmd, &[], &own(READ, COMPUTE_READ_WRITE));
+        let pipeline = &self.on_particles[usize::from(general)];
+        let resources = [
+            (0, r.uniforms),
+            (1, r.shore),
+            (2, r.scene_depth),
+            (3, depth),
+            (9, Resource::buffer(list)),
+            (10, Resource::buffer(arguments)),
+        ];
+        r.descriptors.bind(gpu, cmd, pipeline, &resources)?;
+        pipeline.push(gpu, cmd, &self.places(r.extent));
+        r.dispatch_over(extent_in_tiles(r.extent), pipeline.local_size);
+        gpu.barriers(cmd, &[], &own(COMPUTE_READ_WRITE, READ));
+        Ok(())
+    }
+
+    /// What `shoreline` made goes to `composite`.
+    pub fn hand_over(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        let [list, arguments, _] = self.buffers();
+        let over = [list, arguments].map(|own| buffer(own.handle, SHADED, READ));
+        gpu.barriers(cmd, &[], &over);
+    }
+
+    /// Bytes of buffers.
+    pub fn memory(&self) -> u64 {
+        self.lists.marks.size + self.lists.list.size + self.arguments.size
+    }
+}

@@ -1,0 +1,143 @@
+//! Which tiles are shaded: all that have foam, from wherever the surface is seen and whatever stands in it.
+
+use glam::{DVec3, Mat4, Vec3};
+use whitewater::shore::{ContactLook, Edge, Measure, WebLayer};
+use whitewater::{Shore, Shoreline};
+
+use super::contact::{scene_of, twins};
+use super::shoreline::{AREA, amount, heights, pixel_by_map, plain, twin_map};
+use super::{Mapped, Tally, is_shared, shared_at, textures, water, with_shore};
+use crate::reference::shore::{Bounded, exact};
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, extent};
+use crate::support::scenes::Lens;
+
+/// From where, along what, and what is up.
+type View = (&'static str, Vec3, Vec3, Vec3);
+
+const VIEWS: [View; 5] = [
+    ("low", Vec3::new(4.0, 0.6, 6.0), Vec3::new(0.3, -0.08, -1.0), Vec3::Y),
+    ("down", Vec3::new(7.0, 9.0, -5.0), Vec3::NEG_Y, Vec3::Z),
+    ("from below", Vec3::new(5.0, -2.5, 2.0), Vec3::new(0.2, 0.5, -1.0), Vec3::Y),
+    ("rolled", Vec3::new(3.0, 3.0, 4.0), Vec3::new(0.4, -0.5, -1.0), Vec3::new(0.866, 0.5, 0.0)),
+    ("steep", Vec3::new(6.0, 5.0, -1.0), Vec3::new(0.1, -1.0, -0.4), Vec3::Y),
+];
+
+/// How far behind the surface posts stand, of the depth of contact foam: up to where little is left of it.
+const BEHIND: [f64; 5] = [0.02, 0.9, 0.5, 0.93, 0.7];
+
+/// Posts of a pixel's width stand in the water far apart, about one a tile, before nothing or a bottom so deep that it has
+/// no foam; a wall hides some of it. Every pixel has the twin's foam: no tile is left out that has some, in the corner of a
+/// tile or of the picture, whose size is no number of tiles.
+#[test]
+fn no_tile_with_foam_is_left_out() {
+    let gpu = Gpu::shared();
+    let size = extent(99, 61);
+    let mut coasts = Mapped::new(&gpu, 64);
+    let land = |at: glam::DVec2| 0.4 * (3.0 - (at - glam::DVec2::new(7.0, -5.0)).length());
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let map = twin_map(&coasts);
+    let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
+    let lenses = [
+        [Lens::Standard, Lens::ReversedInfinite],
+        [Lens::Infinite, Lens::Reversed],
+        [Lens::OffAxis, Lens::Standard],
+        [Lens::Mirrored, Lens::OffAxis],
+        [Lens::LeftHanded, Lens::ReversedInfinite],
+    ];
+    for ((view, eye, along, up), lenses) in VIEWS.into_iter().zip(lenses) {
+        for (k, lens) in lenses.into_iter().enumerate() {
+            let measure = [Measure::Distance, Measure::View, Measure::Vertical];
+            let measure = measure[(k + view.len()) % 3];
+            // By their heights what is seen from below is nowhere behind it.
+            let measure = if view == "from below" { Measure::View } else { measure };
+            let name = format!("{view}, {lens:?}, {measure:?}");
+            let mut shot = Shot::new(size, lens, 0.1, &[]);
+            shot.camera.view = match lens {
+                Lens::LeftHanded => Mat4::look_to_lh(eye, along, up),
+                _ => Mat4::look_to_rh(eye, along, up),
+            };
+            let mut look = plain();
+            look.contact = ContactLook { depth: 0.4, measure, mask: 0.0, ..look.contact };
+            if k == 1 {
+                // More layers than most have.
+                look.shoreline.layers[2] = WebLayer { weight: 0.05, ..look.shoreline.layers[0] };
+            }
+            shot.settings.shore = look;
+            let line = Some(Shoreline::Map(coasts.coast()));
+            shot.shore = Some(Shore { shoreline: line, ..Shore::new(0.0) });
+            let level = water(&shot, DVec3::Y, 0.0);
+            let up_row = [level.up[0], level.up[1], level.up[2]];
+            let point = |x: u32, y: u32| level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]);
+            let is_post = |x: u32, y: u32| (7 * x + 3 * y).is_multiple_of(61);
+            shot.scene_depth(|x, y| {
+                let point = point(x, y);
+                let z = point.depth.value;
+                if x > 80 && y < 40 {
+                    return Some(0.2);
+                }
+                if !(z > 0.0 && z < 60.0) {
+                    return None;
+                }
+                // What a metre of depth is by the measure.
+                let part = twins(&look, 0.1)[0].part([exact(z), exact(z + 1.0)], point.ray, up_row);
+                let part = part.value;
+                let behind = BEHIND[(x + y) as usize % 5];
+                match is_post(x, y) {
+                    true => Some(z + behind / part),
+                    false => (x % 2 == 0).then_some(z + 20.0 / part),
+                }
+            });
+            let found = rig.draw(&shot).shore.expect("foam");
+            let [twin, _] = twins(&look, shot.settings.water.spacing);
+            let [_, web] = textures();
+            let (mut lines, mut contacts) = (Tally::default(), Tally::default());
+            let mut sure = [0; 2];
+            for (i, texel) in found.data.iter().enumerate() {
+                let at @ [x, y] = [i % found.width, i / found.width];
+                let point = point(x as u32, y as u32);
+                let z = point.depth;
+                if z.high() < 0.0 || (x > 80 && y < 40) {
+                    assert_eq!(texel[..2], [0, 0], "{name}: {at:?} has no surface, or hidden");
+                    continue;
+                }
+                let scene = scene_of(&shot, i);
+                // Beyond that a depth tells nothing.
+                if z.low() <= 0.0 || z.high() > 60.0 {
+                    continue;
+                }
+                let mut check = |c: usize, tally: &mut Tally, expected: Bounded| {
+                    tally.add((x, y), texel[c], expected);
+                    if expected.low() > 1.0 / 255.0 {
+                        sure[c] += 1;
+                        assert!(texel[c] > 0, "{name}: {at:?} has {expected:?} of {c}");
+                    }
+                };
+                let hides = scene.is_some_and(|scene| scene.low() < z.high());
+                let pixel = pixel_by_map(&shot, &level, (&map, &AREA), at);
+                let line = pixel.and_then(|pixel| amount(&look, Edge::Smooth, &pixel, at));
+                if let Some(line) = line.filter(|_| !hides) {
+                    check(0, &mut lines, line);
+                }
+                let (place, off) = shared_at(is_shared(&shot), at);
+                let middle = level.at(place);
+                let Some(scene) = scene else {
+                    check(1, &mut contacts, exact(0.0));
+                    continue;
+                };
+                if middle.depth.low() > 0.0 {
+                    let t = twin.part([z, scene], point.ray, up_row);
+                    check(1, &mut contacts, twin.amount(t, twin.masked(web, &middle, off)));
+                }
+            }
+            println!(
+                "{name}: {} and {} compared, {sure:?} have some",
+                lines.compared, contacts.compared
+            );
+            for tally in [&lines, &contacts] {
+                assert_eq!(tally.beyond, 0, "{name}: {:?}", tally.first);
+            }
+            assert!(sure[0] > 50 && sure[1] > 15, "{name}: {sure:?}");
+        }
+    }
+}
