@@ -1,5 +1,6 @@
 // The list of the tiles that have foam on the host's surface, for `composite`: its draw and its dispatch. Needs a push with
 // across and most.
+// Reads: marks. Writes: list, arguments, marks.
 
 // Tiles that may have shoreline foam, contact foam, both; that have any; that may have contact foam on the particles' water.
 layout(set = 0, binding = 9, std430) buffer Lists { uint list[]; };
