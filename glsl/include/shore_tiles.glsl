@@ -1,32 +1,20 @@
-// What the passes that list tiles share: an invocation of 8x8 a tile. Needs frame.glsl, shore.glsl.
+// What the passes that list tiles share: an invocation a tile. Needs frame.glsl, shore.glsl, shore_lists.glsl.
 // Reads: scene depth. Writes: lists, arguments.
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
-// Tiles of each list.
-layout(set = 0, binding = 9, std430) writeonly buffer Lists { uint list[]; };
-// Of each list groups in x, y, z and how many tiles; before the first the draw of the fourth.
-layout(set = 0, binding = 10, std430) buffer Arguments { uint arguments[24]; };
-layout(push_constant, std430) uniform Push {
-    uint across; // tiles
-    uint most;   // of a list
-} push;
 
-const int TILE = 8;
-const uint TILES = 4u;           // of a group of what goes over them
-const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
-
-// The invocation's tile to a list, from 1 on.
+// The invocation's tile to a list.
 void adds(uint kind) {
     uint slot = atomicAdd(arguments[4u * kind + 3u], 1u);
-    list[(kind - 1u) * push.most + slot] = gl_GlobalInvocationID.y * push.across + gl_GlobalInvocationID.x;
-    uint group = slot / TILES;
-    atomicMax(arguments[4u * kind], min(group + 1u, MOST_GROUPS));
-    atomicMax(arguments[4u * kind + 1u], 1u + group / MOST_GROUPS);
+    fills(kind, slot, gl_GlobalInvocationID.y * push.across + gl_GlobalInvocationID.x, TILES);
 }
 
-// The first of four pixels of a tile, one of its sixteen.
+const int HALF = int(TILE) / 2;
+const int FOURS = HALF * HALF; // of pixels in a tile
+
+// The first of four pixels of a tile.
 vec2 four_of(vec2 first, int i) {
-    return first + 2.0 * vec2(i & TILE / 2 - 1, i / (TILE / 2));
+    return first + 2.0 * vec2(i % HALF, i / HALF);
 }
 
 // A pixel of four, as they are gathered.

@@ -15,20 +15,14 @@ layout(local_size_x = 256) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
-// As `contact_tiles.comp` made them.
-layout(set = 0, binding = 9, std430) readonly buffer Lists { uint list[]; };
-layout(set = 0, binding = 10, std430) readonly buffer Arguments { uint arguments[24]; };
-layout(push_constant, std430) uniform Push {
-    uint across; // tiles
-    uint most;   // of a list
-} push;
+
+#include "shore_lists.glsl"
 
 void main() {
-    uint i = 4u * (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) + gl_LocalInvocationID.x / 64u;
-    bool listed = i < arguments[23];
-    uint tile = list[4u * push.most + (listed ? i : 0u)];
+    uint tile;
+    bool listed = tile_of(5u, gl_LocalInvocationID.x / 64u, tile);
     uvec2 own = uvec2(gl_LocalInvocationID.x & 7u, gl_LocalInvocationID.x >> 3u & 7u);
-    ivec2 texel = ivec2(8u * uvec2(tile % push.across, tile / push.across) + own);
+    ivec2 texel = ivec2(first_of(tile) + own);
     if (!listed || any(greaterThanEqual(texel, ivec2(frame.extent.xy)))) {
         return;
     }

@@ -8,13 +8,14 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 3) uniform sampler2D depth;
 
+#include "shore_lists.glsl"
 #include "shore_tiles.glsl"
 
 void main() {
     vec2 first = vec2(TILE * gl_GlobalInvocationID.xy);
     float part = EMPTY;
     for (int i = 0; i < 4; ++i) {
-        vec2 corner = first + 0.5 + float(TILE - 1) * vec2(i & 1, i >> 1);
+        vec2 corner = first + 0.5 + float(TILE - 1u) * vec2(i & 1, i >> 1);
         part = min(part, counted(vec3(ray_slope(corner, frame.slope), -1.0)));
     }
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
@@ -22,7 +23,7 @@ void main() {
     // How far behind the water's front what stands in it is at the least, as the smoothed surface is off by less than the
     // border's threshold.
     vec4 least = vec4(EMPTY);
-    for (int i = 0; i < TILE * TILE / 4; ++i) {
+    for (int i = 0; i < FOURS; ++i) {
         vec2 four = four_of(first, i);
         vec4 front = textureGather(depth, (four + 1.0) * own);
         vec4 scene = frame.depth.x / (scene_at_four(four, texel) + frame.depth.y);

@@ -17,11 +17,8 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 8, rgba8) uniform image2D foam;
-layout(push_constant, std430) uniform Push {
-    uint across; // tiles
-    uint most;   // of a list
-} push;
 
+#include "shore_lists.glsl"
 #include "shore_drawn.glsl"
 
 // What tiles may have, 1: shoreline foam, 2: contact foam, 3: both. A pipeline each, not branches: a CPU runs them whole.
@@ -148,11 +145,10 @@ bool shaded_together(uvec2 first, bool listed) {
 }
 
 void main() {
-    uint i = 4u * (gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x) + gl_LocalInvocationID.x / 16u;
-    bool listed = i < arguments[4u * PARTS + 3u];
-    uint tile = list[(PARTS - 1u) * push.most + (listed ? i : 0u)];
+    uint tile;
+    bool listed = tile_of(PARTS, gl_LocalInvocationID.x / 16u, tile);
     uvec2 quad = uvec2(gl_LocalInvocationID.x & 3u, gl_LocalInvocationID.x >> 2u & 3u);
-    uvec2 first = 8u * uvec2(tile % push.across, tile / push.across) + 2u * quad;
+    uvec2 first = first_of(tile) + 2u * quad;
     bool foams = false;
     if (GENERAL == 0u) {
         foams = shaded_together(first, listed);

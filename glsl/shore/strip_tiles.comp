@@ -4,11 +4,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D foam;
-layout(push_constant, std430) uniform Push {
-    uint across; // tiles
-    uint most;   // of a list
-} push;
 
+#include "shore_lists.glsl"
 #include "shore_drawn.glsl"
 
 void main() {
@@ -17,7 +14,7 @@ void main() {
     // Beyond the frame there is none.
     vec4 most = vec4(0.0);
     for (int i = 0; i < 16; ++i) {
-        most = max(most, textureGather(foam, vec2(8u * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));
+        most = max(most, textureGather(foam, vec2(TILE * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));
     }
     if (tile.x < push.across && dot(most, vec4(1.0)) > 0.0) {
         draws(tile.y * push.across + tile.x);

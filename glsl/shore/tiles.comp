@@ -8,6 +8,7 @@
 #include "shore_place.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "shore_lists.glsl"
 #include "shore_tiles.glsl"
 
 const float NONE = -3.0e38;
@@ -60,7 +61,7 @@ void main() {
     float least = EMPTY, most = 0.0, part = EMPTY;
     vec2 low = vec2(EMPTY), high = vec2(-EMPTY);
     for (int i = 0; i < 4; ++i) {
-        vec2 corner = first + 0.5 + float(TILE - 1) * vec2(i & 1, i >> 1);
+        vec2 corner = first + 0.5 + float(TILE - 1u) * vec2(i & 1, i >> 1);
         vec3 ray = vec3(ray_slope(corner, frame.slope), -1.0);
         float own = level_on(ray);
         least = min(least, own);
@@ -89,7 +90,7 @@ void main() {
     // Of what does not hide the surface, how much more than where contacts begin the most is. What lies beyond the
     // picture may be among it: it is asked again.
     vec4 nearest = vec4(NONE);
-    for (int i = 0; i < (asked ? TILE * TILE / 4 : 0); ++i) {
+    for (int i = 0; i < (asked ? FOURS : 0); ++i) {
         vec2 four = four_of(first, i);
         vec4 scene = side * scene_at_four(four, texel);
         if (GENERAL == 1u) {

@@ -1,7 +1,7 @@
 //! Pass `shore-tiles`: where foam may lie on the host's surface, by tiles of pixels. Not in the sources: most of a picture
 //! has none, and what tells is much less than what it is.
 //!
-//! Reads: scene depth, the surface's, the map of distances. Writes: lists of tiles, dispatches over them.
+//! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists of tiles, dispatches over them.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -20,12 +20,12 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Edge of a tile in pixels (glsl/shore/tiles.comp).
+/// Edge of a tile in pixels (glsl/include/shore_lists.glsl).
 const TILE: u32 = 8;
 /// Lists of tiles: that may have shoreline foam, contact foam, both; that have any; that may have contact foam on the particles'
 /// water.
 const LISTS: u32 = 5;
-/// A quad's draw of no tiles; dispatches over none and how many they are (glsl/include/shore_drawn.glsl).
+/// A quad's draw of no tiles; dispatches over none and how many they are (likewise).
 const NO_TILES: [[u32; 4]; 6] =
     [[4, 0, 0, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0], [0, 0, 1, 0]];
 /// Where the dispatch over the fourth list is among them, in bytes.
@@ -106,7 +106,7 @@ impl Tiles {
         Ok(())
     }
 
-    /// The lists, the dispatches over them and the draw of the last, what marks a tile.
+    /// The lists, the dispatches over them and the draw of the fourth, what marks a tile.
     pub fn buffers(&self) -> [&Buffer; 3] {
         [&self.lists.list, &self.arguments, &self.lists.marks]
     }

@@ -2,12 +2,10 @@
 
 use ash::vk;
 use glam::DVec2;
-use whitewater::shore::{
-    ContactLook, Edge, Noise, ShoreConfig, ShoreLook, ShorelineLook, WebLayer,
-};
+use whitewater::shore::{ContactLook, Edge, ShoreConfig, ShoreLook, WebLayer};
 use whitewater::{Config, Error, HostImage, Shore, Shoreline, Slot, Strip, Surface, Triangles};
 
-use super::shoreline::{AREA, heights, plain};
+use super::shoreline::{AREA, heights, plain, web_alone};
 use super::{Mapped, SAMPLED, Tally, shore_config, water, with_shore};
 use crate::reference::Image;
 use crate::reference::shore::exact;
@@ -110,26 +108,8 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     shot.positions.clear();
     shot.scene_depth(|_, _| None);
     let s = &mut shot.settings.shore.shoreline;
-    // The web alone: no noise, and no waves.
-    *s = ShorelineLook {
-        reach: [6.0, 3.0],
-        wave_ratio: 0.0,
-        web_ratio: 1.0,
-        web_rise: [0.0; 2],
-        threshold: 0.5,
-        threshold_noise: Noise::NONE,
-        rise_noise: Noise::NONE,
-        frequency_noise: Noise::NONE,
-        speed_noise: Noise::NONE,
-        web_warp: Noise::NONE,
-        layers: [
-            WebLayer { weight: 1.0, scale: 0.25, angle: 30.0, speed: [0.1, 0.0] },
-            WebLayer::NONE,
-            WebLayer::NONE,
-            WebLayer::NONE,
-        ],
-        ..ShorelineLook::default()
-    };
+    let own = WebLayer { weight: 1.0, scale: 0.25, angle: 30.0, speed: [0.1, 0.0] };
+    *s = web_alone([6.0, 3.0], [own, WebLayer::NONE, WebLayer::NONE, WebLayer::NONE]);
     let first = rig.draw(&shot).shore.expect("foam");
     // A part of a larger image, as large as the web: a smooth pattern.
     let n = super::WEB as usize;

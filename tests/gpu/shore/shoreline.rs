@@ -35,6 +35,31 @@ pub fn heights(area: &Area, size: u32, height: impl Fn(DVec2) -> f64) -> Image<f
     image
 }
 
+/// The map of a bent shore.
+fn coast(gpu: &Gpu) -> Mapped<'_> {
+    let mut coasts = Mapped::new(gpu, 64);
+    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    coasts
+}
+
+/// The web alone: no noise, and no waves.
+pub fn web_alone(reach: [f32; 2], layers: [WebLayer; 4]) -> ShorelineLook {
+    ShorelineLook {
+        reach,
+        wave_ratio: 0.0,
+        web_ratio: 1.0,
+        web_rise: [0.0; 2],
+        threshold: 0.5,
+        threshold_noise: Noise::NONE,
+        rise_noise: Noise::NONE,
+        frequency_noise: Noise::NONE,
+        speed_noise: Noise::NONE,
+        web_warp: Noise::NONE,
+        layers,
+        ..ShorelineLook::default()
+    }
+}
+
 pub const AREA: Area =
     Area { up: [0.0, 1.0, 0.0], center: [7.0, -5.0], edge: 32.0, level: 0.0, reach: 8.0 };
 
@@ -179,8 +204,7 @@ pub fn twin_map(coasts: &Mapped<'_>) -> Map {
 fn a_level_s_foam_is_the_twin_s() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut coasts = Mapped::new(&gpu, 64);
-    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let coasts = coast(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     for (name, lens, look) in [
@@ -253,8 +277,7 @@ fn both_pipelines_draw_the_same() {
 fn what_is_shared_changes_little() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut coasts = Mapped::new(&gpu, 64);
-    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let coasts = coast(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
@@ -283,8 +306,7 @@ fn what_is_shared_changes_little() {
 fn what_stands_before_the_surface_hides_its_foam() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut coasts = Mapped::new(&gpu, 64);
-    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let coasts = coast(&gpu);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
     with_map(&coasts, &mut shot, &plain());
@@ -311,8 +333,7 @@ fn what_stands_before_the_surface_hides_its_foam() {
 fn edges_are_clipped_or_of_quarters() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut coasts = Mapped::new(&gpu, 64);
-    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let coasts = coast(&gpu);
     let map = twin_map(&coasts);
     for edge in [Edge::Clip, Edge::Coverage] {
         let mut rig = Rig::new(&gpu, &with_shore(size, edge));
@@ -336,8 +357,7 @@ fn edges_are_clipped_or_of_quarters() {
 fn time_goes_round_and_nothing_grows() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut coasts = Mapped::new(&gpu, 64);
-    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let coasts = coast(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
@@ -378,8 +398,7 @@ fn time_goes_round_and_nothing_grows() {
 fn a_shaped_surface_s_foam_is_the_twin_s() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut coasts = Mapped::new(&gpu, 64);
-    coasts.image_step(&AREA, &heights(&AREA, 64, land), None);
+    let coasts = coast(&gpu);
     let map = twin_map(&coasts);
     let mut rig = Rig::new(&gpu, &with_shore(size, Edge::Smooth));
     for lens in [Lens::Standard, Lens::ReversedInfinite] {

@@ -1,10 +1,10 @@
 //! The web's slopes where pixels are much longer than wide: they are those of a web that is turned.
 
 use glam::{Mat4, Vec3};
-use whitewater::shore::{Area, Edge, Noise, ShoreLook, ShorelineLook, WebLayer};
+use whitewater::shore::{Area, Edge, ShoreLook, WebLayer};
 use whitewater::{Shore, Shoreline};
 
-use super::shoreline::{AREA, amount, heights, pixel_by_map, twin_map};
+use super::shoreline::{AREA, amount, heights, pixel_by_map, twin_map, web_alone};
 use super::{Mapped, Tally, water, with_shore};
 use crate::reference::shore::Bounded;
 use crate::reference::shore::foam::Pixel;
@@ -23,20 +23,8 @@ fn look(layers: usize) -> ShoreLook {
         angle: ANGLE,
         speed: [0.1, 0.0],
     });
-    let shoreline = ShorelineLook {
-        reach: [50.0, 50.0],
-        wave_ratio: 0.0,
-        web_ratio: 1.0,
-        web_rise: [0.0; 2],
-        threshold: 0.5,
-        threshold_noise: Noise::NONE,
-        rise_noise: Noise::NONE,
-        frequency_noise: Noise::NONE,
-        speed_noise: Noise::NONE,
-        web_warp: Noise::NONE,
-        layers: std::array::from_fn(|i| if i < layers { all[i] } else { WebLayer::NONE }),
-        ..ShorelineLook::default()
-    };
+    let layers = std::array::from_fn(|i| if i < layers { all[i] } else { WebLayer::NONE });
+    let shoreline = web_alone([50.0; 2], layers);
     ShoreLook { time: 12.75, shoreline, ..ShoreLook::default() }
 }
 

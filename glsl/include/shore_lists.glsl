@@ -1,0 +1,36 @@
+// Lists of tiles of shoreline and contact foam, with the dispatches over them: what makes them and what goes over them share.
+// Reads, writes: lists, arguments.
+
+// Tiles that may have shoreline foam, contact foam, both; that have any; that may have contact foam on the particles' water.
+layout(set = 0, binding = 9, std430) buffer Lists { uint list[]; };
+// Vertices, instances, first vertex, first instance of the draw of the fourth; of each list groups in x, y, z and how many
+// tiles, which of the fourth the draw has.
+layout(set = 0, binding = 10, std430) buffer Arguments { uint arguments[24]; };
+layout(push_constant, std430) uniform Push {
+    uint across; // tiles
+    uint most;   // of a list
+} push;
+
+const uint TILE = 8u;            // pixels
+const uint TILES = 4u;           // of a group of what goes over the lists
+const uint MOST_LISTED = 65535u; // of a dispatch, in each direction
+
+// A slot of a list, the first is 1, has got a tile of its own.
+void fills(uint kind, uint slot, uint tile, uint tiles_a_group) {
+    list[(kind - 1u) * push.most + slot] = tile;
+    uint group = slot / tiles_a_group;
+    atomicMax(arguments[4u * kind], min(group + 1u, MOST_LISTED));
+    atomicMax(arguments[4u * kind + 1u], 1u + group / MOST_LISTED);
+}
+
+// A group's tile of a list, one of four; whether there is one.
+bool tile_of(uint kind, uint own, out uint tile) {
+    uint i = TILES * (gl_WorkGroupID.y * MOST_LISTED + gl_WorkGroupID.x) + own;
+    bool listed = i < arguments[4u * kind + 3u];
+    tile = list[(kind - 1u) * push.most + (listed ? i : 0u)];
+    return listed;
+}
+
+uvec2 first_of(uint tile) {
+    return TILE * uvec2(tile % push.across, tile / push.across);
+}
