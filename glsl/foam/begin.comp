@@ -7,7 +7,8 @@
 #include "diffuse_words.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
-layout(set = 0, binding = 1, std430) writeonly buffer Words { uint words[]; };
+// Of a pixel two.
+layout(set = 0, binding = 1, std430) writeonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
 layout(set = 0, binding = 4, std430) readonly buffer Count { uint count; };
@@ -47,13 +48,13 @@ void main() {
             float host = eye_depth(texelFetch(fluid_depth, min(texel, push.fluid_end - 1), 0).x);
             fluid = min(fluid, host > 0.0 ? host : EMPTY);
         }
-        uint at = words_of(pixel);
-        words[at + FRONT] = floatBitsToUint(scene);
-        words[at + WITH] = 0xffffffffu;
-        words[at + SCENE] = floatBitsToUint(scene);
-        words[at + FLUID] = floatBitsToUint(fluid < scene ? fluid : EMPTY);
-        for (uint word = SUMS; word < WORDS; ++word) {
-            words[at + word] = 0u;
-        }
+        uvec4 head;
+        head[WITH] = 0xffffffffu;
+        head[FRONT] = floatBitsToUint(scene);
+        head[SCENE] = floatBitsToUint(scene);
+        head[FLUID] = floatBitsToUint(fluid < scene ? fluid : EMPTY);
+        uint at = words_of(pixel) / 4u;
+        words[at] = head;
+        words[at + SUMS / 4u] = uvec4(0u);
     }
 }

@@ -20,6 +20,8 @@ layout(constant_id = 0) const uint FRONTMOST = 0;
 
 layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
+// The same memory, four words at a time.
+layout(set = 0, binding = 12, std430) readonly buffer Heads { uvec4 heads[]; };
 
 #include "diffuse_splat.glsl"
 
@@ -35,21 +37,22 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    uint front = words[at + FRONT];
+    uvec4 head = heads[at / 4u];
+    uint front = head[FRONT];
     if (FRONTMOST == 1u) {
-        if (bits == front && front < words[at + SCENE]) {
-            atomicMin(words[at + WITH], with_of(p.radius, -p.centre.z, vec3(place, w)));
+        if (bits == front && front < head[SCENE]) {
+            atomicMin(words[at + WITH], with_of(s.search, place, w));
         }
         return;
     }
-    if (!(bits < words[at + SCENE])) {
+    if (!(bits < head[SCENE])) {
         return;
     }
     // Most lose: a read is cheaper than an atomic.
     if (bits < front) {
         atomicMin(words[at + FRONT], bits);
     }
-    thicken(at, p, f, rr, depth);
+    thicken(at, p, f, rr, depth, uintBitsToFloat(head[FLUID]));
 }
 
 #include "diffuse_cover.glsl"

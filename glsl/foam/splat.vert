@@ -10,14 +10,14 @@
 #include "diffuse_streams.glsl"
 
 layout(location = 0) flat out vec4 sprite;    // depth of its middle, radius, life, kind
-layout(location = 1) flat out vec4 footprint; // middle and half-axes in pixels
+layout(location = 1) flat out vec4 footprint; // middle in pixels, 1 over its half-axes
 layout(location = 2) flat out vec2 parts;
 
 void main() {
     Diffuse p = diffuse_at(gl_InstanceIndex);
     Footprint f = footprint_of(p);
     sprite = vec4(-p.centre.z, p.radius, p.life, float(p.kind));
-    footprint = vec4(f.middle, f.reach);
+    footprint = vec4(f.middle, f.scale);
     parts = vec2(f.own, f.even);
     vec4 edges = vec4(max(f.box.xy, ivec2(0)), min(f.box.zw + 1, ivec2(frame.extent.xy)));
     bool drawn = p.life > 0.0 && all(lessThan(edges.xy, edges.zw));

@@ -22,6 +22,7 @@ layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
 // The same memory.
 layout(set = 0, binding = 8, std430) buffer Fronts { uint64_t fronts[]; };
+layout(set = 0, binding = 12, std430) readonly buffer Heads { uvec4 heads[]; };
 
 #include "diffuse_splat.glsl"
 
@@ -37,14 +38,15 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    if (!(bits < words[at + SCENE])) {
+    uvec4 head = heads[at / 4u];
+    if (!(bits < head[SCENE])) {
         return;
     }
     // Most lose: a read is cheaper than an atomic.
-    if (bits <= words[at + FRONT]) {
-        atomicMin(fronts[at / 2u], uint64_t(bits) << 32 | with_of(p.radius, -p.centre.z, vec3(place, w)));
+    if (bits <= head[FRONT]) {
+        atomicMin(fronts[at / 2u], uint64_t(bits) << 32 | with_of(s.search, place, w));
     }
-    thicken(at, p, f, rr, depth);
+    thicken(at, p, f, rr, depth, uintBitsToFloat(head[FLUID]));
 }
 
 #include "diffuse_cover.glsl"

@@ -8,6 +8,12 @@ const uint FOAM = 0u;
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 
+// What is left of its light at an age (Eq. 1 with b = 1, n = 2, m = 0.4).
+float life_of(float age) {
+    float x = max(age, 0.0);
+    return x < 1.0 ? pow(1.0 - x * x, 0.4) : 0.0;
+}
+
 struct Diffuse {
     vec3 centre;  // eye space
     float radius;
@@ -24,15 +30,16 @@ Diffuse diffuse_of(vec3 position, uint kind, float radius, float age, uint id) {
     p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.diffuse.x) / float(id % 5u + 1u) * (kind == BUBBLE ? 0.5 : 1.0);
     bool drawn = age < 1.0 && -p.centre.z > frame.depth.z && -p.centre.z < EMPTY
         && all(lessThan(abs(p.centre.xy), vec2(EMPTY)));
-    p.life = drawn ? falloff(max(age, 0.0), 1.0, 2.0, 0.4) : 0.0;
+    p.life = drawn ? life_of(age) : 0.0;
     return p;
 }
 
-// By the distance from the middle, 0 to 1 (Fig. 5).
-float diffuse_shape(uint kind, float x) {
-    float power = kind == SPRAY ? 1.5 : kind == BUBBLE ? 2.0 : 2.25;
-    float rest = 1.0 - pow(max(x, 1.0e-20), power);
-    return kind == BUBBLE ? 1.0 - rest : rest;
+// By the square of the distance from the middle, 0 to 1 (Fig. 5): 1 - x^1.5, x^2 or 1 - x^2.25, by roots, which cost less
+// than a power.
+float diffuse_shape(uint kind, float rr) {
+    float root = sqrt(rr);
+    float fourth = sqrt(root);
+    return kind == BUBBLE ? rr : 1.0 - (kind == SPRAY ? root * fourth : rr * sqrt(fourth));
 }
 
 // Its mean over the disc.
@@ -49,40 +56,63 @@ float told_of(float pixels) {
 }
 
 struct Footprint {
-    vec2 middle; // in pixels
-    vec2 reach;  // half-axes in pixels
-    ivec4 box;   // pixels whose middles may lie in it, also beside the frame
-    float own;   // part of it that is its own shape; the rest is q = 1 - rr
-    float even;  // what q is multiplied by
+    vec2 middle;  // in pixels
+    vec2 scale;   // 1 over its half-axes in pixels, along the eye's axes
+    ivec4 box;    // pixels whose middles may lie in it, also beside the frame
+    uint covered; // a bit for each of four by four pixels from the box's first on: which do; of a larger one 0
+    float own;    // part of it that is its own shape; the rest is q = 1 - rr
+    float even;   // what q is multiplied by
 };
+
+// Pixels of a side of a box that `covered` tells of.
+const int COVERED = 4;
+const vec4 MIDDLES = vec4(0.5, 1.5, 2.5, 3.5);
+
+bool is_small(ivec4 box) {
+    return all(lessThan(box.zw - box.xy, ivec2(COVERED)));
+}
 
 // Square of the distance from the middle to that of a pixel, 0 to 1; its place in the disc, along the eye's axes.
 float diffuse_place(Footprint f, ivec2 pixel, out vec2 place) {
-    place = (vec2(pixel) + 0.5 - f.middle) / f.reach;
-    place *= sign(frame.slope.xy);
+    place = (vec2(pixel) + 0.5 - f.middle) * f.scale;
     return dot(place, place);
+}
+
+uvec4 bits_of(bvec4 which, uint first) {
+    return mix(uvec4(0u), uvec4(1u, 2u, 4u, 8u) << first, which);
 }
 
 // Of a kind, whose disc has a middle and half-axes in pixels.
 Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     Footprint f;
-    f.reach = reach * max(1.0, LEAST_REACH / min(reach.x, reach.y));
+    vec2 wide = reach * max(1.0, LEAST_REACH / min(reach.x, reach.y));
     f.middle = clamp(middle, vec2(-1.0e6), vec2(1.0e6));
-    vec2 room = min(f.reach, vec2(1.0e6));
+    f.scale = sign(frame.slope.xy) / wide;
+    vec2 room = min(wide, vec2(1.0e6));
     f.box = ivec4(ceil(f.middle - room - 0.5), floor(f.middle + room - 0.5));
-    f.own = told_of(min(f.reach.x, f.reach.y));
-    f.even = 0.0;
-    if (f.own < 1.0) {
-        float sum = 0.0;
-        vec2 place;
-        for (int y = f.box.y; y <= f.box.w; ++y) {
-            for (int x = f.box.x; x <= f.box.z; ++x) {
-                sum += max(1.0 - diffuse_place(f, ivec2(x, y), place), 0.0);
-            }
-        }
-        float energy = 3.14159265 * reach.x * reach.y * diffuse_mean(kind);
-        f.even = (1.0 - f.own) * energy / max(sum, 1.0e-6);
+    f.own = told_of(min(wide.x, wide.y));
+    f.covered = 0u;
+    bool small = is_small(f.box);
+    // Of those that are not small only such with pixels that are far from square.
+    bool more = small || f.own < 1.0;
+    float sum = 0.0;
+    for (ivec2 at = f.box.xy; more;) {
+        vec4 x = (vec4(at.x) + MIDDLES - f.middle.x) * f.scale.x;
+        vec4 y = (vec4(at.y) + MIDDLES - f.middle.y) * f.scale.y;
+        vec4 rest = 1.0 - x * x;
+        y *= y;
+        vec4 a = rest - y.x, b = rest - y.y, c = rest - y.z, d = rest - y.w;
+        sum += dot(max(a, 0.0) + max(b, 0.0) + max(c, 0.0) + max(d, 0.0), vec4(1.0));
+        uvec4 rows = bits_of(greaterThan(a, vec4(0.0)), 0u) | bits_of(greaterThan(b, vec4(0.0)), 4u)
+            | bits_of(greaterThan(c, vec4(0.0)), 8u) | bits_of(greaterThan(d, vec4(0.0)), 12u);
+        f.covered = small ? rows.x | rows.y | rows.z | rows.w : 0u;
+        at.x += COVERED;
+        bool last = at.x > f.box.z;
+        at = last ? ivec2(f.box.x, at.y + COVERED) : at;
+        more = !small && at.y <= f.box.w;
     }
+    float energy = 3.14159265 * reach.x * reach.y * diffuse_mean(kind);
+    f.even = f.own < 1.0 ? (1.0 - f.own) * energy / max(sum, 1.0e-6) : 0.0;
     return f;
 }
 
@@ -94,18 +124,23 @@ Footprint footprint_of(Diffuse p) {
 
 // What a pixel gets of its thickness, at such a square of the distance.
 float diffuse_amount(Diffuse p, Footprint f, float rr) {
-    return p.life * (f.even * (1.0 - rr) + f.own * diffuse_shape(p.kind, sqrt(rr)));
+    return p.life * (f.even * (1.0 - rr) + f.own * diffuse_shape(p.kind, rr));
 }
+
+// 0: the source's falloff is not asked for. A CPU goes through what a branch passes over.
+layout(constant_id = 3) const uint FALLOFF = 1;
 
 // Where that goes: before the fluid's surface, behind it, and that by how far. Depths along z.
 vec3 diffuse_shares(float amount, float depth, float fluid) {
     float behind = fluid < EMPTY ? depth - fluid : 0.0;
     // The source's falloff, where no water of ours takes the light.
-    if (frame.diffuse.w > 0.0) {
+    if (FALLOFF == 1u && frame.diffuse.w > 0.0) {
         return vec3(amount * falloff(behind, frame.diffuse_below.x, frame.diffuse_below.y, frame.diffuse_below.z), 0.0, 0.0);
     }
     float spacing = frame.particle.y;
-    float under = amount * smoothstep(0.0, spacing, behind);
     float far = max(behind, 0.0);
+    // smoothstep, with a division that is the same in all pixels.
+    float t = min(far * (1.0 / spacing), 1.0);
+    float under = amount * t * t * (3.0 - 2.0 * t);
     return vec3(amount - under, under, under * far / (far + spacing));
 }

@@ -28,7 +28,17 @@ void cover_one(uint i, uint past) {
     Sprite s = sprite_at(i);
     ivec4 box = s.p.life > 0.0 ? inside(s.f.box) : ivec4(0, 0, -1, -1);
     ivec2 size = max(box.zw - box.xy + 1, ivec2(0));
-    int left = size.x * size.y;
+    bool small = is_small(s.f.box);
+    uint covered = 0u;
+    if (small) {
+        // The box's columns, of each row four bits, and its rows.
+        ivec2 first = clamp(box.xy - s.f.box.xy, 0, COVERED);
+        ivec2 past = clamp(box.zw - s.f.box.xy + 1, first, ivec2(COVERED));
+        uint columns = (1u << past.x) - (1u << first.x);
+        uint rows = (1u << 4 * past.y) - (1u << 4 * first.y);
+        covered = s.f.covered & columns * 0x1111u & rows;
+    }
+    int left = small ? bitCount(covered) : size.x * size.y;
     // The end of a loop, not a branch: a CPU runs branches whole.
     for (bool done = left <= SMALL; !done; done = true) {
         uint head = LIST * push.chunk;
@@ -41,10 +51,13 @@ void cover_one(uint i, uint past) {
             left = 0;
         }
     }
-    // One loop: lanes with boxes of other shapes end with the largest, not with the widest and the highest.
+    // One loop: lanes with boxes of other shapes end with the largest, not with the widest and the highest. Of small ones
+    // the pixels that are covered, one after the other: of most it is one or two of four.
     ivec2 at = box.xy;
     for (; left > 0; --left) {
-        splat(at, s);
+        int bit = findLSB(covered);
+        splat(small ? s.f.box.xy + ivec2(bit & 3, bit >> 2) : at, s);
+        covered &= covered - 1u;
         bool last = at.x == box.z;
         at = ivec2(last ? box.x : at.x + 1, last ? at.y + 1 : at.y);
     }

@@ -11,7 +11,8 @@ struct Met {
     Diffuse p;
     Footprint f;
     uint at;     // words of the pixel
-    vec3 normal; // eye space
+    vec2 place;  // in the disc
+    float w;     // before it, in radii
     float rr;    // square of the distance from the middle
     float depth;
 };
@@ -25,14 +26,12 @@ Met meet() {
     m.p.life = sprite.z;
     m.p.kind = uint(sprite.w);
     m.f.middle = footprint.xy;
-    m.f.reach = footprint.zw;
+    m.f.scale = footprint.zw;
     m.f.own = parts.x;
     m.f.even = parts.y;
-    vec2 place;
-    m.rr = diffuse_place(m.f, pixel, place);
-    float w = sqrt(max(1.0 - m.rr, 0.0));
-    m.normal = vec3(place, w);
-    m.depth = sprite.x - w * sprite.y;
+    m.rr = diffuse_place(m.f, pixel, m.place);
+    m.w = sqrt(max(1.0 - m.rr, 0.0));
+    m.depth = sprite.x - m.w * sprite.y;
     m.at = words_of(pixel);
     if (!(m.rr < 1.0) || !(floatBitsToUint(m.depth) < words[m.at + SCENE])) {
         discard;

@@ -4,11 +4,12 @@
 struct Sprite {
     Diffuse p;
     Footprint f;
+    uint search;
 };
 
 Sprite sprite_at(uint i) {
     Diffuse p = diffuse_at(i);
-    return Sprite(p, footprint_of(p));
+    return Sprite(p, footprint_of(p), search_of(p.radius, -p.centre.z));
 }
 
 ivec4 inside(ivec4 box) {
@@ -37,10 +38,10 @@ void add(uint word, uvec3 steps) {
 }
 
 // What it adds to a pixel's thickness, at such a place in it.
-void thicken(uint at, Diffuse p, Footprint f, float rr, float depth) {
+void thicken(uint at, Diffuse p, Footprint f, float rr, float depth, float fluid) {
     float amount = diffuse_amount(p, f, rr);
-    vec3 shares = diffuse_shares(amount, depth, uintBitsToFloat(words[at + FLUID]));
-    uvec3 steps = uvec3(min(shares * STEPS + 0.5, vec3(1.0e9)));
+    vec3 shares = diffuse_shares(amount, depth, fluid);
+    uvec3 steps = uvec3(ivec3(min(shares * STEPS + 0.5, vec3(1.0e9))));
     if (any(notEqual(steps, uvec3(0u)))) {
         add(at + SUMS, steps);
     }

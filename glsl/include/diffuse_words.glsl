@@ -20,24 +20,23 @@ uint words_of(ivec2 pixel) {
     return WORDS * (uint(pixel.y) * uint(frame.extent.x) + uint(pixel.x));
 }
 
-// Search radius in 16 bits, normal in two times 8 (octahedral).
-uint pack_with(float search, vec3 n) {
-    vec2 o = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-    vec2 turned = (1.0 - abs(o.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(o, vec2(0.0)));
-    o = n.z < 0.0 ? turned : o;
-    uvec2 bits = uvec2(clamp(o * 127.0 + 127.5, vec2(0.0), vec2(254.0)));
-    return packHalf2x16(vec2(search, 0.0)) << 16 | bits.x << 8 | bits.y;
+// Search radius of a sphere with its middle at an eye-space depth, in the upper 16 bits.
+uint search_of(float radius, float z) {
+    return packHalf2x16(vec2(0.0, radius * abs(frame.projection.y) / z));
 }
 
-// Of a sphere with its middle at an eye-space depth, where it is met: its normal in eye space.
-uint with_of(float radius, float z, vec3 normal) {
-    return pack_with(radius * abs(frame.projection.y) / z, normalize(mat3(frame.world) * normal));
+// Beside it the normal towards the eye where the sphere is met, (place, w), as the diamond |x| + |y| <= 1 turned to a
+// square, in two times 8 bits. It is turned to the world once a pixel, not once a particle.
+uint with_of(uint search, vec2 place, float w) {
+    place /= abs(place.x) + abs(place.y) + w;
+    ivec2 bits = ivec2(vec2(place.x + place.y, place.x - place.y) * 127.0 + 127.5);
+    return search | uint(bits.x << 8 | bits.y);
 }
 
+// World normal, search radius.
 vec4 unpack_with(uint with) {
-    vec2 o = vec2(with >> 8 & 255u, with & 255u) / 127.0 - 1.0;
-    vec3 n = vec3(o, 1.0 - abs(o.x) - abs(o.y));
-    vec2 turned = (1.0 - abs(o.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(o, vec2(0.0)));
-    n.xy = n.z < 0.0 ? turned : o;
-    return vec4(normalize(n), unpackHalf2x16(with >> 16).x);
+    vec2 turned = vec2(with >> 8 & 255u, with & 255u) / 127.0 - 1.0;
+    vec2 place = 0.5 * vec2(turned.x + turned.y, turned.x - turned.y);
+    vec3 normal = vec3(place, max(1.0 - abs(place.x) - abs(place.y), 0.0));
+    return vec4(normalize(mat3(frame.world) * normal), unpackHalf2x16(with).y);
 }

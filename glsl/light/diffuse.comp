@@ -57,7 +57,7 @@ Sprite sprite_at(uint i) {
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
     // The sun sees what is behind the eye too.
     bool there = world.w < 1.0 && all(lessThan(abs(world.xyz), vec3(EMPTY))) && place < frame.light_map.x;
-    s.p.life = there ? falloff(max(world.w, 0.0), 1.0, 2.0, 0.4) : 0.0;
+    s.p.life = there ? life_of(world.w) : 0.0;
     s.place = uint(max(place, 0.0));
     return s;
 }
@@ -88,7 +88,7 @@ void splat(ivec2 texel, Sprite s) {
     }
     float amount = diffuse_amount(s.p, s.f, rr);
     // What is not shown behind the water's surface does not cast either.
-    if (frame.diffuse.w > 0.0) {
+    if (FALLOFF == 1u && frame.diffuse.w > 0.0) {
         float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
         amount = diffuse_shares(amount, depth, texelFetch(front, texel, 0).x).x;
     }

@@ -250,6 +250,7 @@ impl Sprites {
                     (6, Resource::buffer(words)),
                     (7, Resource::buffer(&self.arguments)),
                     (8, Resource::buffer(words)),
+                    (12, Resource::buffer(words)),
                 ];
                 let arguments = self.arguments.handle;
                 go.record(r, &self.chunks, &own, particles, arguments, |places| places)?;

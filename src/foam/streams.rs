@@ -181,14 +181,20 @@ const LIST: u64 = 4 * (4 + ROOM);
 /// A shader that covers what each particle does (glsl/include/diffuse_cover.glsl): an invocation a particle, or a
 /// group for each of the host's packets; then a group for each large one.
 pub struct Covering {
-    each: Pipeline,
-    packets: Option<Pipeline>,
-    large: Pipeline,
+    /// Without and with the source's falloff behind the water's surface.
+    ways: [Ways; 2],
     list: Buffer,
 }
 
+/// Pipelines of a shader.
+struct Ways {
+    each: Pipeline,
+    packets: Option<Pipeline>,
+    large: Pipeline,
+}
+
 impl Covering {
-    /// `name`: of its list. `constants`: of the shader's own, not numbers 1 and 2.
+    /// `name`: of its list. `constants`: of the shader's own, not numbers 1 to 3.
     pub fn new(
         gpu: &Gpu,
         name: &str,
@@ -196,25 +202,30 @@ impl Covering {
         constants: &[(u32, u32)],
         config: &DiffuseConfig,
     ) -> Result<Self, Error> {
-        let make = |packets, large| {
-            let own = [(1, u32::from(packets)), (2, u32::from(large))];
+        let make = |packets, large, falloff| {
+            let own = [(1, u32::from(packets)), (2, u32::from(large)), (3, falloff)];
             Pipeline::compute(gpu, shader, &[constants, &own].concat())
+        };
+        let ways = |falloff| -> Result<Ways, Error> {
+            Ok(Ways {
+                each: make(false, false, falloff)?,
+                packets: config.packets.then(|| make(true, false, falloff)).transpose()?,
+                large: make(false, true, falloff)?,
+            })
         };
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST;
         let bytes = LIST * u64::from(Chunks::new(&gpu.limits, config).count);
         Ok(Self {
-            each: make(false, false)?,
-            packets: config.packets.then(|| make(true, false)).transpose()?,
-            large: make(false, true)?,
+            ways: [ways(0)?, ways(1)?],
             list: Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)?,
         })
     }
 
     /// Invocations of a group.
     pub fn group_size(&self) -> u32 {
-        self.each.local_size[0]
+        self.ways[0].each.local_size[0]
     }
 
     /// Bytes of its list.
@@ -250,7 +261,8 @@ impl Covering {
         // Not read.
         let unread = Resource::Buffer(arguments, 0, 16);
         // That the configuration has them was checked with the frame.
-        match (particles.packets, &self.packets) {
+        let ways = &self.ways[usize::from(r.falloff)];
+        match (particles.packets, &ways.packets) {
             (Some(Packets { buffer, offset, count }), Some(pipeline)) => {
                 let packets = Resource::Buffer(buffer, offset, 32 * u64::from(count));
                 chunks.each(r, pipeline, &bound(packets), particles, &push, |_| {
@@ -258,13 +270,13 @@ impl Covering {
                     unsafe { device.cmd_dispatch(r.cmd, count, 1, 1) };
                 })?;
             }
-            _ => chunks.each(r, &self.each, &bound(unread), particles, &push, |chunk| {
+            _ => chunks.each(r, &ways.each, &bound(unread), particles, &push, |chunk| {
                 // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible.
                 unsafe { device.cmd_dispatch_indirect(r.cmd, arguments, 16 * chunk) };
             })?,
         }
         gpu.barriers(r.cmd, &[], &[buffer(list, COMPUTE_READ_WRITE, used)]);
-        chunks.each(r, &self.large, &bound(unread), particles, &push, |chunk| {
+        chunks.each(r, &ways.large, &bound(unread), particles, &push, |chunk| {
             // SAFETY: outside a render pass, pipeline and set are bound; the list is visible.
             unsafe { device.cmd_dispatch_indirect(r.cmd, list, LIST * chunk) };
         })

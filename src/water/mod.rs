@@ -68,6 +68,8 @@ pub(crate) struct Recording<'a> {
     pub bubbles: Resource,
     /// Those of shoreline and contact foam.
     pub shore: Resource,
+    /// Whether diffuse particles fade behind the water's surface by the source's falloff.
+    pub falloff: bool,
     /// Where that takes over from sprites of diffuse particles, if it does.
     pub hand_over: Option<Resource>,
     /// The scene's depth, sampled.
