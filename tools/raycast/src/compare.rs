@@ -92,18 +92,27 @@ struct Ours {
     scene: SceneDepth,
 }
 
-/// What a ray-caster makes of it.
-struct Cast {
-    /// The converged picture and its step.
-    converged: (f32, Picture<f32>),
+/// What a ray-caster comes to, the finer its steps.
+struct Converged {
     step: f32,
-    /// How far the step's picture is from the converged one.
+    picture: Picture<f32>,
+    /// How far ours is from it.
+    ours: f32,
+}
+
+/// What a ray-caster makes of it at a step.
+struct Cast {
+    step: f32,
+    /// How far its picture is from the converged one.
     flip: f32,
     picture: Picture<f32>,
     times: Vec<(&'static str, f64)>,
     memory: u64,
     chunks: usize,
 }
+
+/// How near a ray-caster's picture is to be to its converged one.
+const NEARNESSES: [&str; 2] = ["", ", equal"];
 
 pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
     let [width, height] = args.size;
@@ -116,7 +125,7 @@ pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
         args.particles
     );
     println!(
-        "{:<28} {:>6} {:>10} {:>9} {:>9} {:>7} {:>9}  passes, ms",
+        "{:<32} {:>6} {:>10} {:>9} {:>9} {:>7} {:>9}  passes, ms",
         "", "step", "ms", "intensity", "total", "FLIP", "MiB"
     );
     if let Some(folder) = &how.pictures {
@@ -128,29 +137,41 @@ pub fn run(args: &Args, how: &CompareArgs) -> Outcome<()> {
     };
     let (intensity, total) = (of(&["splat"]), of(&["splat", "radiance", "blur", "composite"]));
     let sums = [sum(&intensity), sum(&total)];
-    let mut casts: Vec<(Method, Cast)> = Vec::new();
+    // The plain one has the kernels' samples, and so their pictures.
+    let mut steps = [0.0; 2];
+    let mut apart = Vec::new();
     for method in Method::ALL {
-        let cast = match (method, casts.iter().find(|(method, _)| *method == Method::Kernel)) {
-            (Method::Plain, Some((_, kernel))) => {
-                at_step(&device, method, &shot, &ours.scene, args, kernel)?
-            }
-            _ => cast(&device, method, &shot, &ours.scene, args)?,
+        let casting = Casting { device: &device, method, shot: &shot, scene: &ours.scene, args };
+        let casts = if method == Method::Plain {
+            let (_, Converged { picture, .. }) = apart.first().ok_or("no kernels")?;
+            steps.map(|step| casting.at(step, picture))
+        } else {
+            let converged = casting.converged(&ours.intensity)?;
+            // As near as ours is; nearer than converged pictures are to each other means nothing.
+            let most = [TOLERANCE, converged.ours.max(CONVERGED)];
+            let casts = most.map(|most| casting.coarsest(most, &converged.picture));
+            apart.push((method, converged));
+            casts
         };
-        let chunks = if cast.chunks > 1 { format!(" x{}", cast.chunks) } else { String::new() };
-        row(&format!("ray-casting, {}{chunks}", method.name()), Some(&cast), &cast.times, sums);
-        if let Some(folder) = &how.pictures {
-            let path = |what: &str| folder.join(format!("{}-{what}.png", method.name()));
-            picture::write(&path("converged"), &cast.converged.1)?;
-            picture::write(&path("step"), &cast.picture)?;
+        for (i, (cast, nearness)) in casts.into_iter().zip(NEARNESSES).enumerate() {
+            let cast = cast?;
+            let chunks = if cast.chunks > 1 { format!(" x{}", cast.chunks) } else { String::new() };
+            let name = format!("ray-casting, {}{nearness}{chunks}", method.name());
+            row(&name, Some(&cast), &cast.times, sums);
+            if method == Method::Kernel {
+                steps[i] = cast.step;
+            }
+            if let (Some(folder), 0) = (&how.pictures, i) {
+                picture::write(&folder.join(format!("{}-step.png", method.name())), &cast.picture)?;
+            }
         }
-        casts.push((method, cast));
     }
     row("ours, intensity only", None, &intensity, sums);
     row("ours, total (fast shadow)", None, &total, sums);
-    for (method, Cast { converged: (step, picture), .. }) in &casts {
-        if *method != Method::Plain {
-            let flip = mean_flip(&ours.intensity, picture);
-            println!("ours and {} converged (step {step}): mean FLIP {flip:.4}", method.name());
+    for (method, Converged { step, picture, ours }) in &apart {
+        println!("ours and {} converged (step {step}): mean FLIP {ours:.4}", method.name());
+        if let Some(folder) = &how.pictures {
+            picture::write(&folder.join(format!("{}-converged.png", method.name())), picture)?;
         }
     }
     Ok(())
@@ -174,7 +195,7 @@ fn row(name: &str, cast: Option<&Cast>, times: &[(&'static str, f64)], ours: [f6
         None => [const { String::new() }; 3],
     };
     println!(
-        "{name:<28} {step:>6} {all:>10.2} {intensity:>8.2}x {total:>8.2}x {flip:>7} {memory:>9}  {}",
+        "{name:<32} {step:>6} {all:>10.2} {intensity:>8.2}x {total:>8.2}x {flip:>7} {memory:>9}  {}",
         passes.join(", ")
     );
 }
@@ -215,72 +236,64 @@ fn draw_ours(device: Device, shot: &Shot, repeat: u32) -> Outcome<(Device, Ours)
     Ok((device, Ours { times: median(frames), intensity, scene }))
 }
 
-/// At the step of another ray-caster that has the same samples and so the same pictures.
-fn at_step(
-    device: &Device,
+/// A ray-caster of a sea, at any step.
+struct Casting<'a> {
+    device: &'a Device,
     method: Method,
-    shot: &Shot,
-    scene: &SceneDepth,
-    args: &Args,
-    other: &Cast,
-) -> Outcome<Cast> {
-    let caster = caster(device, method, shot, scene, args, other.step)?;
-    let times = measure(&caster, args.repeat)?;
-    let picture = caster.intensity().map_err(line)?;
-    Ok(Cast {
-        converged: other.converged.clone(),
-        step: other.step,
-        flip: mean_flip(&picture, &other.converged.1),
-        picture,
-        times,
-        memory: caster.memory(),
-        chunks: caster.chunk_count(),
-    })
+    shot: &'a Shot,
+    scene: &'a SceneDepth,
+    args: &'a Args,
 }
 
-fn caster<'d>(
-    device: &'d Device,
-    method: Method,
-    shot: &Shot,
-    scene: &SceneDepth,
-    args: &Args,
-    step: f32,
-) -> Outcome<Caster<'d>> {
-    Caster::new(device, method, &shot.input(scene), &settings(args, step)).map_err(line)
-}
+impl Casting<'_> {
+    fn make(&self, step: f32) -> Outcome<Caster<'_>> {
+        let settings = settings(self.args, step);
+        Caster::new(self.device, self.method, &self.shot.input(self.scene), &settings).map_err(line)
+    }
 
-fn cast(
-    device: &Device,
-    method: Method,
-    shot: &Shot,
-    scene: &SceneDepth,
-    args: &Args,
-) -> Outcome<Cast> {
-    let make = |step| caster(device, method, shot, scene, args, step);
-    let draw = |step| {
-        let caster = make(step)?;
+    fn draw(&self, step: f32) -> Outcome<Picture<f32>> {
+        let caster = self.make(step)?;
         caster.draw().map_err(line)?;
         caster.intensity().map_err(line)
-    };
-    let mut step = 0.5;
-    let mut finer = draw(step)?;
-    loop {
-        step *= 0.5;
-        let coarser = std::mem::replace(&mut finer, draw(step)?);
-        if step <= FINEST || mean_flip(&coarser, &finer) <= CONVERGED {
-            break;
-        }
     }
-    let converged = (step, finer);
-    for step in STEPS {
-        let picture = draw(step)?;
-        let flip = mean_flip(&picture, &converged.1);
-        if flip <= TOLERANCE {
-            let caster = make(step)?;
-            let times = measure(&caster, args.repeat)?;
-            let (memory, chunks) = (caster.memory(), caster.chunk_count());
-            return Ok(Cast { converged, step, flip, picture, times, memory, chunks });
+
+    fn converged(&self, ours: &Picture<f32>) -> Outcome<Converged> {
+        let mut step = 0.5;
+        let mut finer = self.draw(step)?;
+        loop {
+            step *= 0.5;
+            let coarser = std::mem::replace(&mut finer, self.draw(step)?);
+            if step <= FINEST || mean_flip(&coarser, &finer) <= CONVERGED {
+                break;
+            }
         }
+        Ok(Converged { step, ours: mean_flip(ours, &finer), picture: finer })
     }
-    Err(format!("{}: no step is within FLIP {TOLERANCE} of the converged picture", method.name()))
+
+    /// At the coarsest step whose picture is no farther from the converged one.
+    fn coarsest(&self, most: f32, converged: &Picture<f32>) -> Outcome<Cast> {
+        for step in STEPS {
+            if mean_flip(&self.draw(step)?, converged) <= most {
+                return self.at(step, converged);
+            }
+        }
+        Err(format!(
+            "{}: no step is within FLIP {most} of the converged picture",
+            self.method.name()
+        ))
+    }
+
+    fn at(&self, step: f32, converged: &Picture<f32>) -> Outcome<Cast> {
+        let caster = self.make(step)?;
+        let times = measure(&caster, self.args.repeat)?;
+        let picture = caster.intensity().map_err(line)?;
+        Ok(Cast {
+            step,
+            flip: mean_flip(&picture, converged),
+            picture,
+            times,
+            memory: caster.memory(),
+            chunks: caster.chunk_count(),
+        })
+    }
 }
