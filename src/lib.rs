@@ -131,7 +131,7 @@
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
-//! A [`State`] takes 68 bytes a particle, a [`foam::Generator`] 72 to 76 a particle of the fluid and 44 a diffuse one, a
+//! A [`State`] takes 68 bytes a particle, a [`foam::Generator`] 76 to 80 a particle of the fluid and 44 a diffuse one, a
 //! [`shore::ShoreMap`] 16 a texel.
 //!
 //! # Where it differs from its sources
@@ -228,6 +228,8 @@
 //! - A particle is at the surface where the middle of its neighbours, weighted, is 0.15 of their reach away.
 //! - The class of a particle is told anew in each step; solids are not known, a box bounds where one may be.
 //! - Energy is per mass, and the tool finds limits and rates by the data.
+//! - They have sequences. Of a single frame [`foam::Generator::record_snapshot`] takes the flow to be steady: what the water
+//!   at 15 moments of the longest life made, on its way to each particle, lies there, foam as old as that is long ago.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -16,33 +16,12 @@ layout(set = 0, binding = 7, std430) writeonly buffer Kinds { uint kinds[]; };
 // 1 in each slot that is free.
 layout(set = 0, binding = 8, std430) writeonly buffer Gone { uint gone[]; };
 
-float cubic_spline(float q) {
-    float rest = 1.0 - q;
-    return q <= 0.5 ? 6.0 * (q * q * q - q * q) + 1.0 : 2.0 * rest * rest * rest;
+// Not asked for.
+float rate_of(uint j) {
+    return 0.0;
 }
 
-// Velocity of the water at a place, 0 where there is none; and how many of its particles are there.
-vec3 water_at(vec3 position, out uint neighbours) {
-    neighbours = 0u;
-    ivec3 sum = ivec3(0);
-    uint weights = 0u;
-    for (int c = 0; c < 27; ++c) {
-        ivec3 cell = neighbour_cell(position, c);
-        uvec2 range = range_of(cell);
-        for (uint j = range.x; j < range.y; ++j) {
-            float d = distance(position, places[j].position);
-            if (!(d < support()) || !in_cell(places[j].position, cell)) {
-                continue;
-            }
-            float weight = cubic_spline(d / support());
-            vec3 part = motions[j].velocity * (weight / speed_step());
-            sum += ivec3(round(clamp(part, -MOST_STEPS, MOST_STEPS)));
-            weights += uint(weight * STEPS + 0.5);
-            neighbours += 1u;
-        }
-    }
-    return weights > 0u ? vec3(sum) * (speed_step() * STEPS / float(weights)) : vec3(0.0);
-}
+#include "generate_water.glsl"
 
 void visit(uint i) {
     Diffuse particle = particles[i];
@@ -52,15 +31,14 @@ void visit(uint i) {
     }
     vec3 velocity = drifts[i].velocity;
     vec3 gravity = vec3(push.gravity_x, push.gravity_y, push.gravity_z);
-    uint neighbours;
-    vec3 water = water_at(particle.position, neighbours);
-    uint kind = kind_of(neighbours);
+    Water water = water_at(particle.position);
+    uint kind = kind_of(water.neighbours);
     if (kind == SPRAY) {
         velocity += push.dt * gravity;
     } else if (kind == BUBBLE) {
-        velocity += push.drag * (water - velocity) - push.dt * push.buoyancy * gravity;
+        velocity += push.drag * (water.velocity - velocity) - push.dt * push.buoyancy * gravity;
     } else {
-        velocity = water;
+        velocity = water.velocity;
         float life = mix(push.life_least, push.life_most, uniform_of(push.seed, drifts[i].id, 0u));
         particle.age += push.dt / life;
     }

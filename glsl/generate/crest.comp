@@ -1,7 +1,7 @@
 #version 460
 // Pass `crest`: how much the surface bends where it moves outwards, and with it how many diffuse particles the
 // fluid's are to make (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
-// Reads: the grid, normals, potentials. Writes: potentials, wanted.
+// Reads: the grid, normals, potentials. Writes: potentials, rates, wanted.
 
 #include "random.glsl"
 #include "generate.glsl"
@@ -13,6 +13,8 @@ layout(set = 0, binding = 4, std430) readonly buffer CountBuffer { GenerateCount
 layout(set = 0, binding = 5, std430) readonly buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = 6, std430) buffer Potentials { vec4 potentials[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Wanted { uint wanted[]; };
+// In the grid's order: shares of the most a second.
+layout(set = 0, binding = 8, std430) writeonly buffer Rates { float rates[]; };
 
 // Cosine of the angle to the normal within which a crest moves.
 const float ALONG = 0.6;
@@ -53,8 +55,9 @@ void visit(uint i) {
     }
     float rate = push.trapped_rate * phi(found.x, push.trapped_least, push.trapped_scale)
                + push.crest_rate * phi(found.y, push.crest_least, push.crest_scale);
-    float make = phi(found.z, push.energy_least, push.energy_scale) * rate * push.dt;
-    make = min(make, MOST_MADE);
+    rate *= phi(found.z, push.energy_least, push.energy_scale);
+    rates[i] = rate / max(push.trapped_rate + push.crest_rate, 1.0e-20);
+    float make = min(rate * push.dt, MOST_MADE);
     float one = uniform_of(step_seed(), places[i].id, 0u) < fract(make) ? 1.0 : 0.0;
     wanted[number] = uint(min(floor(make) + one, MOST_MADE));
 }

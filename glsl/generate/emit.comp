@@ -1,22 +1,27 @@
 #version 460
 // Pass `emit`: new diffuse particles, in a cylinder along the way of each particle of the fluid in the step
-// (Ihmsen et al. 2012, Sec. 3.2). In the order of the fluid's particles they take the slots that are free.
-// Reads: the grid, normals, wanted (how many are before each), free. Writes: diffuse particles.
+// (Ihmsen et al. 2012, Sec. 3.2). In the order of the fluid's particles they take the slots that are free. Those of a
+// snapshot come anywhere within a spacing of its particle, as old as the moment that they are of.
+// Reads: the grid, normals or stages, wanted (how many are before each), free. Writes: diffuse particles.
 
 #include "random.glsl"
 #include "generate.glsl"
 
 layout(local_size_x = 64) in;
+// 1: of a snapshot.
+layout(constant_id = 0) const uint SNAPSHOT = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { GenerateCounts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Places { Place places[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Motions { Motion motions[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Normals { vec4 normals[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Normals { uvec4 normals[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Wanted { uint wanted[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Free { uint free_slots[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer Particles { Diffuse particles[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer Drifts { Drift drifts[]; };
 layout(set = 0, binding = 9, std430) writeonly buffer Kinds { uint kinds[]; };
+
+#include "generate_stages.glsl"
 
 // Two axes that are perpendicular to a third (Duff et al. 2017).
 void axes_of(vec3 z, out vec3 x, out vec3 y) {
@@ -36,27 +41,45 @@ void visit(uint i) {
     }
     vec3 velocity = motions[i].velocity;
     float speed = length(velocity);
-    vec3 ahead = velocity / speed;
+    // What is at rest may lie where foam came to.
+    vec3 ahead = speed > 0.0 ? velocity / speed : vec3(0.0, 1.0, 0.0);
+    float way = SNAPSHOT == 0u ? push.dt * speed : speed > 0.0 ? push.spacing : 0.0;
     vec3 x;
     vec3 y;
     axes_of(ahead, x, y);
     uint seed = step_seed();
     uint id = places[i].id;
+    uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)));
+    // The random numbers before are the stages'.
+    uint random = SNAPSHOT == 0u ? 1u : 32u;
+    uint stage = 0u;
+    uint of_stage = normals[i].x & MOST_OF_STAGE;
     for (uint k = 0u; first + k < end; ++k) {
+        while (SNAPSHOT == 1u && of_stage == 0u && stage + 1u < STAGES) {
+            ++stage;
+            of_stage = normals[i][stage / 5u] >> shift_of(stage) & MOST_OF_STAGE;
+        }
+        --of_stage;
         uint order = first + k;
         uint slot = order < counts.free ? free_slots[order] : counts.high + (order - counts.free);
         if (slot >= push.most) {
             return;
         }
-        float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + 1u));
-        float along = push.dt * speed * uniform_of(seed, id, 4u * k + 2u);
+        float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + random));
+        float along = way * uniform_of(seed, id, 4u * k + random + 1u);
         // Less half a turn: sines are exact only there.
-        float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + 3u) - 0.5);
+        float turn = 6.28318531 * (uniform_of(seed, id, 4u * k + random + 2u) - 0.5);
         vec3 off = -radius * (cos(turn) * x + sin(turn) * y);
-        particles[slot] = Diffuse(places[i].position + off + along * ahead, 0.0);
+        float age = 0.0;
+        if (SNAPSHOT == 1u && kind == FOAM) {
+            float seconds = before(stage, id);
+            float least = max(push.life_least, seconds);
+            age = seconds / mix(least, push.life_most, uniform_of(seed, id, 4u * k + random + 3u));
+        }
+        particles[slot] = Diffuse(places[i].position + off + along * ahead, age);
         // Files hold numbers of 31 bits.
-        drifts[slot] = Drift(velocity + off, pcg(id + pcg(4u * k + 4u + pcg(seed))) >> 1);
-        kinds[slot] = kind_of(uint(normals[i].w));
+        drifts[slot] = Drift(velocity + off, pcg(id + pcg(4u * k + random + 3u + pcg(seed))) >> 1);
+        kinds[slot] = kind;
     }
 }
 

@@ -49,6 +49,30 @@ impl Headless {
         settings: &GenerateSettings,
         max_particles: u32,
     ) -> Result<(), Error> {
+        self.generate_any(Some(dt), number, settings, max_particles)
+    }
+
+    /// The same of the particles alone, whatever was before: a [snapshot](Generator::record_snapshot).
+    ///
+    /// # Errors
+    /// As [`generate`](Self::generate).
+    pub fn generate_snapshot(
+        &mut self,
+        number: u32,
+        settings: &GenerateSettings,
+        max_particles: u32,
+    ) -> Result<(), Error> {
+        self.generate_any(None, number, settings, max_particles)
+    }
+
+    /// `dt`: of a step, else a snapshot.
+    fn generate_any(
+        &mut self,
+        dt: Option<f32>,
+        number: u32,
+        settings: &GenerateSettings,
+        max_particles: u32,
+    ) -> Result<(), Error> {
         let (Some(positions), Some(velocities)) = (&self.positions, &self.velocities) else {
             return Err(Error::bad("velocities", "none uploaded"));
         };
@@ -76,14 +100,19 @@ impl Headless {
             velocities,
             ids: self.ids.as_ref().map(|ids| stream(ids, 4)),
             count: Count::Cpu(self.count),
-            dt,
+            dt: dt.unwrap_or(0.0),
             number,
             settings,
             before: HOST_WRITE,
             after: HOST_WRITE,
         };
         // SAFETY: cmd is recording outside a render pass; every run waits for its end.
-        let result = self.run(|_, cmd| unsafe { generating.generator.record_step(cmd, &step) });
+        let result = self.run(|_, cmd| unsafe {
+            match dt {
+                Some(_) => generating.generator.record_step(cmd, &step),
+                None => generating.generator.record_snapshot(cmd, &step),
+            }
+        });
         if result.is_err() {
             generating.generator.abandon(Slot(0));
         }

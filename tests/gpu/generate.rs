@@ -10,9 +10,12 @@ use whitewater::{Config, Count, DiffuseParticles, Error, GenerateStep, Slot, Str
 use crate::reference::generate::{self as twin, Fluid, Particle};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::host::{HOST_WRITE, Stub};
+use crate::support::host::{Data, HOST_WRITE, Stub};
 use crate::support::rig::{Rig, Shot, config as rig_config, stream};
 use crate::support::scenes::{self, Lens, Random};
+
+#[path = "snapshot.rs"]
+mod snapshot;
 
 const SLOTS: u32 = 2;
 const SPACING: f32 = 0.05;
@@ -47,19 +50,34 @@ impl Making {
 
     /// A step of streams, in the slots' turn.
     fn record(&mut self, step: &GenerateStep<'_>) -> Result<(), Error> {
+        self.record_by(step, |generator, cmd, step| {
+            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+            unsafe { generator.record_step(cmd, step) }
+        })
+    }
+
+    fn record_by(
+        &mut self,
+        step: &GenerateStep<'_>,
+        by: impl FnOnce(&mut Generator, vk::CommandBuffer, &GenerateStep<'_>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let slot = self.steps % SLOTS;
         self.steps += 1;
         let cmd = self.stub.begin(slot);
         let generator = self.generator.as_mut().expect("only drop takes it");
-        let step = GenerateStep { slot: Slot(slot), ..*step };
-        // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
-        let result = unsafe { generator.record_step(cmd, &step) };
+        let result = by(generator, cmd, &GenerateStep { slot: Slot(slot), ..*step });
         self.stub.end(slot);
         self.stub.wait(slot);
         result
     }
 
     fn step(&mut self, fluid: &Fluid, settings: &GenerateSettings, dt: f32, number: u32) -> Made {
+        let data = self.upload(fluid);
+        self.record(&step_of(&data, fluid, settings, dt, number)).expect("a step");
+        self.made(fluid.ids.len())
+    }
+
+    fn upload(&mut self, fluid: &Fluid) -> Data {
         let mut words: Vec<u32> = (0..fluid.ids.len())
             .flat_map(|i| {
                 let [x, y, z] = fluid.positions[i].map(f32::to_bits);
@@ -69,22 +87,7 @@ impl Making {
             .collect();
         // Of none there is a buffer all the same.
         words.resize(words.len().max(7), 0);
-        let data =
-            self.stub.data(bytemuck::cast_slice(&words), vk::BufferUsageFlags::STORAGE_BUFFER);
-        let step = GenerateStep {
-            slot: Slot(0),
-            positions: stream(&data, 0, 28),
-            velocities: stream(&data, 12, 28),
-            ids: Some(stream(&data, 24, 28)),
-            count: Count::Cpu(fluid.ids.len() as u32),
-            dt,
-            number,
-            settings,
-            before: HOST_WRITE,
-            after: HOST_WRITE,
-        };
-        self.record(&step).expect("a step");
-        self.made(fluid.ids.len())
+        self.stub.data(bytemuck::cast_slice(&words), vk::BufferUsageFlags::STORAGE_BUFFER)
     }
 
     fn read(&mut self, from: vk::Buffer, words: usize) -> Vec<u32> {
@@ -140,6 +143,28 @@ impl Making {
         let generator = self.generator.as_mut().expect("only drop takes it");
         // SAFETY: as above.
         self.stub.run(|cmd| unsafe { generator.record_restore(cmd, from.buffer, 0) });
+    }
+}
+
+/// A step of what [`Making::upload`] holds.
+fn step_of<'a>(
+    data: &Data,
+    fluid: &Fluid,
+    settings: &'a GenerateSettings,
+    dt: f32,
+    number: u32,
+) -> GenerateStep<'a> {
+    GenerateStep {
+        slot: Slot(0),
+        positions: stream(data, 0, 28),
+        velocities: stream(data, 12, 28),
+        ids: Some(stream(data, 24, 28)),
+        count: Count::Cpu(fluid.ids.len() as u32),
+        dt,
+        number,
+        settings,
+        before: HOST_WRITE,
+        after: HOST_WRITE,
     }
 }
 

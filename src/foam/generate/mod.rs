@@ -6,7 +6,9 @@
 //! are made of is summed in whole steps, places are given by prefix sums and random numbers belong to ids: a
 //! sequence gives the same particles in every run, and however it is cut into jobs
 //! ([`Generator::record_save`]). Only where more than 256 of the fluid share a bucket of the grid, thirty times what
-//! water has in a cell, does it depend on the device which of them are looked at.
+//! water has in a cell, does it depend on the device which of them are looked at. Of a single frame a snapshot
+//! ([`Generator::record_snapshot`]) has what a steady flow like it would have left: by the water that each particle of the
+//! fluid comes from.
 //! Reads: the fluid's positions, velocities and ids. Writes: diffuse particles, potentials.
 
 mod passes;
@@ -45,7 +47,7 @@ pub struct Generator {
 }
 
 impl Generator {
-    /// Makes pipelines and memory: 72 to 76 bytes a particle of the fluid, 44 a diffuse one.
+    /// Makes pipelines and memory: 76 to 80 bytes a particle of the fluid, 44 a diffuse one.
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
@@ -90,6 +92,32 @@ impl Generator {
         cmd: vk::CommandBuffer,
         step: &GenerateStep<'_>,
     ) -> Result<(), Error> {
+        self.record_any(cmd, step, false)
+    }
+
+    /// Records a snapshot in place of a step: the diffuse particles that there would be if the fluid had moved like this for
+    /// as long as foam lives, whatever was before. What each particle's water made is looked for back along the flow, at 15
+    /// moments; foam is as old as that is long ago. [`GenerateStep::dt`] is of no effect. Steps may follow.
+    ///
+    /// # Errors
+    /// As [`record_step`](Self::record_step).
+    ///
+    /// # Safety
+    /// As [`record_step`](Self::record_step).
+    pub unsafe fn record_snapshot(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &GenerateStep<'_>,
+    ) -> Result<(), Error> {
+        self.record_any(cmd, step, true)
+    }
+
+    fn record_any(
+        &mut self,
+        cmd: vk::CommandBuffer,
+        step: &GenerateStep<'_>,
+        snapshot: bool,
+    ) -> Result<(), Error> {
         // A step that fails below leaves nothing to take back.
         self.last = None;
         self.check(step)?;
@@ -98,11 +126,11 @@ impl Generator {
         slot.descriptors.reset(&self.gpu)?;
         self.gpu.begin_label(cmd, c"whitewater/generate");
         slot.timer.reset(&self.gpu, cmd);
-        if std::mem::take(&mut self.fresh) {
+        if std::mem::take(&mut self.fresh) && !snapshot {
             self.passes.record_clear(&self.gpu, cmd);
         }
         let (gpu, timer) = (&self.gpu, &mut slot.timer);
-        self.passes.record(gpu, cmd, &slot.descriptors, timer, step)?;
+        self.passes.record(gpu, cmd, &slot.descriptors, timer, step, snapshot)?;
         self.gpu.end_label(cmd);
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! Passes of a step: `grid`, `potentials`, `crest`, `advance`, `emit`.
+//! Passes of a step: `grid`, `potentials`, `crest`, `advance`, `emit`; of a snapshot `trace` in place of `advance`.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -195,7 +195,9 @@ struct Pipelines {
     crest: Pipeline,
     advance: Pipeline,
     free: Pipeline,
-    emit: Pipeline,
+    trace: Pipeline,
+    /// Of a step, and of a snapshot.
+    emit: [Pipeline; 2],
     end: Pipeline,
 }
 
@@ -206,7 +208,10 @@ pub struct Buffers {
     buckets: Buffer,
     places: Buffer,
     motions: Buffer,
+    /// Of a snapshot its stages, once the normals are not needed any more.
     normals: Buffer,
+    /// What each makes, as a share of the most.
+    rates: Buffer,
     /// In the order of the step's particles: trapped air, wave crest, energy, neighbours.
     pub potentials: Buffer,
     /// How many diffuse particles each of the fluid's makes, then how many those before it do.
@@ -233,6 +238,7 @@ impl Buffers {
             places: make("generate/places", 16, fluid)?,
             motions: make("generate/motions", 16, fluid)?,
             normals: make("generate/normals", 16, fluid)?,
+            rates: make("generate/rates", 4, fluid)?,
             potentials: make("generate/potentials", 16, fluid)?,
             wanted: make("generate/wanted", 4, fluid)?,
             particles: make("generate/particles", PARTICLE, diffuse)?,
@@ -243,13 +249,14 @@ impl Buffers {
         })
     }
 
-    fn all(&self) -> [&Buffer; 12] {
+    fn all(&self) -> [&Buffer; 13] {
         [
             &self.counts,
             &self.buckets,
             &self.places,
             &self.motions,
             &self.normals,
+            &self.rates,
             &self.potentials,
             &self.wanted,
             &self.particles,
@@ -337,6 +344,7 @@ impl Passes {
         let compute = |shader| Pipeline::compute(gpu, shader, &[]);
         let begin =
             |from_gpu| Pipeline::compute(gpu, shader::GENERATE_BEGIN_COMP, &[(0, from_gpu)]);
+        let emit = |snapshot| Pipeline::compute(gpu, shader::GENERATE_EMIT_COMP, &[(0, snapshot)]);
         Ok(Self {
             pipelines: Pipelines {
                 begin: [begin(0)?, begin(1)?],
@@ -346,7 +354,8 @@ impl Passes {
                 crest: compute(shader::GENERATE_CREST_COMP)?,
                 advance: compute(shader::GENERATE_ADVANCE_COMP)?,
                 free: compute(shader::GENERATE_FREE_COMP)?,
-                emit: compute(shader::GENERATE_EMIT_COMP)?,
+                trace: compute(shader::GENERATE_TRACE_COMP)?,
+                emit: [emit(0)?, emit(1)?],
                 end: compute(shader::GENERATE_END_COMP)?,
             },
             buffers: Buffers::new(gpu, config, buckets)?,
@@ -405,7 +414,11 @@ impl Passes {
         descriptors: &Descriptors,
         timer: &mut Timer,
         step: &GenerateStep<'_>,
+        snapshot: bool,
     ) -> Result<(), Error> {
+        if snapshot {
+            self.record_clear(gpu, cmd);
+        }
         let r = Recorder { gpu, cmd, descriptors };
         let streams = [Some(&step.positions), Some(&step.velocities), step.ids.as_ref()];
         let streams = || streams.into_iter().flatten().zip([12, 12, 4]);
@@ -449,16 +462,24 @@ impl Passes {
         timer.end(gpu, cmd, scope);
 
         let scope = timer.begin(gpu, cmd, c"crest");
-        let written = with(&[(5, &b.normals), (6, &b.potentials), (7, &b.wanted)]);
+        let written = with(&[(5, &b.normals), (6, &b.potentials), (7, &b.wanted), (8, &b.rates)]);
         r.dispatch(&self.pipelines.crest, &written, &push, fluid)?;
         timer.end(gpu, cmd, scope);
 
-        let scope = timer.begin(gpu, cmd, c"advance");
-        self.record_advance(&r, &with(&[]), &push)?;
-        timer.end(gpu, cmd, scope);
+        if snapshot {
+            r.wait();
+            let scope = timer.begin(gpu, cmd, c"trace");
+            let written = with(&[(5, &b.normals), (6, &b.rates), (7, &b.wanted)]);
+            r.dispatch(&self.pipelines.trace, &written, &push, fluid)?;
+            timer.end(gpu, cmd, scope);
+        } else {
+            let scope = timer.begin(gpu, cmd, c"advance");
+            self.record_advance(&r, &with(&[]), &push)?;
+            timer.end(gpu, cmd, scope);
+        }
 
         let scope = timer.begin(gpu, cmd, c"emit");
-        self.record_emit(&r, fluid, &push)?;
+        self.record_emit(&r, fluid, &push, snapshot)?;
         timer.end(gpu, cmd, scope);
 
         let mut after: Vec<_> = [&b.counts, &b.potentials, &b.particles, &b.drifts, &b.kinds]
@@ -566,7 +587,13 @@ impl Passes {
     }
 
     /// New ones, and how many there are then.
-    fn record_emit(&self, r: &Recorder<'_>, fluid: u32, push: &Push) -> Result<(), Error> {
+    fn record_emit(
+        &self,
+        r: &Recorder<'_>,
+        fluid: u32,
+        push: &Push,
+        snapshot: bool,
+    ) -> Result<(), Error> {
         let b = &self.buffers;
         let (values, count) = ((&b.wanted, self.config.max_fluid), Some(Counts::Fluid as u32));
         let to = (r.gpu, r.cmd, r.descriptors);
@@ -584,7 +611,7 @@ impl Passes {
             (9, &b.kinds),
         ];
         let resources = resources.map(|(binding, own)| (binding, Resource::buffer(own)));
-        r.dispatch(&self.pipelines.emit, &resources, push, fluid)?;
+        r.dispatch(&self.pipelines.emit[usize::from(snapshot)], &resources, push, fluid)?;
         r.wait();
         r.dispatch(&self.pipelines.end, &[(1, Resource::buffer(&b.counts))], push, 1)
     }

@@ -10,6 +10,7 @@
 mod motion;
 mod potentials;
 mod slots;
+pub mod snapshot;
 #[cfg(test)]
 mod tests;
 mod water;

@@ -56,7 +56,7 @@ pub(super) fn carried_by(all: impl Iterator<Item = Near>, spacing: f32) -> Carri
 }
 
 /// K, the cubic spline, q in supports from 0 to 1.
-fn kernel(q: f64) -> f64 {
+pub(super) fn kernel(q: f64) -> f64 {
     if q <= 0.5 { 6.0 * (q.powi(3) - q.powi(2)) + 1.0 } else { 2.0 * (1.0 - q).powi(3) }
 }
 

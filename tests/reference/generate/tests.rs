@@ -5,10 +5,10 @@ use super::water::{Grid, near};
 use super::*;
 
 /// The support is 1.
-const SPACING: f32 = 0.5;
+pub(super) const SPACING: f32 = 0.5;
 
 /// All rates are 1, and all limits 0 to 1.
-fn settings() -> Settings {
+pub(super) fn settings() -> Settings {
     Settings {
         spacing: SPACING,
         gravity: [0.0, -10.0, 0.0],
@@ -26,7 +26,7 @@ fn settings() -> Settings {
 }
 
 /// A fluid of positions and velocities, with the ids 7, 8, ...
-fn fluid(particles: &[([f32; 3], [f32; 3])]) -> Fluid {
+pub(super) fn fluid(particles: &[([f32; 3], [f32; 3])]) -> Fluid {
     let (positions, velocities) = particles.iter().copied().unzip();
     Fluid { positions, velocities, ids: (7..).take(particles.len()).collect() }
 }
@@ -52,7 +52,7 @@ fn somewhere(id: u32, edge: f64) -> [f32; 3] {
 }
 
 /// Many at random, some of them not to take part.
-fn random_fluid(particles: u32) -> Fluid {
+pub(super) fn random_fluid(particles: u32) -> Fluid {
     let one = |id| (somewhere(id, 3.0), somewhere(id + 100_000, 4.0).map(|v| v - 2.0));
     let mut fluid = fluid(&(0..particles).map(one).collect::<Vec<_>>());
     for i in (0..fluid.positions.len()).step_by(17) {
@@ -83,12 +83,12 @@ fn ring(particles: u32, distance: f64, velocity: [f32; 3]) -> Vec<([f32; 3], [f3
 }
 
 #[track_caller]
-fn close(a: f64, b: f64) {
+pub(super) fn close(a: f64, b: f64) {
     assert!((a - b).abs() < 1e-7, "{a} is not {b}");
 }
 
 #[track_caller]
-fn close_all(a: DVec3, b: [f64; 3]) {
+pub(super) fn close_all(a: DVec3, b: [f64; 3]) {
     assert!((a - DVec3::from(b)).length() < 1e-7, "{a} is not {b:?}");
 }
 

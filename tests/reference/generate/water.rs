@@ -120,4 +120,19 @@ impl Grid {
         });
         near(place, self.spacing, around.flatten().copied())
     }
+
+    /// Those within so many supports of a place.
+    pub fn within(&self, place: DVec3, supports: f64) -> impl Iterator<Item = Near> {
+        let (middle, reach) = (self.cell(place), supports.ceil() as i64);
+        let along =
+            move |axis: usize| (-reach..=reach).map(move |step| middle[axis].saturating_add(step));
+        let cells = along(0)
+            .flat_map(move |x| along(1).flat_map(move |y| along(2).map(move |z| [x, y, z])));
+        let parts = cells.filter_map(|cell| self.cells.get(&cell)).flatten();
+        let all = parts.map(move |part| {
+            let offset = place - part.position;
+            Near { part: *part, offset, q: offset.length() / support(self.spacing) }
+        });
+        all.filter(move |near| near.q < supports)
+    }
 }

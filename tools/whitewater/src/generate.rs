@@ -36,20 +36,20 @@ pub struct Generate {
     table: GenerateTable,
     spacing: f32,
     bounds: [[f32; 3]; 2],
-    /// How long the sequence is.
-    seconds: f32,
+    /// How long the sequence is that they are made in; of single frames `None`.
+    seconds: Option<f32>,
     probes: Vec<Particles>,
     found: Option<GenerateSettings>,
 }
 
 impl Generate {
-    /// `bounds`: of the water, as far as it is looked at. `seconds`: of the sequence, in which they are made.
+    /// `bounds`: of the water, as far as it is looked at. `seconds`: of the sequence in which they are made, if there is one.
     /// Fails where the table can't be meant so.
     pub fn new(
         table: GenerateTable,
         spacing: f32,
         bounds: &Bounds,
-        seconds: f32,
+        seconds: Option<f32>,
         probes: Vec<Particles>,
     ) -> Outcome<Self> {
         let mut settings = GenerateSettings::new(spacing, [ANY; 3], 0.0);
@@ -107,15 +107,11 @@ impl Generate {
         settings.bounds = Some(self.bounds);
         self.table.apply(&mut settings);
         let mut potentials: Vec<[f32; 4]> = Vec::new();
-        let mut frames = 0_u32;
-        for frame in &self.probes {
-            let Some(velocities) = &frame.velocities else { continue };
-            headless.particles(&frame.positions, None)?;
-            headless.motion(velocities, frame.ids.as_deref())?;
+        let frames = self.each_probe(headless, |headless| {
             headless.generate(0.0, 0, &settings, self.max_particles())?;
             potentials.extend(headless.potentials()?);
-            frames += 1;
-        }
+            Ok(())
+        })?;
         let gravity = Vec3::from(settings.gravity).length();
         let fall = (gravity * self.spacing).sqrt();
         let floors = [FLOORS[0] * fall, FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall * fall];
@@ -140,13 +136,48 @@ impl Generate {
             let a_frame = each.sum::<f64>() / f64::from(frames.max(1));
             // A short sequence ends before as many go as come.
             let life = 0.5 * (settings.lifetime[0] + settings.lifetime[1]);
-            let life = f64::from(life.min(self.seconds + PRE_ROLLED));
-            let rate = FULL * f64::from(self.max_particles()) / (life * a_frame);
+            let life =
+                f64::from(self.seconds.map_or(life, |seconds| life.min(seconds + PRE_ROLLED)));
             // Of no potentials, as of little ones, as much as there may be.
-            let rate = rate.min(MOST_RATE) as f32;
-            settings.trapped_air_rate = rate;
-            settings.wave_crest_rate = rate;
+            let rate_of = |seconds: f64| {
+                (FULL * f64::from(self.max_particles()) / (seconds * a_frame)).min(MOST_RATE) as f32
+            };
+            let set = |settings: &mut GenerateSettings, rate| {
+                settings.trapped_air_rate = rate;
+                settings.wave_crest_rate = rate;
+            };
+            set(&mut settings, rate_of(life));
+            if self.seconds.is_none() {
+                // Of the water in a splash little comes from where there was water too.
+                let mut made = 0.0;
+                self.each_probe(headless, |headless| {
+                    headless.generate_snapshot(0, &settings, self.max_particles())?;
+                    let (shown, lost) = headless.generated_count()?;
+                    made += f64::from(shown) + f64::from(lost);
+                    Ok(())
+                })?;
+                let all = f64::from(frames.max(1)) * f64::from(settings.trapped_air_rate) * a_frame;
+                let seconds = if all > 0.0 { made / all } else { 0.0 };
+                set(&mut settings, rate_of(seconds + f64::from(PRE_ROLLED)));
+            }
         }
         Ok(settings)
+    }
+
+    /// Does something with each frame that is looked at; how many there are.
+    fn each_probe(
+        &self,
+        headless: &mut Headless,
+        mut act: impl FnMut(&mut Headless) -> Outcome<()>,
+    ) -> Outcome<u32> {
+        let mut frames = 0;
+        for frame in &self.probes {
+            let Some(velocities) = &frame.velocities else { continue };
+            headless.particles(&frame.positions, None)?;
+            headless.motion(velocities, frame.ids.as_deref())?;
+            act(headless)?;
+            frames += 1;
+        }
+        Ok(frames)
     }
 }

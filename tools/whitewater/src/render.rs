@@ -450,7 +450,7 @@ fn look(
     let diffuse = match made {
         true => {
             let probes = std::mem::take(&mut probes.frames);
-            let seconds = seconds.last().copied().unwrap_or(0.0);
+            let seconds = fps.map(|_| seconds.last().copied().unwrap_or(0.0));
             let table = file.generate.clone();
             let generate = Generate::new(table, spacing, &bounds, seconds, probes)?;
             Some(diffuse::Diffusing::Made(Box::new(generate)))

@@ -490,10 +490,15 @@ impl<'a> Session<'a> {
                     let dt = number.saturating_sub(last) as f32 / fps;
                     headless.generate(dt, number as u32, settings, *most)
                 }
-                // Nothing is known of before: it was as now for a moment.
-                _ => (0..PRE_ROLL).try_for_each(|step| {
-                    headless.generate(PRE_STEP, u32::MAX - step, settings, *most)
-                }),
+                // Nothing is known of before: it was as now for a moment, of a single frame for as long as foam lives.
+                (fps, _) => {
+                    if fps.is_none() {
+                        headless.generate_snapshot(number as u32, settings, *most)?;
+                    }
+                    (0..PRE_ROLL).try_for_each(|step| {
+                        headless.generate(PRE_STEP, u32::MAX - step, settings, *most)
+                    })
+                }
             })?;
             self.memory.made = Some(number);
         } else {

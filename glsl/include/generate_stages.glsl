@@ -1,0 +1,22 @@
+// Of a snapshot: moments of the longest life of foam before it, at which the water on its way to a particle is looked at,
+// the nearer the closer. Needs generate.glsl, random.glsl.
+
+const uint STAGES = 15u;
+// Diffuse particles of a moment at most: six bits.
+const uint MOST_OF_STAGE = 63u;
+
+// Seconds before the snapshot.
+float before(uint stage, uint id) {
+    float part = (float(stage) + uniform_of(step_seed(), id, 0u)) / float(STAGES);
+    return push.life_most * part * part;
+}
+
+// Seconds that a moment stands for.
+float seconds_of(uint stage) {
+    return push.life_most * float(2u * stage + 1u) / float(STAGES * STAGES);
+}
+
+// Where its number is: five to a word.
+uint shift_of(uint stage) {
+    return 6u * (stage % 5u);
+}
