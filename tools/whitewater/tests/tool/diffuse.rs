@@ -1,6 +1,6 @@
 //! Diffuse particles beside the fluid's.
 
-use whitewater::io::particles::Particles;
+use whitewater::io::particles::{Particles, read};
 
 use super::support::{FRONT, Folder, SMALL, block};
 
@@ -190,11 +190,16 @@ fn a_bad_diffuse_file_loses_its_frame_alone() {
 
 /// A block of water whose upper half goes over the lower one; frames of a thirtieth of a second.
 fn torn(folder: &Folder, frames: u32) {
+    torn_at(folder, frames, 4.0);
+}
+
+fn torn_at(folder: &Folder, frames: u32, speed: f32) {
     for frame in 1..=frames {
         let rows = block(8).into_iter().enumerate().map(|(id, [x, y, z])| {
             let sign = if y > 0.0 { 1.0 } else { -1.0 };
-            let way = 4.0 * sign * (frame - 1) as f32 / 30.0;
-            format!("{},{y},{z},{},{},0,{id}\n", x + way, 4.0 * sign, 2.0 * f32::from(y > 0.2))
+            let way = speed * sign * (frame - 1) as f32 / 30.0;
+            let up = 0.5 * speed * f32::from(y > 0.2);
+            format!("{},{y},{z},{},{up},0,{id}\n", x + way, speed * sign)
         });
         let text = format!("x,y,z,vx,vy,vz,id\n{}", rows.collect::<String>());
         folder.text(&format!("torn_{frame}.csv"), &text);
@@ -240,6 +245,25 @@ fn diffuse_particles_are_made_of_the_water() {
     // A frame by itself.
     folder.run(&format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate -o d.exr")).ok();
     assert!(amount("d.exr") > 0.0);
+}
+
+/// At the same rates a frame by itself has what its water brings, beside what the first of a sequence makes in a moment.
+#[test]
+fn a_frame_by_itself_has_foam_of_before() {
+    let folder = Folder::new();
+    // Slow: what was in the water a moment ago still is.
+    torn_at(&folder, 2, 0.5);
+    let limits = "trapped_air = [0.1, 1.0]\nwave_crest = [1.0, 4.0]\nenergy = [0.01, 0.1]";
+    folder.text("look.toml", &format!("[generate]\n{limits}\nrates = [200.0, 200.0]\n"));
+    let made = |files: &str, name: &str| {
+        let look = format!("{SMALL} {FRONT} --settings look.toml --whitewater generate");
+        let keep = format!("--write-whitewater {name}_%d.ply -o {name}_%d.png");
+        folder.run(&format!("render {files} {look} {keep}")).ok();
+        read(&folder.path(&format!("{name}_1.ply"))).unwrap().positions.len()
+    };
+    let first = made("torn_%d.csv --fps 30 --frames 1", "first");
+    let alone = made("torn_1.csv", "alone");
+    assert!(first > 500 && 2 * alone > 3 * first, "{first} {alone}");
 }
 
 /// The same water without its velocities, with its ids or in its order: they are found, and what is made of it is
