@@ -68,7 +68,8 @@ struct Args {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Measures all ray-casters, at the coarsest step that looks converged, beside whitewater
+    /// Measures all ray-casters, at the coarsest steps that look converged and that are as near to that as ours, beside
+    /// whitewater
     Compare(compare::CompareArgs),
 }
 
