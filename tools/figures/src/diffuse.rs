@@ -20,6 +20,15 @@ pub fn seas(tool: &Tool, docs: &Path) -> Outcome<()> {
     grid(&panels?, 2, &pictures(docs, "seas.png"))
 }
 
+/// The same foam from near and from far, metres away.
+pub fn distances(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let panels: Result<Vec<_>, String> = [5.0, 20.0, 60.0, 200.0]
+        .iter()
+        .map(|metres| tool.sea_from(*metres, "flood", "29m", "640x480"))
+        .collect();
+    grid(&panels?, 2, &pictures(docs, "diffuse-distances.png"))
+}
+
 /// Figure 8: above ours, below the same foam by volume ray-casting, which knows of emission and absorption alone: it
 /// shines as the mean of ours.
 pub fn ray_cast(tool: &Tool, docs: &Path) -> Outcome<()> {

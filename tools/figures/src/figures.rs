@@ -15,7 +15,7 @@ use crate::tool::{Times, Tool, quicker, sequence, total};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 30] = [
+pub const ALL: [(&str, Figure); 31] = [
     ("noise-foam", noise_foam),
     ("layers", layers),
     ("iterations", iteration_counts),
@@ -34,6 +34,7 @@ pub const ALL: [(&str, Figure); 30] = [
     ("diffuse-layers", diffuse::layers),
     ("diffuse-shapes", diffuse::shapes),
     ("diffuse-look", diffuse::looks),
+    ("diffuse-distances", diffuse::distances),
     ("foam-near", bubbles::near),
     ("bubble-one", bubbles::one),
     ("bubble-films", bubbles::films),

@@ -139,21 +139,32 @@ impl Tool {
 
     /// The picture of a sea, of so many diffuse particles. `look`: its table `[diffuse]`.
     pub fn sea(&self, sea: &str, diffuse: &str, size: &str, look: &str) -> Outcome<RgbImage> {
-        let png = self.draw_sea("png", [sea, diffuse, size, look])?;
+        let png = self.draw_sea("png", [sea, diffuse, size, look], None)?;
+        Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
+    }
+
+    /// The same from so many metres away.
+    pub fn sea_from(&self, metres: f32, sea: &str, diffuse: &str, size: &str) -> Outcome<RgbImage> {
+        let png = self.draw_sea("png", [sea, diffuse, size, ""], Some(metres))?;
         Ok(image::open(&png).map_err(|error| error.to_string())?.into_rgb8())
     }
 
     /// The layers of its foam.
     pub fn sea_layers(&self, sea: &str, diffuse: &str, size: &str, look: &str) -> Outcome<Layers> {
-        let exr = self.draw_sea("exr", [sea, diffuse, size, look])?;
+        let exr = self.draw_sea("exr", [sea, diffuse, size, look], None)?;
         picture::read(&exr).map_err(|error| error.to_string())
     }
 
-    fn draw_sea(&self, kind: &str, [sea, diffuse, size, look]: [&str; 4]) -> Outcome<PathBuf> {
+    fn draw_sea(
+        &self,
+        kind: &str,
+        [sea, diffuse, size, look]: [&str; 4],
+        away: Option<f32>,
+    ) -> Outcome<PathBuf> {
         let (to, toml) = (self.temporary(&format!("sea.{kind}")), self.temporary("sea.toml"));
         std::fs::write(&toml, format!("[diffuse]\n{look}\n"))
             .map_err(|error| format!("cannot write {}: {error}", toml.display()))?;
-        self.run(&[
+        let mut arguments = vec![
             "bench".to_owned(),
             format!("--sea={sea}"),
             format!("--diffuse={diffuse}"),
@@ -162,7 +173,9 @@ impl Tool {
             "--warmup=0".to_owned(),
             format!("--settings={}", toml.display()),
             format!("--picture={}", to.display()),
-        ])?;
+        ];
+        arguments.extend(away.map(|metres| format!("--away={metres}")));
+        self.run(&arguments)?;
         Ok(to)
     }
 

@@ -172,10 +172,17 @@ impl Sea {
     /// From where the picture is taken, for a picture so many times as wide as high.
     pub fn camera(self, aspect: f32) -> Camera {
         let plan = self.plan();
+        self.camera_from(plan.eye.distance(plan.target), aspect)
+    }
+
+    /// The same way, so many metres from what it looks at.
+    pub fn camera_from(self, distance: f32, aspect: f32) -> Camera {
+        let plan = self.plan();
+        let eye = plan.target + distance * (plan.eye - plan.target).normalize();
         let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));
         let angle = plan.fov.to_radians();
         Camera {
-            view: Mat4::look_at_rh(plan.eye, plan.target, Vec3::Y),
+            view: Mat4::look_at_rh(eye, plan.target, Vec3::Y),
             projection: flip * Mat4::perspective_infinite_reverse_rh(angle, aspect, 0.5),
         }
     }

@@ -106,6 +106,9 @@ fn scenes_are_whole_and_far_enough_away() {
         let share = seen.count() as f32 / COUNT as f32;
         assert!(share > 0.5, "{sea:?}: {share} of the particles in the picture");
         assert_eq!(Sea::from_name(sea.name()), Some(sea));
+        let near = sea.camera_from(5.0, 4.0 / 3.0);
+        let target = near.view.transform_point3(plan.target);
+        assert!(target.distance(Vec3::new(0.0, 0.0, -5.0)) < 1e-4, "{sea:?}: {target}");
     }
     assert_eq!(Sea::from_name("pool"), None);
 }

@@ -84,6 +84,9 @@ pub struct BenchArgs {
         hide_default_value = true
     )]
     turned: f32,
+    /// Metres from the camera of a sea to what it looks at [default: the sea's]
+    #[arg(long, value_name = "METRES", requires = "sea", value_parser = sea::parse_distance)]
+    away: Option<f32>,
     /// Write the last frame, of a sea or a shore and one combination; an .exr with all layers of its foam
     #[arg(long, value_name = "FILE", requires = "pictured")]
     picture: Option<PathBuf>,

@@ -77,6 +77,14 @@ pub fn parse_count(text: &str) -> Result<u32, String> {
     }
 }
 
+/// Of `--away`. The camera's near plane is at half a metre.
+pub fn parse_distance(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(metres) if (1.0..=1.0e5).contains(&metres) => Ok(metres),
+        _ => Err(format!("expected metres from 1 to 100000, found '{text}'")),
+    }
+}
+
 /// One combination.
 #[derive(Clone, Copy)]
 struct Case {
@@ -187,7 +195,9 @@ fn sample(
     if let Some(path) = &args.settings {
         SettingsFile::read(path)?.diffuse.apply(&mut settings.diffuse);
     }
-    let mut camera = sea.camera(extent.width as f32 / extent.height as f32);
+    let aspect = extent.width as f32 / extent.height as f32;
+    let from = |distance| sea.camera_from(distance, aspect);
+    let mut camera = args.away.map_or_else(|| sea.camera(aspect), from);
     camera.view = Mat4::from_rotation_y(-args.turned.to_radians()) * camera.view;
     let times =
         times(headless, args, |headless| headless.render(&camera, &settings, &Background::Scene))?;
