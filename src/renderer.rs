@@ -9,7 +9,7 @@ use crate::bubbles::{self, BubbleUniforms, Bubbles, near_sets};
 use crate::check;
 use crate::composite::{Composite, Surroundings};
 use crate::contract::{
-    Config, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot, SmoothingLevels,
+    Config, Count, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot, SmoothingLevels,
 };
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
@@ -311,7 +311,9 @@ impl Renderer {
             }
         }
         if let Some(foam) = &self.foam {
-            foam.record_radiance(&mut r, &self.environment, &self.water.layers())?;
+            let wet = !matches!(frame.particles.count, Count::Cpu(0));
+            let layers = self.water.layers();
+            foam.record_radiance(&mut r, &self.environment, wet.then_some(&layers))?;
         }
         if let Some(bubbles) = &self.bubbles {
             bubbles.record_soap(&mut r, &self.environment, &self.water.layers())?;

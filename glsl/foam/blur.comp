@@ -1,9 +1,10 @@
 #version 460
 // Pass `blur`: takes the noise of the samples from light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along
 // rows and then along columns, not across gaps in depth.
-// Reads: foam depth, foam normal with its search radius, light and shadow. Writes: the same, blurred.
+// Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: the same, blurred.
 
 #include "frame.glsl"
+#include "foam_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: each pixel of a block of four by four has a part of the samples, and all are put together, however small the
@@ -19,15 +20,14 @@ layout(push_constant, std430) uniform Push { ivec2 step; } push;
 const int MOST = 32;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    ivec2 size = ivec2(frame.extent.xy);
-    if (any(greaterThanEqual(pixel, size))) {
+    ivec2 pixel;
+    if (!tile_pixel(pixel)) {
         return;
     }
+    ivec2 size = ivec2(frame.extent.xy);
     vec4 middle = texelFetch(radiance, pixel, 0);
     float depth = texelFetch(occluders, pixel, 0).x;
     if (depth >= EMPTY) {
-        imageStore(blurred, pixel, vec4(0.0));
         return;
     }
     float search = texelFetch(normals, pixel, 0).w;
@@ -36,16 +36,22 @@ void main() {
     // Two radii of the particle.
     float gap = max(2.0 * search / abs(frame.projection.y), 2.0 * BLOCK * abs(frame.slope.y)) * depth;
     int reach = min(int(radius), MOST);
+    // How far it goes before the pixel and after it.
+    int at = pixel.x * push.step.x + pixel.y * push.step.y;
+    int last = (size.x - 1) * push.step.x + (size.y - 1) * push.step.y;
+    ivec2 ends = min(ivec2(at, last - at), reach);
     float narrow = -2.0 / max(radius * radius, 1.0e-6);
     vec4 sum = middle;
     float weights = 1.0;
-    for (int i = -reach; i <= reach; ++i) {
-        ivec2 p = pixel + i * push.step;
-        bool there = i != 0 && all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, size));
-        float z = there ? texelFetch(occluders, p, 0).x : EMPTY;
-        float weight = abs(z - depth) <= gap ? exp(narrow * float(i * i)) : 0.0;
-        sum += weight > 0.0 ? weight * texelFetch(radiance, p, 0) : vec4(0.0);
-        weights += weight;
+    for (int i = 1; i <= reach; ++i) {
+        float weight = exp(narrow * float(i * i));
+        for (int side = 0; side < 2; ++side) {
+            ivec2 p = pixel + (side == 0 ? -i : i) * push.step;
+            float z = i <= ends[side] ? texelFetch(occluders, p, 0).x : EMPTY;
+            float own = abs(z - depth) <= gap ? weight : 0.0;
+            sum += own > 0.0 ? own * texelFetch(radiance, p, 0) : vec4(0.0);
+            weights += own;
+        }
     }
     imageStore(blurred, pixel, sum / weights);
 }

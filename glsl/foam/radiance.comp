@@ -5,7 +5,7 @@
 // The sun's light and its shadows, which the source has not, are ours. So is the normal of what is smaller than a
 // pixel, whose middle hits a sphere where chance will have it: lit by that far foam is salt and pepper. It is where
 // the same samples find the space open, so that a plume is lit as the body that it is.
-// Reads: foam depth and intensity beside the depths of fluid and scene, foam normal, points, irradiance,
+// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points, irradiance,
 // environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
 
 #include "frame.glsl"
@@ -15,6 +15,7 @@
 #include "intensity.glsl"
 #include "sunlight.glsl"
 #include "octahedral.glsl"
+#include "foam_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: the environment is asked at the points' directions, as in the source; 0: once, filtered before.
@@ -80,13 +81,12 @@ vec3 gathered(vec3 normal, uvec2 run) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, ivec2(frame.extent.xy)))) {
+    ivec2 pixel;
+    if (!tile_pixel(pixel)) {
         return;
     }
     float depth = texelFetch(occluders, pixel, 0).x;
     if (depth >= EMPTY) {
-        imageStore(radiance, pixel, vec4(0.0));
         return;
     }
     vec4 with = imageLoad(normals, pixel);

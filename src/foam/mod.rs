@@ -7,6 +7,7 @@ mod radiance;
 pub mod settings;
 pub(crate) mod splat;
 pub(crate) mod streams;
+mod tiles;
 
 use crate::contract::{Access, Config, DiffuseParticles, Layer};
 use crate::environment::Environment;
@@ -55,15 +56,15 @@ impl Foam {
         self.sprites.record(r, particles, water)
     }
 
-    /// The light on it.
+    /// The light on it. `water`: where there may be some.
     pub fn record_radiance(
         &self,
         r: &mut Recording<'_>,
         environment: &Environment,
-        water: &WaterLayers<'_>,
+        water: Option<&WaterLayers<'_>>,
     ) -> Result<(), Error> {
-        let WaterLayers { depth, smoothed, .. } = *water;
-        let surface = radiance::Surface { depth, smoothed };
+        let surface =
+            water.map(|WaterLayers { depth, smoothed, .. }| radiance::Surface { depth, smoothed });
         self.radiance.record(r, &self.sprites, environment, surface)
     }
 

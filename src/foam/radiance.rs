@@ -10,12 +10,14 @@ use gpu_allocator::MemoryLocation;
 
 use super::settings::{DiffuseConfig, Irradiance, Occlusion};
 use super::splat::{AFTER, Sprites};
+use super::tiles::Tiles;
 use crate::contract::Config;
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED,
+    self, Access, CLEAR, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
+    FRAGMENT_SAMPLED,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -59,6 +61,7 @@ pub struct Surface<'a> {
 /// The passes.
 pub struct Radiance {
     surface: Pipeline,
+    tiles: Tiles,
     gather: Pipeline,
     blur: Pipeline,
     points: Buffer,
@@ -84,6 +87,7 @@ impl Radiance {
         buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
         Ok(Self {
             surface: Pipeline::compute(gpu, shader::FOAM_SURFACE_COMP, &[])?,
+            tiles: Tiles::new(gpu, config)?,
             gather: Pipeline::compute(gpu, shader::FOAM_RADIANCE_COMP, &constants)?,
             blur: Pipeline::compute(gpu, shader::FOAM_BLUR_COMP, &[(1, fast)])?,
             points: buffer,
@@ -95,7 +99,8 @@ impl Radiance {
         let image = |name| {
             let usage = vk::ImageUsageFlags::STORAGE
                 | vk::ImageUsageFlags::SAMPLED
-                | vk::ImageUsageFlags::TRANSFER_SRC;
+                | vk::ImageUsageFlags::TRANSFER_SRC
+                | vk::ImageUsageFlags::TRANSFER_DST;
             let format = vk::Format::R16G16B16A16_SFLOAT;
             Image::new(gpu, &ImageDesc::new(name, config.extent, format, usage))
         };
@@ -111,7 +116,7 @@ impl Radiance {
         for (old, new) in self.images.iter_mut().zip(Self::images(gpu, config)?) {
             retired.replace(old, new);
         }
-        Ok(())
+        self.tiles.resize(gpu, config, retired)
     }
 
     /// Light and shadow, blurred.
@@ -124,7 +129,7 @@ impl Radiance {
         r: &mut Recording<'_>,
         sprites: &Sprites,
         environment: &Environment,
-        water: Surface<'_>,
+        water: Option<Surface<'_>>,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let [image, half] = &self.images;
@@ -134,31 +139,16 @@ impl Radiance {
         let scope = r.begin(c"radiance");
         let both = COMPUTE_READ_WRITE;
         let before = AFTER.and(COPY_READ).discarded();
-        let hand =
-            |from, to| [water.depth, water.smoothed].map(|image| access::image(image, from, to));
-        let [depth, smoothed] = hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED);
-        gpu.barriers(
-            cmd,
-            &[
-                depth,
-                smoothed,
-                access::image(sprites.occluders(), AFTER, both),
-                access::image(sprites.normal(), AFTER, both),
-                access::image(image, before, COMPUTE_WRITE),
-            ],
-            &[],
-        );
-        let resources = [
-            (0, r.uniforms),
-            (1, Resource::storage(sprites.occluders())),
-            (2, sampled(water.depth)),
-            (5, sampled(water.smoothed)),
-            (7, r.levels),
-        ];
-        r.descriptors.bind(gpu, cmd, &self.surface, &resources)?;
-        r.dispatch_over(r.extent, self.surface.local_size);
-        let [depth, smoothed] = hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED);
-        gpu.barriers(cmd, &[depth, smoothed, access::image(sprites.occluders(), both, AFTER)], &[]);
+        let taken =
+            [access::image(sprites.normal(), AFTER, both), access::image(image, before, CLEAR)];
+        gpu.barriers(cmd, &taken, &[]);
+        // Where there is no foam.
+        gpu.clear_color(cmd, image, [0.0; 4]);
+        gpu.barriers(cmd, &[access::image(image, CLEAR, COMPUTE_WRITE)], &[]);
+        if let Some(water) = water {
+            self.record_surface(r, sprites, water)?;
+        }
+        self.tiles.record(r, sprites.occluders())?;
         let [shadow, thickness, basis, span, cast, soap] = r.sunlight.resources();
         let resources = [
             (0, r.uniforms),
@@ -168,6 +158,7 @@ impl Radiance {
             (4, linear(&environment.irradiance)),
             (5, linear(&environment.cube)),
             (6, Resource::storage(image)),
+            (9, self.tiles.resource()),
             shadow,
             thickness,
             basis,
@@ -176,15 +167,20 @@ impl Radiance {
             soap,
         ];
         r.descriptors.bind(gpu, cmd, &self.gather, &resources)?;
-        r.dispatch_over(r.extent, self.gather.local_size);
+        self.tiles.dispatch(r);
         gpu.barriers(cmd, &[access::image(sprites.normal(), both, AFTER)], &[]);
         r.end(scope);
 
         let scope = r.begin(c"blur");
-        for (from, to, step) in [(image, half, [1, 0]), (half, image, [0, 1])] {
+        // What has no foam is neither written nor, in the one half blurred, read.
+        let ways = [
+            (image, (half, COMPUTE_SAMPLED.discarded()), [1, 0]),
+            (half, (image, COMPUTE_SAMPLED), [0, 1]),
+        ];
+        for (from, (to, before), step) in ways {
             let images = [
                 access::image(from, COMPUTE_WRITE, COMPUTE_SAMPLED),
-                access::image(to, COMPUTE_SAMPLED.discarded(), COMPUTE_WRITE),
+                access::image(to, before, COMPUTE_WRITE),
             ];
             gpu.barriers(cmd, &images, &[]);
             let resources = [
@@ -193,19 +189,49 @@ impl Radiance {
                 (2, sampled(sprites.normal())),
                 (3, sampled(from)),
                 (4, Resource::storage(to)),
+                (9, self.tiles.resource()),
             ];
             r.descriptors.bind(gpu, cmd, &self.blur, &resources)?;
             self.blur.push::<[i32; 2]>(gpu, cmd, &step);
-            r.dispatch_over(r.extent, self.blur.local_size);
+            self.tiles.dispatch(r);
         }
         gpu.barriers(cmd, &[access::image(image, COMPUTE_WRITE, AFTER)], &[]);
         r.end(scope);
         Ok(())
     }
 
+    /// The water's surface among what stands round foam.
+    fn record_surface(
+        &self,
+        r: &Recording<'_>,
+        sprites: &Sprites,
+        water: Surface<'_>,
+    ) -> Result<(), Error> {
+        let (gpu, cmd, both) = (r.gpu, r.cmd, COMPUTE_READ_WRITE);
+        let hand = |from, to, [before, after]: [Access; 2]| {
+            let [depth, smoothed] =
+                [water.depth, water.smoothed].map(|own| access::image(own, from, to));
+            [depth, smoothed, access::image(sprites.occluders(), before, after)]
+        };
+        gpu.barriers(cmd, &hand(FRAGMENT_SAMPLED, COMPUTE_SAMPLED, [AFTER, both]), &[]);
+        let sampled = |image: &Image| Resource::Sampled(image.view, gpu.samplers.nearest);
+        let resources = [
+            (0, r.uniforms),
+            (1, Resource::storage(sprites.occluders())),
+            (2, sampled(water.depth)),
+            (5, sampled(water.smoothed)),
+            (7, r.levels),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.surface, &resources)?;
+        r.dispatch_over(r.extent, self.surface.local_size);
+        gpu.barriers(cmd, &hand(COMPUTE_SAMPLED, FRAGMENT_SAMPLED, [both, AFTER]), &[]);
+        Ok(())
+    }
+
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
-        (self.images.iter().map(|image| image.size).sum(), self.points.size)
+        let buffers = self.points.size + self.tiles.memory();
+        (self.images.iter().map(|image| image.size).sum(), buffers)
     }
 }
 

@@ -385,6 +385,50 @@ fn fast_shadow_does_not_change_with_the_distance() {
     }
 }
 
+/// Light is found where tiles of 8x8 pixels have foam, be it in one pixel, whichever; elsewhere there is none, nor anything of
+/// the frame before.
+#[test]
+fn the_foam_of_a_single_pixel_has_light() {
+    let gpu = Gpu::shared();
+    let diffuse = DiffuseConfig::new(4096);
+    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
+    let mut cloud = Diffuse::new(Lens::Standard);
+    even(&mut rig, &mut cloud.shot, [1.0; 4]);
+    cloud.shot.positions.clear();
+    cloud.shot.scene_depth(|_, _| None);
+    let view = cloud.shot.view(SIZE);
+    let (width, height) = (SIZE.width as usize, SIZE.height as usize);
+    for frame in 0..8 {
+        // In each tile another pixel, over the frames each in some.
+        let of_tile = |i: usize| {
+            let (across, own) = (width.div_ceil(8), (8 * frame + 9 * i) % 64);
+            [8 * (i % across) + own % 8, 8 * (i / across) + own / 8]
+        };
+        let tiles = width.div_ceil(8) * height.div_ceil(8);
+        let pixels: Vec<_> =
+            (0..tiles).map(of_tile).filter(|[x, y]| *x < width && *y < height).collect();
+        let points: Vec<_> = pixels
+            .iter()
+            .map(|[x, y]| {
+                let ray = view.ray(*x, *y);
+                [ray.x, ray.y, 1.0].map(|v| 5.0 * v as f32)
+            })
+            .collect();
+        let count = points.len();
+        cloud.positions = scenes::world(&cloud.shot.camera, &points);
+        (cloud.kinds, cloud.ages) = (vec![0; count], vec![0.0; count]);
+        (cloud.radii, cloud.ids) = (Some(vec![1.0e-4; count]), Some(vec![0; count]));
+        let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
+        for y in 0..height {
+            for x in 0..width {
+                let foams = pixels.contains(&[x, y]);
+                assert_eq!(foam.occluders.at(x, y)[0] < 1.0e9, foams, "{frame}: ({x}, {y})");
+                assert_eq!(foam.light.at(x, y)[0] > 0.0, foams, "{frame}: light at ({x}, {y})");
+            }
+        }
+    }
+}
+
 /// An environment of one colour, and no sun.
 fn even(rig: &mut Rig<'_>, shot: &mut Shot, color: [f32; 4]) {
     rig.environment(extent(16, 8), &[color; 128]);

@@ -1,0 +1,28 @@
+// Tiles of 8x8 pixels in which there is foam of diffuse particles, and the dispatch over them, a group each. Needs frame.glsl.
+// Reads, writes: tiles.
+
+// Groups in x, y, z, how many tiles there are; the tiles, numbered row by row.
+layout(set = 0, binding = 9, std430) buffer Tiles { uint tiles[]; };
+
+const uint FIRST_TILE = 4u;
+const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
+
+uint tiles_across() {
+    return (uint(frame.extent.x) + 7u) / 8u;
+}
+
+void add_tile(uvec2 tile) {
+    uint slot = atomicAdd(tiles[3], 1u);
+    tiles[FIRST_TILE + slot] = tile.y * tiles_across() + tile.x;
+    atomicMax(tiles[0], min(slot + 1u, MOST_GROUPS));
+    atomicMax(tiles[1], 1u + slot / MOST_GROUPS);
+}
+
+// The invocation's pixel, in the tile of its group; whether there is one.
+bool tile_pixel(out ivec2 pixel) {
+    uint slot = gl_WorkGroupID.y * MOST_GROUPS + gl_WorkGroupID.x;
+    bool listed = slot < tiles[3];
+    uint tile = tiles[FIRST_TILE + (listed ? slot : 0u)];
+    pixel = ivec2(8u * uvec2(tile % tiles_across(), tile / tiles_across()) + gl_LocalInvocationID.xy);
+    return listed && all(lessThan(pixel, ivec2(frame.extent.xy)));
+}
