@@ -1,10 +1,11 @@
 // Lists of tiles of shoreline and contact foam, with the dispatches over them: what makes them and what goes over them share.
 // Reads, writes: lists, arguments.
 
-// Tiles that may have shoreline foam, contact foam, both; that have any; that may have contact foam on the particles' water.
+// Tiles that may have shoreline foam, contact foam, both; runs of those that have any (shore_runs.glsl); tiles that may have
+// contact foam on the particles' water.
 layout(set = 0, binding = 9, std430) buffer Lists { uint list[]; };
 // Vertices, instances, first vertex, first instance of the draw of the fourth; of each list groups in x, y, z and how many
-// tiles, which of the fourth the draw has.
+// tiles, which of the fourth, of runs, the draw has.
 layout(set = 0, binding = 10, std430) buffer Arguments { uint arguments[24]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
@@ -13,12 +14,17 @@ layout(push_constant, std430) uniform Push {
 
 const uint TILE = 8u;            // pixels
 const uint TILES = 4u;           // of a group of what goes over the lists
+const uint RUNS = 4u;            // their list
 const uint MOST_LISTED = 65535u; // of a dispatch, in each direction
 
-// A slot of a list, the first is 1, has got a tile of its own.
-void fills(uint kind, uint slot, uint tile, uint tiles_a_group) {
-    list[(kind - 1u) * push.most + slot] = tile;
-    uint group = slot / tiles_a_group;
+// What a slot of a list has; the first list is 1.
+void lists(uint kind, uint slot, uint own) {
+    list[(kind - 1u) * push.most + slot] = own;
+}
+
+// The dispatch over a list is as large as it takes for a slot.
+void dispatches(uint kind, uint slot, uint slots_a_group) {
+    uint group = slot / slots_a_group;
     atomicMax(arguments[4u * kind], min(group + 1u, MOST_LISTED));
     atomicMax(arguments[4u * kind + 1u], 1u + group / MOST_LISTED);
 }

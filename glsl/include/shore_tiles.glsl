@@ -6,7 +6,8 @@ layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 // The invocation's tile to a list.
 void adds(uint kind) {
     uint slot = atomicAdd(arguments[4u * kind + 3u], 1u);
-    fills(kind, slot, gl_GlobalInvocationID.y * push.across + gl_GlobalInvocationID.x, TILES);
+    lists(kind, slot, gl_GlobalInvocationID.y * push.across + gl_GlobalInvocationID.x);
+    dispatches(kind, slot, TILES);
 }
 
 const int HALF = int(TILE) / 2;

@@ -1,10 +1,11 @@
 #version 460
-// Pass `composite`, compute: foam on the scene's water, a tile of 8x8 pixels a group, where the particles' is not: that is
-// stored over it.
+// Pass `composite`, compute: foam on the scene's water, a run of tiles of 8x8 pixels a group, where the particles' is not:
+// that is stored over it.
 // Reads: list, scene colour, shoreline and contact foam. Writes: output.
 
 #include "frame.glsl"
 #include "scene_color.glsl"
+#include "shore_runs.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -19,12 +20,17 @@ layout(push_constant, std430) uniform Push {
 
 void main() {
     uint i = gl_WorkGroupID.y * 65535u + gl_WorkGroupID.x;
-    bool listed = i < arguments[1];
-    uint tile = list[push.first + (listed ? i : 0u)];
+    if (i >= arguments[1]) {
+        return;
+    }
+    uint run = list[push.first + i];
+    uint tile = first_of_run(run);
     ivec2 pixel = ivec2(8u * uvec2(tile % push.across, tile / push.across) + gl_LocalInvocationID.xy);
-    bool inside = listed && all(lessThan(pixel, ivec2(frame.extent.xy)));
-    vec4 coat = inside ? texelFetch(shore_foam, pixel, 0) : vec4(0.0);
-    if (coat.x + coat.y > 0.0) {
-        imageStore(target, pixel + ivec2(frame.target.xy), vec4(coated(uncoated_at(vec2(pixel) + 0.5), coat), 1.0));
+    int end = min(pixel.x + 8 * int(tiles_of_run(run)), int(frame.extent.x));
+    for (; pixel.x < end && pixel.y < int(frame.extent.y); pixel.x += 8) {
+        vec4 coat = texelFetch(shore_foam, pixel, 0);
+        if (coat.x + coat.y > 0.0) {
+            imageStore(target, pixel + ivec2(frame.target.xy), vec4(coated(uncoated_at(vec2(pixel) + 0.5), coat), 1.0));
+        }
     }
 }

@@ -1,8 +1,9 @@
 #version 460
-// Pass `composite`, raster: a quad a tile that has foam on the scene's water.
+// Pass `composite`, raster: a quad a run of tiles that have foam on the scene's water.
 // Reads: list. Writes: its corners.
 
 #include "frame.glsl"
+#include "shore_runs.glsl"
 
 layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
 layout(push_constant, std430) uniform Push {
@@ -11,8 +12,10 @@ layout(push_constant, std430) uniform Push {
 } push;
 
 void main() {
-    uint tile = list[push.first + gl_InstanceIndex];
-    uvec2 corner = 8u * (uvec2(tile % push.across, tile / push.across) + uvec2(gl_VertexIndex & 1, gl_VertexIndex >> 1));
+    uint run = list[push.first + gl_InstanceIndex];
+    uint tile = first_of_run(run);
+    uvec2 to = uvec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * uvec2(tiles_of_run(run), 1u);
+    uvec2 corner = 8u * (uvec2(tile % push.across, tile / push.across) + to);
     vec2 pixel = min(vec2(corner), frame.extent.xy);
     gl_Position = vec4(pixel / frame.extent.xy * 2.0 - 1.0, 0.5, 1.0);
 }

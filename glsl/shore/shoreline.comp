@@ -2,7 +2,7 @@
 // Pass `shoreline`: foam on the host's water surface: along shores by the map of distances or the bottom's slope (blog),
 // and round what stands in it (Lettier, Foam).
 // Not in the sources: no mesh; what a pixel covers of the foam, where they clip.
-// Reads: list of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
+// Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
 // foam, contact foam, what of the sun's light does not come there.
 
 #include "frame.glsl"

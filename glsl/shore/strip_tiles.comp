@@ -1,12 +1,18 @@
 #version 460
 // Pass `shoreline`: which tiles of 8x8 pixels a strip's foam is in, when it is drawn.
-// Reads: foam. Writes: list of tiles, its draw.
+// Reads: foam. Writes: marks.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 8) uniform sampler2D foam;
 
-#include "shore_lists.glsl"
 #include "shore_drawn.glsl"
+
+layout(push_constant, std430) uniform Push {
+    uint across; // tiles
+    uint most;   // of a list
+} push;
+
+const uint TILE = 8u; // pixels
 
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;

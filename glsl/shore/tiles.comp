@@ -87,20 +87,24 @@ void main() {
     Range range = range_of(vec4(least), vec4(most), vec4(part));
     float side = sign(frame.depth.x);
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
-    // Of what does not hide the surface, how much more than where contacts begin the most is. What lies beyond the
-    // picture may be among it: it is asked again.
+    // The most of what does not hide the surface; of a surface that need not be level, over where contacts begin. What
+    // lies beyond the picture may be among it: it is asked again.
     vec4 nearest = vec4(NONE);
-    for (int i = 0; i < (asked ? FOURS : 0); ++i) {
-        vec2 four = four_of(first, i);
-        vec4 scene = side * scene_at_four(four, texel);
-        if (GENERAL == 1u) {
-            range = range_at_four(four);
+    for (int row = 0; row < (asked ? HALF : 0); ++row) {
+        for (int column = 0; column < HALF; ++column) {
+            vec2 four = first + 2.0 * vec2(column, row);
+            vec4 scene = side * scene_at_four(four, texel);
+            if (GENERAL == 1u) {
+                range = range_at_four(four);
+            }
+            vec4 over = GENERAL == 1u ? scene - range.contact : scene;
+            nearest = max(nearest, mix(vec4(NONE), over, lessThanEqual(scene, range.seen)));
         }
-        nearest = max(nearest, mix(vec4(NONE), scene - range.contact, lessThanEqual(scene, range.seen)));
     }
     float found = max(max(nearest.x, nearest.y), max(nearest.z, nearest.w));
     bool line = near_shore && found > NONE;
-    uint kind = asked ? (line ? 1u : 0u) | (found > 0.0 ? 2u : 0u) : 0u;
+    bool contact = found > (GENERAL == 1u ? 0.0 : range.contact.x);
+    uint kind = asked ? (line ? 1u : 0u) | (contact ? 2u : 0u) : 0u;
     if (kind != 0u) {
         adds(kind);
     }

@@ -3,8 +3,9 @@
 //!
 //! What a pixel's foam is comes of its place on the surface alone: it needs the scene's depth and no mesh. A strip of the
 //! host's is drawn; then go the tiles that may have some (`shore-tiles`), two by two pixels at a time.
+//! What has foam goes to `composite` as runs of tiles.
 //! Reads: tiles, scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam, RGBA8: along shores,
-//! at contacts, what of the sun's light does not come there, 0 (`contact`'s).
+//! at contacts, what of the sun's light does not come there, 0 (`contact`'s); the runs, their draw.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -148,7 +149,7 @@ impl Shore {
             (11, Resource::buffer(marks)),
         ];
         let both = COMPUTE_READ_WRITE;
-        let added = [list, arguments, marks].map(|own| buffer(own.handle, both, both));
+        let marked = [buffer(marks.handle, both, both)];
         match given.strip() {
             Some(strip) => {
                 gpu.barriers(cmd, &[access::image(image, CLEAR, COLOR_ATTACHMENT)], &[]);
@@ -157,10 +158,11 @@ impl Shore {
                 gpu.barriers(cmd, &[drawn], &[]);
                 let sampled = (8, Resource::Sampled(image.view, gpu.samplers.nearest));
                 let pipeline = &self.strip_tiles;
-                r.descriptors.bind(gpu, cmd, pipeline, &[&lists[..], &[sampled]].concat())?;
+                let own = [(11, Resource::buffer(marks)), sampled];
+                r.descriptors.bind(gpu, cmd, pipeline, &own)?;
                 pipeline.push(gpu, cmd, &tiles.places(r.extent));
                 r.dispatch_over(extent_in_tiles(r.extent), pipeline.local_size);
-                gpu.barriers(cmd, &[access::image(image, COMPUTE_SAMPLED, both)], &added);
+                gpu.barriers(cmd, &[access::image(image, COMPUTE_SAMPLED, both)], &marked);
             }
             None => gpu.barriers(cmd, &[access::image(image, CLEAR, both)], &[]),
         }
@@ -171,15 +173,14 @@ impl Shore {
                 pipeline.push(gpu, cmd, &tiles.places(r.extent));
                 if i > 1 {
                     // Each tile is in one list; all may write all for what a validation layer knows.
-                    gpu.barriers(cmd, &[access::image(image, both, both)], &added);
+                    gpu.barriers(cmd, &[access::image(image, both, both)], &marked);
                 }
                 // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible (barrier).
                 unsafe { gpu.device.cmd_dispatch_indirect(cmd, arguments.handle, 16 * i) };
             }
         }
-        tiles.hand_over(gpu, cmd);
         gpu.barriers(cmd, &[access::image(image, both, AFTER)], &[]);
-        Ok(())
+        tiles.record_runs(r)
     }
 
     /// The host's strip.

@@ -22,8 +22,10 @@ use crate::water::Recording;
 
 /// Edge of a tile in pixels (glsl/include/shore_lists.glsl).
 const TILE: u32 = 8;
-/// Lists of tiles: that may have shoreline foam, contact foam, both; that have any; that may have contact foam on the particles'
-/// water.
+/// Tiles of a run at most (glsl/include/shore_runs.glsl).
+const LONGEST: u32 = 16;
+/// Lists: of tiles that may have shoreline foam, contact foam, both; of runs of those that have any; of tiles that may have
+/// contact foam on the particles' water.
 const LISTS: u32 = 5;
 /// A quad's draw of no tiles; dispatches over none and how many they are (likewise).
 const NO_TILES: [[u32; 4]; 6] =
@@ -32,9 +34,9 @@ const NO_TILES: [[u32; 4]; 6] =
 pub const COAT_DISPATCH: u64 = 64;
 /// Over the fifth.
 pub const CONTACT_DISPATCH: u64 = 80;
-/// How `shoreline` has them: it draws what the lists say and makes the fourth.
-const SHADED: Access = COMPUTE_READ_WRITE.and(INDIRECT);
-/// How `composite` reads that and its draw.
+/// How `shoreline` reads the lists.
+const SHADED: Access = COMPUTE_READ.and(INDIRECT);
+/// How `composite` reads the runs and their draw.
 const READ: Access = COMPUTE_READ.and(VERTEX_READ).and(INDIRECT);
 
 /// Buffers by the size of the picture.
@@ -70,6 +72,7 @@ pub struct Tiles {
     pipelines: [Pipeline; 2],
     /// Of the particles' water, likewise.
     on_particles: [Pipeline; 2],
+    runs: Pipeline,
     /// The draw of the tiles' quads, the dispatches over them.
     arguments: Buffer,
     lists: Lists,
@@ -88,6 +91,7 @@ impl Tiles {
         Ok(Self {
             pipelines: ways(shader::SHORE_TILES_COMP)?,
             on_particles: ways(shader::SHORE_CONTACT_TILES_COMP)?,
+            runs: Pipeline::compute(gpu, shader::SHORE_RUNS_COMP, &[])?,
             arguments: Buffer::new(gpu, name, 96, usage, MemoryLocation::GpuOnly)?,
             lists: Lists::new(gpu, config)?,
         })
@@ -128,7 +132,7 @@ impl Tiles {
             cmd,
             &[],
             &[
-                buffer(marks.handle, COMPUTE_READ_WRITE, COPY_WRITE),
+                buffer(marks.handle, COMPUTE_READ, COPY_WRITE),
                 buffer(arguments.handle, READ, COPY_WRITE),
                 buffer(list.handle, READ, COMPUTE_READ_WRITE),
             ],
@@ -196,11 +200,25 @@ impl Tiles {
         Ok(())
     }
 
-    /// What `shoreline` made goes to `composite`.
-    pub fn hand_over(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
-        let [list, arguments, _] = self.buffers();
-        let over = [list, arguments].map(|own| buffer(own.handle, SHADED, READ));
-        gpu.barriers(cmd, &[], &over);
+    /// The tiles that `shoreline` has marked, as runs for `composite`.
+    pub fn record_runs(&self, r: &Recording<'_>) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let [list, arguments, marks] = self.buffers();
+        let own = |from, to| [list, arguments].map(|own| buffer(own.handle, from, to));
+        let marked = buffer(marks.handle, COMPUTE_READ_WRITE, COMPUTE_READ);
+        gpu.barriers(cmd, &[], &[&own(SHADED, COMPUTE_READ_WRITE)[..], &[marked]].concat());
+        let resources = [
+            (9, Resource::buffer(list)),
+            (10, Resource::buffer(arguments)),
+            (11, Resource::buffer(marks)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.runs, &resources)?;
+        self.runs.push(gpu, cmd, &self.places(r.extent));
+        let vk::Extent2D { width, height } = extent_in_tiles(r.extent);
+        let rows = vk::Extent2D { width: width.div_ceil(LONGEST), height };
+        r.dispatch_over(rows, self.runs.local_size);
+        gpu.barriers(cmd, &[], &own(COMPUTE_READ_WRITE, READ));
+        Ok(())
     }
 
     /// Bytes of buffers.

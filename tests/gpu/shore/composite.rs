@@ -1,5 +1,6 @@
 //! Foam of shores and contacts in the picture: a coat on the scene, under the particles' water as over it.
 
+use ash::vk;
 use glam::{DVec2, DVec3};
 use whitewater::shore::{Edge, ShoreLook};
 use whitewater::water::{Shading, Shadows};
@@ -36,12 +37,21 @@ pub fn look() -> ShoreLook {
 
 /// A bottom under the level that comes up to it, and foam along the map's shore.
 pub fn shot(coasts: &Mapped<'_>, points: &[[f32; 3]]) -> Shot {
-    let size = extent(96, 64);
+    over_bottom(coasts, points, extent(96, 64), |x| 0.02 * x)
+}
+
+/// The same in a picture of such a size, over a bottom that is so many metres of depth behind the level by the pixel's x.
+fn over_bottom(
+    coasts: &Mapped<'_>,
+    points: &[[f32; 3]],
+    size: vk::Extent2D,
+    behind: impl Fn(f32) -> f32,
+) -> Shot {
     let mut shot = Shot::new(size, Lens::Standard, 0.2, points);
     let level = water(&shot, DVec3::Y, 0.0);
     shot.scene_depth(|x, y| {
         let z = level.at([f64::from(x) + 0.5, f64::from(y) + 0.5]).depth.value;
-        (z > 0.0 && z < 90.0).then(|| z + 0.02 * f64::from(x))
+        (z > 0.0 && z < 90.0).then(|| z + f64::from(behind(x as f32)))
     });
     shot.settings.shore = look();
     shot.settings.light.irradiance = [2.0, 3.0, 4.0];
@@ -75,12 +85,13 @@ pub fn coated(shot: &Shot, texel: [u8; 4], under: [f32; 4], over_contact: bool) 
     color
 }
 
-/// Filters know a place to some u of the image's width, and a channel changes by no more than about 2 from texel to texel;
-/// sums and products are some tens.
+/// Filters know a place to some u of the image's width, here of 96 texels, and a channel changes by no more than about 2 from
+/// texel to texel; sums and products are some tens.
 pub const OFF: f64 = 2.0 * 4.0 * 96.0 * U + 40.0 * U;
 
 pub fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
     let shore = drawn.shore.as_ref().expect("foam");
+    let most = OFF * (f64::from(shot.size.width) / 96.0).max(1.0);
     let mut seen = 0;
     for (i, texel) in shore.data.iter().enumerate() {
         let (found, under) = (drawn.output.data[i], shot.color[i]);
@@ -92,7 +103,7 @@ pub fn check(name: &str, shot: &Shot, drawn: &Drawn) -> u32 {
         let expected = coated(shot, *texel, under, true);
         for c in 0..4 {
             let off = (f64::from(found[c]) - expected[c]).abs();
-            assert!(off < OFF, "{name}: {i}: {found:?}, expected {expected:?}, foam {texel:?}");
+            assert!(off < most, "{name}: {i}: {found:?}, expected {expected:?}, foam {texel:?}");
         }
     }
     seen
@@ -130,6 +141,22 @@ fn the_coat_lies_on_the_scene() {
         pictures.push(drawn.output);
     }
     compare::same_color("shore-ways", &pictures[0], &pictures[1]);
+}
+
+/// Foam all over pictures wider than a run of tiles is drawn whole, up to their edges.
+#[test]
+fn rows_of_any_length_are_drawn() {
+    let gpu = Gpu::shared();
+    let coasts = coasts(&gpu);
+    for width in [128, 137, 300] {
+        let shot = over_bottom(&coasts, &[], extent(width, 40), |_| 0.1);
+        for way in WAYS {
+            let config = Config { composite: Some(way), ..with_shore(shot.size, Edge::Smooth) };
+            let drawn = Rig::lit(&gpu, &config, 1).draw(&shot);
+            let seen = check(&format!("{width}, {way:?}"), &shot, &drawn);
+            assert!(seen > 40 * width / 2, "{width}, {way:?}: {seen} pixels");
+        }
+    }
 }
 
 /// What a frame without foam gives is what a renderer that knows none gives, bit for bit; and so is each pixel far from it.

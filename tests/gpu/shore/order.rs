@@ -41,32 +41,33 @@ struct Has {
     contacts: usize,
 }
 
-/// A buffer's uses: by what fills it and lists tiles; by what a strip has of it and the shading of each of three lists has;
-/// by what lists and shades tiles of the particles' water; by the coat's draw.
+/// A buffer's uses: by what fills it and lists tiles; by what a strip has of it, the shading of each of three lists, and what
+/// makes runs of tiles; by what lists and shades tiles of the particles' water; by the coat's draw.
 fn uses(
     has: Has,
     filled: &[(By, Mask)],
-    [strip, adds]: [&[(By, Mask)]; 2],
+    [strip, shading, runs]: [&[(By, Mask)]; 3],
     contacts: &[(By, Mask)],
     draw: &[(By, Mask)],
 ) -> Uses {
     let (strip, contacts) = (strip.repeat(has.strip), contacts.repeat(has.contacts));
-    [filled, &strip, &adds.repeat(3), &contacts, draw].concat()
+    [filled, &strip, &shading.repeat(3), runs, &contacts, draw].concat()
 }
 
 /// Which tiles have foam.
 fn uses_of_marks(has: Has) -> [Uses; 1] {
     let adds = [compute(BOTH)];
-    [uses(has, &[UPDATE], [&adds, &adds], &[], &[])]
+    [uses(has, &[UPDATE], [&adds, &adds, &[compute(READ)]], &[], &[])]
 }
 
-/// The lists of the surface, of which the last grows as the others are read; that of the particles' water.
-fn uses_of_lists(has: Has) -> [Uses; 2] {
-    let (adds, none) = ([compute(BOTH)], [compute(Mask::empty())]);
-    let contacts = [compute(WRITE), compute(READ)];
+/// The lists of the surface; the runs of tiles that have foam; the list of the particles' water.
+fn uses_of_lists(has: Has) -> [Uses; 3] {
+    let (writes, reads, none) = ([compute(WRITE)], [compute(READ)], [compute(Mask::empty())]);
+    let (idle, undrawn) = (none.repeat(2), [(By::Graphics, Mask::empty())]);
     [
-        uses(has, &[compute(WRITE)], [&adds, &adds], &none.repeat(2), &[(By::Graphics, READ)]),
-        uses(has, &none, [&none, &none], &contacts, &[(By::Graphics, Mask::empty())]),
+        uses(has, &writes, [&[], &reads, &none], &idle, &undrawn),
+        uses(has, &none, [&[], &none, &writes], &idle, &[(By::Graphics, READ)]),
+        uses(has, &none, [&[], &none, &none], &[writes, reads].concat(), &undrawn),
     ]
 }
 
@@ -75,13 +76,12 @@ fn uses_of_lists(has: Has) -> [Uses; 2] {
 fn uses_of_arguments(has: Has) -> Vec<Uses> {
     let none = compute(Mask::empty());
     let idle = [none, none, NO_COMMAND];
-    let lists = [compute(READ), COMMAND];
+    let (lists, unread) = ([compute(READ), COMMAND], [none, NO_COMMAND]);
     let contacts = [compute(BOTH), compute(READ), COMMAND];
-    let drawn = [compute(BOTH), NO_COMMAND];
     let all = [
-        uses(has, &[UPDATE, compute(BOTH)], [&[none], &lists], &idle, &[NO_COMMAND]),
-        uses(has, &[UPDATE, none], [&drawn[..1], &drawn], &idle, &[COMMAND]),
-        uses(has, &[UPDATE, none], [&[none], &[none, NO_COMMAND]], &contacts, &[NO_COMMAND]),
+        uses(has, &[UPDATE, compute(BOTH)], [&[], &lists, &[none]], &idle, &[NO_COMMAND]),
+        uses(has, &[UPDATE, none], [&[], &unread, &[compute(BOTH)]], &idle, &[COMMAND]),
+        uses(has, &[UPDATE, none], [&[], &unread, &[none]], &contacts, &[NO_COMMAND]),
     ];
     all[..2 + has.contacts].to_vec()
 }
@@ -216,13 +216,15 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
         let arguments = spy::buffers_of_size(96).into_iter().find(|own| beside.contains(own));
         let arguments = arguments.expect("in a set with the marks");
         // Of a frame's barriers, of which the first is after the frame before, those that the layer sees to be missing.
-        let last = 4 + strip + 2 * contacts;
+        let last = 3 + 2 * contacts;
         let seen: [&dyn Fn(usize) -> bool; 3] =
-            [&|at| at < 2, &|at| at == 0 || at == last, &|at| at < 3];
-        for (name, buffer, uses, count, seen) in [
-            ("marks", marks, uses_of_marks(has).to_vec(), 4, seen[0]),
-            ("list", list, uses_of_lists(has).to_vec(), 5 + 2 * contacts, seen[1]),
-            ("arguments", arguments, uses_of_arguments(has), 6 + 2 * contacts, seen[2]),
+            [&|at| at < 2, &|at| at == 0 || at == 2 || at == last, &|at| at < 3];
+        // Which of them is that before the runs.
+        let of_marks = 4 + strip;
+        for (name, buffer, uses, [runs, barriers], seen) in [
+            ("marks", marks, uses_of_marks(has).to_vec(), [of_marks, of_marks + 1], seen[0]),
+            ("list", list, uses_of_lists(has).to_vec(), [2, last + 1], seen[1]),
+            ("arguments", arguments, uses_of_arguments(has), [3, last + 2], seen[2]),
         ] {
             let name = format!("{way}, {name}");
             let wrong_of = |events: &[Event]| -> Vec<String> {
@@ -230,7 +232,6 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
             };
             assert_eq!(wrong_of(&good), Vec::<String>::new(), "{name}");
             let own = |event: &&Event| matches!(event, Event::Barrier { buffer: Some(of), .. } if *of == buffer);
-            let barriers = count + strip;
             assert_eq!(good.iter().filter(own).count(), 2 * barriers, "{name}: of two frames");
             assert_eq!(gpu.expect_messages(), Vec::<String>::new(), "{name}: no fault, no message");
             // Before the first there is nothing.
@@ -240,11 +241,10 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
                 let wrong = wrong_of(&events);
                 let messages = gpu.expect_messages();
                 println!("{name} {nth}: {} uses, {} messages", wrong.len(), messages.len());
-                // Before the tiles of the particles' water, two of which are for those who take a buffer for one: of its own
-                // list and arguments all is ordered before, of the others it is after.
-                let spare = contacts > 0
-                    && buffer != marks
-                    && [2, 3].contains(&(barriers - nth % barriers));
+                // Those before the runs and before the tiles of the particles' water are for those who take a buffer for one:
+                // of their own list and arguments all is ordered before; of the runs it is after the latter.
+                let spare =
+                    buffer != marks && (runs..=runs + 2 * contacts).contains(&(nth % barriers));
                 assert!(
                     spare || !wrong.is_empty(),
                     "{name}: without barrier {nth} nothing is wrong"
