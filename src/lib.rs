@@ -119,7 +119,7 @@
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |
 //! | surface noise: sprites (`noise`) | 16 n | 1.0 MiB for 65 536 | 160 MB for 10 million |
-//! | diffuse particles: words, depths, thickness, normals, light (`diffuse`) | 88 w h | 77.3 MiB | 174.0 MiB |
+//! | diffuse particles: words, depths, thickness, normals, light, tiles (`diffuse`) | 88 w h | 77.4 MiB | 174.1 MiB |
 //! | bubble foam: depth, colour, three layers and lists (`bubbles`) | 30½ w h | 26.8 MiB | 60.3 MiB |
 //! | the same, blobs (`bubbles`) | 64 a blob | 0.3 MiB for 5000 | |
 //! | those that diffuse foam becomes (`bubbles.hand_over`) | 36 a blob | 2.3 MiB for 65 536 | |
