@@ -6,6 +6,7 @@ use gpu_allocator::MemoryLocation;
 
 use crate::contract::Config;
 use crate::error::Error;
+use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, COMPUTE_READ, COMPUTE_READ_WRITE, COPY_WRITE, INDIRECT, buffer};
 use crate::gpu::buffer::Buffer;
@@ -16,8 +17,8 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Edge of a tile in pixels (glsl/include/foam_tiles.glsl).
-const TILE: u32 = 8;
+/// How often a picture of tiles is halved: they are 8 pixels wide and high (glsl/include/foam_tiles.glsl).
+const LEVEL: u32 = 3;
 /// A dispatch over none, and how many there are (likewise).
 const NONE: [u32; 4] = [0, 0, 1, 0];
 /// Once they are listed.
@@ -29,13 +30,8 @@ pub struct Tiles {
     list: Buffer,
 }
 
-fn extent_in_tiles(extent: vk::Extent2D) -> vk::Extent2D {
-    let vk::Extent2D { width, height } = extent;
-    vk::Extent2D { width: width.div_ceil(TILE), height: height.div_ceil(TILE) }
-}
-
 fn list(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
-    let vk::Extent2D { width, height } = extent_in_tiles(config.extent);
+    let vk::Extent2D { width, height } = reduced(config.extent, LEVEL);
     let bytes = 4 * (NONE.len() as u64 + u64::from(width) * u64::from(height));
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER
         | vk::BufferUsageFlags::INDIRECT_BUFFER
@@ -69,7 +65,7 @@ impl Tiles {
         let occluders = Resource::Sampled(occluders.view, gpu.samplers.nearest);
         let resources = [(0, r.uniforms), (1, occluders), (9, self.resource())];
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
-        r.dispatch_over(extent_in_tiles(r.extent), self.pipeline.local_size);
+        r.dispatch_over(reduced(r.extent, LEVEL), self.pipeline.local_size);
         gpu.barriers(cmd, &[], &[buffer(list, COMPUTE_READ_WRITE, READ)]);
         Ok(())
     }

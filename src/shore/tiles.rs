@@ -9,6 +9,7 @@ use gpu_allocator::MemoryLocation;
 use super::Given;
 use crate::contract::Config;
 use crate::error::Error;
+use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     Access, COMPUTE_READ, COMPUTE_READ_WRITE, COPY_WRITE, INDIRECT, VERTEX_READ, buffer,
@@ -20,8 +21,8 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Edge of a tile in pixels (glsl/include/shore_lists.glsl).
-const TILE: u32 = 8;
+/// How often a picture of tiles is halved: they are 8 pixels wide and high (glsl/include/shore_lists.glsl).
+const LEVEL: u32 = 3;
 /// Tiles of a run at most (glsl/include/shore_runs.glsl).
 const LONGEST: u32 = 16;
 /// Lists: of tiles that may have shoreline foam, contact foam, both; of runs of those that have any; of tiles that may have
@@ -50,8 +51,7 @@ struct Lists {
 
 /// Tiles of an extent.
 pub fn extent_in_tiles(extent: vk::Extent2D) -> vk::Extent2D {
-    let vk::Extent2D { width, height } = extent;
-    vk::Extent2D { width: width.div_ceil(TILE), height: height.div_ceil(TILE) }
+    reduced(extent, LEVEL)
 }
 
 impl Lists {
