@@ -10,11 +10,17 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+// `counted` is a test's.
+#[allow(dead_code)]
+#[path = "build/uniforms.rs"]
+mod uniforms;
+
 fn main() {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo"));
     let glsl = root.join("glsl");
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=build/uniforms.rs");
     println!("cargo:rerun-if-env-changed=WHITEWATER_SPIRV_OUT");
 
     if !cfg!(any(feature = "shaderc", feature = "glslc")) {
@@ -57,7 +63,7 @@ fn compile_all(glsl: &Path, compiler: &Compiler, out: &Path) {
         println!("cargo:rerun-if-changed={}", path.display());
         let name = relative_name(glsl, path);
         let file = format!("{}.spv", name.replace('/', "."));
-        let words = compiler.compile(path, &name, true);
+        let words = uniforms::hoisted(&compiler.compile(path, &name, true));
         let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
         fs::write(out.join(&file), &bytes).expect("OUT_DIR is writable");
         // The optimiser drops the names: the interface is read from a second, plain compilation.

@@ -5,6 +5,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+// `hoisted` is the build's.
+#[allow(dead_code)]
+#[path = "../build/uniforms.rs"]
+mod uniforms;
+
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     std::fs::read_dir(folder)
         .unwrap_or_else(|error| panic!("{}: {error}", folder.display()))
@@ -28,4 +33,18 @@ fn shipped_spirv_is_what_the_glsl_compiles_to() {
     for (name, bytes) in &built {
         assert!(bytes == &shipped[name], "spirv/{name} is stale; {renew}");
     }
+}
+
+#[test]
+fn uniforms_are_read_where_functions_begin() {
+    let mut all = 0;
+    for (name, bytes) in files(Path::new(env!("OUT_DIR"))) {
+        if name.ends_with(".spv") {
+            let words = bytes.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+            let (reads, late) = uniforms::counted(&words.collect::<Vec<_>>());
+            assert_eq!(late, 0, "{name}: of {reads} reads of uniforms");
+            all += reads;
+        }
+    }
+    assert!(all > 1000, "only {all} reads of uniforms were found");
 }
