@@ -1,6 +1,8 @@
 // Colour of the scene, with the foam that lies on its water as a coat. Needs frame.glsl.
 // Reads: scene colour, shoreline and contact foam.
 
+#include "coat_light.glsl"
+
 // 1: there may be some; else it is not read.
 layout(constant_id = 24) const uint SHORE = 0;
 
@@ -19,19 +21,18 @@ vec4 coat_at(vec2 pixel) {
     return textureLod(shore_foam, place, 0.0);
 }
 
-vec3 with_contact(vec3 c, float amount, float lost) {
-    vec3 light = mix(vec3(1.0), under(vec3(1.0 - lost)), frame.contact_color.w);
-    return mix(c, frame.contact_color.rgb * light, amount);
+vec3 with_contact(vec3 c, float amount, float lost, CoatLight light) {
+    return mix(c, light.contact - lost * light.contact_lost, amount);
 }
 
-vec3 coated(vec3 c, vec4 coat) {
-    c = mix(c, frame.shore_color.rgb * under(vec3(1.0 - coat.z)), coat.x * frame.shore_color.w);
-    return with_contact(c, coat.y, coat.z);
+vec3 coated(vec3 c, vec4 coat, CoatLight light) {
+    c = mix(c, light.shore.rgb - coat.z * light.shore_lost, coat.x * light.shore.w);
+    return with_contact(c, coat.y, coat.z, light);
 }
 
 // What of the scene is seen through both.
-float uncovered(vec4 coat) {
-    return (1.0 - coat.x * frame.shore_color.w) * (1.0 - coat.y);
+float uncovered(vec4 coat, CoatLight light) {
+    return (1.0 - coat.x * light.shore.w) * (1.0 - coat.y);
 }
 
 // At a place, filtered.
@@ -43,5 +44,5 @@ vec3 uncoated_at(vec2 pixel) {
 
 vec3 scene_at(vec2 pixel) {
     vec3 c = uncoated_at(pixel);
-    return SHORE == 1u ? coated(c, coat_at(pixel)) : c;
+    return SHORE == 1u ? coated(c, coat_at(pixel), coat_light()) : c;
 }

@@ -577,7 +577,7 @@ vec3 shade(vec2 pixel, float front) {
         for (bool go = SHADOW + CAST > 0u && amount > 0.0; go; go = false) {
             lost = sun_lost(z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
         }
-        c = with_contact(c, amount, lost);
+        c = with_contact(c, amount, lost, coat_light());
     }
     if (DIFFUSE == 1u && frame.target.z >= FOAM_TOO) {
         float over = intensity_of(texelFetch(diffuse_thickness, ivec2(pixel), 0).x);

@@ -30,7 +30,7 @@ void main() {
     for (; pixel.x < end && pixel.y < int(frame.extent.y); pixel.x += 8) {
         vec4 coat = texelFetch(shore_foam, pixel, 0);
         if (coat.x + coat.y > 0.0) {
-            imageStore(target, pixel + ivec2(frame.target.xy), vec4(coated(uncoated_at(vec2(pixel) + 0.5), coat), 1.0));
+            imageStore(target, pixel + ivec2(frame.target.xy), vec4(coated(uncoated_at(vec2(pixel) + 0.5), coat, coat_light()), 1.0));
         }
     }
 }

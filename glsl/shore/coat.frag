@@ -8,13 +8,22 @@
 // 1: alpha is how much of the output stays, which is the scene's colour.
 layout(constant_id = 0) const uint BLENDED = 1;
 
+// Not from the block: a CPU's driver reads that for each pixel by itself.
+layout(location = 0) flat in CoatLight light;
+layout(location = 4) flat in vec2 target;
+
 layout(location = 0) out vec4 color;
 
 void main() {
-    vec2 pixel = gl_FragCoord.xy - frame.target.xy;
+    vec2 pixel = gl_FragCoord.xy - target;
     vec4 coat = texelFetch(shore_foam, ivec2(pixel), 0);
-    if (coat.x + coat.y == 0.0) {
-        discard;
+    if (BLENDED == 1u) {
+        // Where there is none all of the output stays.
+        color = vec4(coated(vec3(0.0), coat, light), uncovered(coat, light));
+    } else {
+        if (coat.x + coat.y == 0.0) {
+            discard;
+        }
+        color = vec4(coated(uncoated_at(pixel), coat, light), 1.0);
     }
-    color = BLENDED == 1u ? vec4(coated(vec3(0.0), coat), uncovered(coat)) : vec4(coated(uncoated_at(pixel), coat), 1.0);
 }

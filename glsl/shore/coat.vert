@@ -1,8 +1,9 @@
 #version 460
 // Pass `composite`, raster: a quad a run of tiles that have foam on the scene's water.
-// Reads: list. Writes: its corners.
+// Reads: list. Writes: its corners, what is the same in all of it.
 
 #include "frame.glsl"
+#include "coat_light.glsl"
 #include "shore_runs.glsl"
 
 layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
@@ -11,7 +12,12 @@ layout(push_constant, std430) uniform Push {
     uint first;  // of the list
 } push;
 
+layout(location = 0) flat out CoatLight light;
+layout(location = 4) flat out vec2 target;
+
 void main() {
+    light = coat_light();
+    target = frame.target.xy;
     uint run = list[push.first + gl_InstanceIndex];
     uint tile = first_of_run(run);
     uvec2 to = uvec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * uvec2(tiles_of_run(run), 1u);

@@ -5,6 +5,7 @@
 // Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
 // foam, contact foam, what of the sun's light does not come there.
 
+#extension GL_EXT_control_flow_attributes : require
 #include "frame.glsl"
 #include "shore.glsl"
 #include "shoreline.glsl"
@@ -131,7 +132,8 @@ bool shaded_together(uvec2 first, bool listed) {
     vec2 texture_size = vec2(textureSize(scene_depth, 0));
     vec4 devices = textureGather(scene_depth, (middle + frame.scene_origin.xy) / texture_size).wzxy;
     bool foams = false;
-    for (int i = 0; i < 4; ++i) {
+    // Unrolled, as what a loop reads of a buffer a CPU reads for each lane by itself.
+    [[unroll]] for (int i = 0; i < 4; ++i) {
         uvec2 to = uvec2(i & 1, i >> 1);
         vec2 off = vec2(to) - 0.5;
         float here = v + dot(dv, off);

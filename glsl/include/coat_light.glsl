@@ -1,0 +1,16 @@
+// What foam on the scene's water reflects. Needs frame.glsl.
+
+// In all light; less by `lost` where none of the sun's comes there.
+struct CoatLight {
+    vec4 shore;        // w: opacity
+    vec3 shore_lost;
+    vec3 contact;
+    vec3 contact_lost;
+};
+
+CoatLight coat_light() {
+    vec3 lost = 1.0 - frame.shade.rgb;
+    vec3 shore = frame.shore_color.rgb;
+    vec3 contact = frame.contact_color.rgb;
+    return CoatLight(frame.shore_color, shore * lost, contact, contact * lost * frame.contact_color.w);
+}
