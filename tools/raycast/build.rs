@@ -3,11 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+// As in the library's build, whose passes these are timed beside.
+#[allow(dead_code)]
+#[path = "../../build/uniforms.rs"]
+mod uniforms;
+
 fn main() {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo"));
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("set by cargo"));
     let glsl = root.join("glsl");
     println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=../../build/uniforms.rs");
     println!("cargo:rerun-if-changed={}", glsl.display());
     println!("cargo:rerun-if-changed={}", glsl.join("include").display());
     for include in fs::read_dir(glsl.join("include")).expect("glsl/include").flatten() {
@@ -17,9 +23,18 @@ fn main() {
         if path.extension().is_some_and(|e| e == "comp") {
             println!("cargo:rerun-if-changed={}", path.display());
             let name = path.file_name().expect("a file has a name").to_string_lossy().into_owned();
-            compile(&path, &glsl.join("include"), &name, &out.join(format!("{name}.spv")));
+            let to = out.join(format!("{name}.spv"));
+            compile(&path, &glsl.join("include"), &name, &to);
+            let words = fs::read(&to).expect("it was written");
+            let words: Vec<_> = words.chunks_exact(4).map(word).collect();
+            let bytes = uniforms::hoisted(&words).into_iter().flat_map(u32::to_le_bytes);
+            fs::write(&to, bytes.collect::<Vec<_>>()).expect("OUT_DIR is writable");
         }
     }
+}
+
+fn word(bytes: &[u8]) -> u32 {
+    u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
 }
 
 #[cfg(feature = "shaderc")]
