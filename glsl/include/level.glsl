@@ -18,7 +18,7 @@ layout(set = 0, binding = 7, std140) uniform Levels {
     vec4 near;
 } levels;
 
-// The coarser levels' tiles that hold something near enough, found by `reduce`.
+// The coarser levels' tiles that hold something near enough.
 const uint MOST_GROUPS = 65535u; // of a dispatch, in each direction
 
 struct Marked {

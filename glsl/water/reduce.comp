@@ -3,7 +3,7 @@
 // (but no drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1,
 // Listing A.12).
 // Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan,
-// work of every tile, marks and list of the coarser levels' tiles, levels needed.
+// work of every tile.
 
 #include "frame.glsl"
 #include "plan.glsl"
@@ -19,11 +19,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D smooth_a;
 layout(set = 0, binding = 4, r32f) uniform writeonly image2D smooth_b;
 layout(set = 0, binding = 5, r32ui) uniform writeonly uimage2D plan;
 // Most iterations + 1, 0 without water; from bit 16 on the coarsest level needed in it, at bit 24
-// whether one may show. Of a coarser level's tile until `level` has made it: 2 where something in it needs it,
-// 1 beside such, else 0.
-layout(set = 0, binding = 6, std430) buffer Tiles { uint tile_work[]; };
-layout(set = 0, binding = 8, std430) buffer Counts { Marked marked; };
-layout(set = 0, binding = 9, std430) writeonly buffer List { uint list[]; };
+// whether one may show.
+layout(set = 0, binding = 6, std430) writeonly buffer Tiles { uint tile_work[]; };
 
 #include "foam_texels.glsl"
 #include "beside.glsl"
@@ -62,27 +59,6 @@ float reduced(ivec2 block, out float best, out bool other) {
     return LEVEL < 2u ? best : block_depth(block << LEVEL, min((block + 1) << LEVEL, extent), best);
 }
 
-// Has the coarser levels made over a tile and, for their neighbourhoods, in the tiles beside.
-void mark(ivec2 own, uint coarsest) {
-    for (uint i = 1u; i <= coarsest; ++i) {
-        ivec4 rect = levels.level[i].rect;
-        ivec2 over = own >> i;
-        for (int k = 0; k < 9; ++k) {
-            ivec2 at = over + ivec2(k % 3, k / 3) - 1;
-            if (all(greaterThanEqual(at, ivec2(0))) && all(lessThan(16 * at, rect.zw))) {
-                at += rect.xy / 16;
-                uint tile = uint(at.y * levels.atlas.z + at.x);
-                if (atomicMax(tile_work[tile], k == 4 ? 2u : 1u) == 0u) {
-                    uint slot = atomicAdd(marked.count, 1u);
-                    list[slot] = tile;
-                    atomicMax(marked.groups[0], min(slot + 1u, MOST_GROUPS));
-                    atomicMax(marked.groups[1], 1u + slot / MOST_GROUPS);
-                }
-            }
-        }
-    }
-}
-
 void main() {
     if (gl_LocalInvocationIndex == 0u) {
         nearest_bits = 0u;
@@ -114,9 +90,5 @@ void main() {
         // A pixel's own ray is less than a texel beside that of its block.
         uint shows = near < 0.9 ? 0u : 1u;
         tile_work[gl_WorkGroupID.y * levels.atlas.z + gl_WorkGroupID.x] = most | coarsest << 16 | shows << 24;
-        if (coarsest > 0u) {
-            atomicMax(marked.needed, coarsest);
-            mark(ivec2(gl_WorkGroupID.xy), coarsest);
-        }
     }
 }

@@ -6,8 +6,8 @@
 //! iterations for the same width. The levels share the smoothing images, and so do those of the back
 //! sheet (pass `back`); the tile list holds the tiles of all of them, so that every form of the smoothing
 //! runs all in its one dispatch or draw.
-//! Reads: depth, each tile's mark, the list of those marked. Writes: for the coarser ones both smoothing
-//! images, plan, each tile's work.
+//! Reads: depth, each tile's work. Writes: marks and list of the tiles that are made, the coarsest level needed; for
+//! those tiles both smoothing images, plan, each tile's work.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -22,7 +22,7 @@ use crate::frame::{Lens, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, FRAGMENT_SAMPLED,
-    INDIRECT, buffer,
+    INDIRECT, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -141,11 +141,16 @@ impl SmoothingLevels {
 
 shader::assert_layout!(shader::WATER_LEVEL_COMP, "Levels", SmoothingLevels { level, atlas, near });
 
+struct Parts {
+    mark: Pipeline,
+    reduce: Pipeline,
+}
+
 /// The pass.
 pub struct Level {
-    /// There is none when the configuration never goes coarser.
-    reduce: Option<Pipeline>,
-    /// What `reduce` found to be made, [`NONE_MARKED`] before it.
+    /// There are none when the configuration never goes coarser.
+    parts: Option<Parts>,
+    /// What is to be made, [`NONE_MARKED`] from `reduce` on.
     pub marked: Buffer,
 }
 
@@ -156,10 +161,14 @@ impl Level {
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
             | vk::BufferUsageFlags::INDIRECT_BUFFER
             | vk::BufferUsageFlags::TRANSFER_DST;
+        let parts = || -> Result<_, Error> {
+            Ok(Parts {
+                mark: Pipeline::compute(gpu, shader::WATER_LEVEL_MARK_COMP, &[])?,
+                reduce: Pipeline::compute(gpu, shader::WATER_LEVEL_COMP, &rule)?,
+            })
+        };
         Ok(Self {
-            reduce: (coarsening > 0)
-                .then(|| Pipeline::compute(gpu, shader::WATER_LEVEL_COMP, &rule))
-                .transpose()?,
+            parts: (coarsening > 0).then(parts).transpose()?,
             marked: Buffer::new(gpu, "water/level/marked", 4 * 5, usage, MemoryLocation::GpuOnly)?,
         })
     }
@@ -175,12 +184,29 @@ impl Level {
     ) -> Result<(), Error> {
         let scope = r.begin(c"level");
         let (gpu, cmd) = (r.gpu, r.cmd);
-        let listed = [
-            buffer(self.marked.handle, COMPUTE_READ_WRITE, COMPUTE_READ.and(INDIRECT)),
-            buffer(tiles.list.handle, COMPUTE_WRITE, COMPUTE_READ),
-        ];
-        gpu.barriers(cmd, &[], &listed);
-        if let Some(pipeline) = &self.reduce {
+        let work = buffer(tiles.work.handle, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE);
+        if let Some(Parts { mark, .. }) = &self.parts {
+            // In the place of the list that `tiles` writes.
+            let list = buffer(tiles.list.handle, COMPUTE_READ.and(VERTEX_READ), COMPUTE_WRITE);
+            gpu.barriers(cmd, &[], &[work, list]);
+            r.descriptors.bind(
+                gpu,
+                cmd,
+                mark,
+                &[
+                    (0, r.uniforms),
+                    (6, Resource::buffer(&tiles.work)),
+                    (7, r.levels),
+                    (8, Resource::buffer(&self.marked)),
+                    (9, Resource::buffer(&tiles.list)),
+                ],
+            )?;
+            // A tile is 16 texels wide and high.
+            r.dispatch_over(reduced(r.extent, reduce.level + 4), mark.local_size);
+        }
+        let marked = buffer(self.marked.handle, COMPUTE_READ_WRITE, COMPUTE_READ.and(INDIRECT));
+        gpu.barriers(cmd, &[], &[marked]);
+        if let Some(Parts { reduce: pipeline, .. }) = &self.parts {
             // What `reduce` wrote is beside what is written here.
             let beside = |image| access::image(image, COMPUTE_WRITE, COMPUTE_WRITE);
             gpu.barriers(
@@ -191,7 +217,7 @@ impl Level {
                     beside(&smooth.b),
                     beside(&reduce.plan),
                 ],
-                &[buffer(tiles.work.handle, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE)],
+                &[work, buffer(tiles.list.handle, COMPUTE_WRITE, COMPUTE_READ)],
             );
             r.descriptors.bind(
                 gpu,
@@ -209,7 +235,7 @@ impl Level {
                     (9, Resource::buffer(&tiles.list)),
                 ],
             )?;
-            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound; `reduce` wrote the groups.
+            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound; the groups are visible (barrier).
             unsafe { gpu.device.cmd_dispatch_indirect(cmd, self.marked.handle, 0) };
         }
         gpu.barriers(

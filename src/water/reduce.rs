@@ -3,7 +3,7 @@
 //! pixel's iterations and step from the depth before any smoothing.
 //!
 //! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
-//! plan, each tile's work, marks and list of the coarser levels' tiles, the coarsest level needed.
+//! plan, each tile's work; that of the coarser levels' tiles, and what `level` counts of them, is emptied.
 
 use ash::vk;
 
@@ -17,7 +17,7 @@ use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ,
-    COPY_WRITE, FRAGMENT_SAMPLED, INDIRECT, VERTEX_READ, buffer,
+    COPY_WRITE, FRAGMENT_SAMPLED, INDIRECT, buffer,
 };
 use crate::gpu::descriptors::Resource;
 use crate::gpu::image::{Image, ImageDesc};
@@ -156,8 +156,6 @@ impl Reduce {
             &[
                 buffer(marked, COPY_WRITE, COMPUTE_READ_WRITE),
                 buffer(work, COPY_WRITE, COMPUTE_READ_WRITE),
-                // In the place of the list that `tiles` writes.
-                buffer(tiles.list.handle, COMPUTE_READ.and(VERTEX_READ), COMPUTE_WRITE),
             ],
         );
         let [foam, spray, diffuse, bubbles] = depths.beside(r);
@@ -174,8 +172,6 @@ impl Reduce {
                 (5, Resource::storage(&self.plan)),
                 (6, Resource::buffer(&tiles.work)),
                 (7, r.levels),
-                (8, Resource::buffer(&level.marked)),
-                (9, Resource::buffer(&tiles.list)),
                 foam,
                 spray,
                 diffuse,
