@@ -25,11 +25,12 @@ struct Diffuse {
 Diffuse diffuse_of(vec3 position, uint kind, float radius, float age, uint id) {
     Diffuse p;
     p.centre = (frame.view * vec4(position, 1.0)).xyz;
+    // NaN and infinity reach no footprint: what is not finite lies behind the eye, and is drawn by none.
+    p.centre = all(lessThan(abs(p.centre), vec3(EMPTY))) ? p.centre : vec3(0.0, 0.0, EMPTY);
     p.kind = kind;
     // Between a fifth and the whole, so that they look irregular.
     p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.diffuse.x) / float(id % 5u + 1u) * (kind == BUBBLE ? 0.5 : 1.0);
-    bool drawn = age < 1.0 && -p.centre.z > frame.depth.z && -p.centre.z < EMPTY
-        && all(lessThan(abs(p.centre.xy), vec2(EMPTY)));
+    bool drawn = age < 1.0 && -p.centre.z > frame.depth.z;
     p.life = drawn ? life_of(age) : 0.0;
     return p;
 }
@@ -68,6 +69,10 @@ struct Footprint {
 const int COVERED = 4;
 const vec4 MIDDLES = vec4(0.5, 1.5, 2.5, 3.5);
 
+// Blocks of so many by so many pixels that a footprint is summed over at most. Only one that is under two pixels high or
+// wide has more than one: a row or two, of pixels that are far from square.
+const int MOST_BLOCKS = 8192;
+
 bool is_small(ivec4 box) {
     return all(lessThan(box.zw - box.xy, ivec2(COVERED)));
 }
@@ -85,6 +90,7 @@ uvec4 bits_of(bvec4 which, uint first) {
 // Of a kind, whose disc has a middle and half-axes in pixels.
 Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     Footprint f;
+    reach = max(reach, vec2(1.0e-12)); // of the tiniest, far off, nothing is left
     vec2 wide = reach * max(1.0, LEAST_REACH / min(reach.x, reach.y));
     f.middle = clamp(middle, vec2(-1.0e6), vec2(1.0e6));
     f.scale = sign(frame.slope.xy) / wide;
@@ -93,10 +99,11 @@ Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
     f.own = told_of(min(wide.x, wide.y));
     f.covered = 0u;
     bool small = is_small(f.box);
-    // Of those that are not small only such with pixels that are far from square.
-    bool more = small || f.own < 1.0;
+    // Counted beforehand: a loop up to the box's end has none for some bits.
+    ivec2 blocks = clamp(f.box.zw - f.box.xy, ivec2(0), ivec2(COVERED * MOST_BLOCKS - 1)) / COVERED + 1;
+    int left = small ? 1 : f.own < 1.0 ? min(blocks.x * blocks.y, MOST_BLOCKS) : 0;
     float sum = 0.0;
-    for (ivec2 at = f.box.xy; more;) {
+    for (ivec2 at = f.box.xy; left > 0; --left) {
         vec4 x = (vec4(at.x) + MIDDLES - f.middle.x) * f.scale.x;
         vec4 y = (vec4(at.y) + MIDDLES - f.middle.y) * f.scale.y;
         vec4 rest = 1.0 - x * x;
@@ -109,7 +116,6 @@ Footprint footprint_at(vec2 middle, vec2 reach, uint kind) {
         at.x += COVERED;
         bool last = at.x > f.box.z;
         at = last ? ivec2(f.box.x, at.y + COVERED) : at;
-        more = !small && at.y <= f.box.w;
     }
     float energy = 3.14159265 * reach.x * reach.y * diffuse_mean(kind);
     f.even = f.own < 1.0 ? (1.0 - f.own) * energy / max(sum, 1.0e-6) : 0.0;

@@ -28,7 +28,8 @@ bool shows(vec3 middle, float reach) {
 // they have something to add. What comes to a word that is half full is taken out again.
 void add(uint word, uvec3 steps) {
     do {
-        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x < HALF_FULL;
+        // Nothing is never too much: it would be taken out, as nothing again, for ever.
+        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
         word += over ? 0u : 1u;
         bool next = !over && steps.x == 0u;

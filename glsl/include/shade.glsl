@@ -135,6 +135,9 @@ bool hidden_at(vec2 q, float z) {
 // other directions: what comes back is a mosaic.
 const float MOST_BENT = 1.0 / 16.0;
 
+// Looks for where the way behind the water ends: two, then a sixteenth of 16384 pixels halved to half of one.
+const int MOST_LOOKS = 14;
+
 // An offset in pixels, brought smoothly below the farthest.
 vec2 bent(vec2 offset) {
     vec2 share = offset / (MOST_BENT * frame.extent.y);
@@ -149,12 +152,14 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
     // In offsets: the farthest place known to be free, and the nearest that is not.
     float free = 0.0;
     float blocked = 3.0;
+    int looks = 0;
     do {
         float part = blocked == 3.0 ? free + 1.0 : 0.5 * (free + blocked);
         bool hidden = hidden_at(pixel + offset * part, z);
         free = hidden ? free : part;
         blocked = hidden ? part : blocked;
-    } while (free < 2.0 && (blocked - free) * far >= 0.5);
+        ++looks;
+    } while (free < 2.0 && (blocked - free) * far >= 0.5 && looks < MOST_LOOKS);
     // A pixel and a half less: the edge may be smoothed into its neighbours.
     float part = free < 2.0 ? clamp(0.5 * (free - 1.5 / max(far, 1.0)), 0.0, 1.0) : 1.0;
     return scene_at(pixel + offset * part);

@@ -56,7 +56,7 @@ Sprite sprite_at(uint i) {
     // shades all of it; what is behind it nothing there.
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
     // The sun sees what is behind the eye too.
-    bool there = world.w < 1.0 && all(lessThan(abs(world.xyz), vec3(EMPTY))) && place < frame.light_map.x;
+    bool there = world.w < 1.0 && all(lessThan(abs(s.p.centre), vec3(EMPTY))) && place < frame.light_map.x;
     s.p.life = there ? life_of(world.w) : 0.0;
     s.place = uint(max(place, 0.0));
     return s;

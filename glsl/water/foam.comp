@@ -82,7 +82,8 @@ Splat splat_of(uint index) {
 // that it finds a CPU goes through the invocations one by one, whether or not they have something to add.
 void add(uint word, uvec4 steps) {
     do {
-        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x < HALF_FULL;
+        // Nothing is never too much: it would be taken out, as nothing again, for ever.
+        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec4(0u - steps.x, steps.yzw) : uvec4(steps.yzw, 0u);
         word += over ? 0u : 1u;
         bool next = !over && steps.x == 0u;

@@ -1,6 +1,7 @@
 //! Passes `splat`, `radiance` and `blur`: foam of diffuse particles against the twin, and the picture with it.
 
 mod fluid;
+mod heaped;
 pub mod packets;
 pub mod ways;
 
@@ -613,22 +614,6 @@ fn without_particles_nothing_changes() {
     ] {
         compare::same_color(&format!("diffuse-{name}"), &cloud.draw(&mut rig).output, &none);
     }
-}
-
-#[test]
-fn many_on_one_spot_are_as_many_as_there_is_room_for() {
-    let gpu = Gpu::shared();
-    let diffuse = DiffuseConfig::new(200_000);
-    let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..diffusing(SIZE) }, 1);
-    let mut cloud = Diffuse::new(Lens::Standard);
-    let count = 200_000;
-    cloud.positions = scenes::world(&cloud.shot.camera, &vec![[0.0, 0.0, 4.0]; count]);
-    cloud.shot.positions.clear();
-    (cloud.kinds, cloud.ages) = (vec![0; count], vec![0.0; count]);
-    (cloud.radii, cloud.ids) = (Some(vec![1.0; count]), Some(vec![0; count]));
-    let foam = cloud.draw(&mut rig).diffuse.expect("diffuse particles");
-    let most = foam.thickness.data.iter().map(|t| t[0]).fold(0.0, f32::max);
-    assert!((32_768.0..32_770.0).contains(&most), "half a word of 16.16: {most}");
 }
 
 #[test]
