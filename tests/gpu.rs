@@ -34,6 +34,8 @@ mod generate;
 mod harness;
 #[path = "gpu/headless.rs"]
 mod headless;
+#[path = "gpu/hostile.rs"]
+mod hostile;
 #[path = "gpu/invariants.rs"]
 mod invariants;
 #[path = "gpu/level.rs"]

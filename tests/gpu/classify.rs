@@ -4,6 +4,7 @@ use ash::vk;
 use whitewater::water::FoamSettings;
 use whitewater::{Access, Count, Error, Slot, State, StateConfig, Step, Stream};
 
+use crate::hostile::spoil;
 use crate::reference::classify::{self as twin, Entry, NO_ID, Particle, Phase, Phases};
 use crate::support::device::Gpu;
 use crate::support::host::{Data, HOST_WRITE, Stub};
@@ -440,5 +441,36 @@ fn bad_steps_are_errors() {
             Err(other) => panic!("{config:?}: {other}"),
             Ok(_) => panic!("{config:?} is accepted"),
         }
+    }
+}
+
+/// Any bits, of streams and of a state that something else wrote: a step ends. Of streams it makes shares.
+#[test]
+fn hostile_bits_in_a_step() {
+    let gpu = Gpu::shared();
+    let mut body = Body::new(&gpu, StateConfig { max_stride: 20, ..StateConfig::new(600) });
+    let (settings, mut random) = (settings(), Random(9));
+    let mut words = vec![0x4120_0000_u32; 5 * 600];
+    for (i, id) in words.iter_mut().skip(4).step_by(5).enumerate() {
+        *id = i as u32;
+    }
+    spoil(&mut words, 5, &mut random);
+    let particle = |w: &[u32]| Particle {
+        velocity: [w[0], w[1], w[2]].map(f32::from_bits),
+        density: f32::from_bits(w[3]),
+        id: w[4],
+    };
+    let particles: Vec<_> = words.chunks(5).map(particle).collect();
+    for _ in 0..3 {
+        let foam = body.step(&settings, 0.02, &particles);
+        let bad = foam.iter().filter(|foam| !(0.0..=1.0).contains(&foam[0])).count();
+        assert_eq!(bad, 0, "shares of foam that are none");
+    }
+    let mut saved: Vec<u32> = bytemuck::pod_collect_to_vec(&body.save());
+    spoil(&mut saved, 1, &mut random);
+    // A table without a free row.
+    for all in [saved, vec![0xdead_beef; body.state().size() as usize / 4]] {
+        body.restore(bytemuck::cast_slice(&all));
+        body.step(&settings, 0.02, &particles);
     }
 }

@@ -2,7 +2,9 @@
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::Command;
 use std::sync::Once;
+use std::time::{Duration, Instant};
 
 use ash::vk;
 use glam::DVec3;
@@ -16,6 +18,7 @@ use crate::support::host::COLOR;
 use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
 use crate::support::tolerance;
+use crate::support::watchdog::{self, Watch};
 
 /// Whether a check panics; says nothing of it. The hook is that of all threads, and put in once: other
 /// tests may panic meanwhile.
@@ -263,4 +266,24 @@ fn a_leak_fails_the_test() {
         drop(gpu);
     });
     assert!(failed, "a renderer that was not destroyed is a leak");
+}
+
+/// In a process of its own, which it ends.
+#[test]
+fn the_watchdog_ends_a_test_that_hangs() {
+    if std::env::var_os("WHITEWATER_HANG").is_some() {
+        let _watch = Watch::begin();
+        watchdog::waiting(|| std::thread::sleep(Duration::from_secs(30)));
+        return;
+    }
+    let begun = Instant::now();
+    let hung = Command::new(std::env::current_exe().expect("this program"))
+        .args(["--exact", "harness::the_watchdog_ends_a_test_that_hangs"])
+        .envs([("WHITEWATER_HANG", "1"), ("WHITEWATER_WATCHDOG", "1")])
+        .output()
+        .expect("runs");
+    let says = String::from_utf8_lossy(&hung.stderr);
+    assert!(!hung.status.success() && begun.elapsed() < Duration::from_secs(20), "{says}");
+    let named = "watchdog: harness::the_watchdog_ends_a_test_that_hangs waits for the GPU";
+    assert!(says.contains(named), "{says}");
 }

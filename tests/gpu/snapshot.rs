@@ -1,6 +1,7 @@
 //! Snapshots of the generator, against the twin.
 
 use super::*;
+use crate::hostile::spoil;
 use crate::reference::generate::snapshot::{Snapshot, Stage};
 
 impl Making {
@@ -282,4 +283,37 @@ fn steps_go_on_from_a_snapshot() {
         }
     }
     assert!(seen > 300, "{seen} of {}", before.len());
+}
+
+/// Any bits, of streams and of a state that something else wrote: a step ends, in its own memory.
+#[test]
+fn hostile_bits_in_a_step() {
+    let gpu = Gpu::shared();
+    let (mut random, whole) = (Random(8), sea(0));
+    let mut words: Vec<u32> = (0..whole.ids.len())
+        .flat_map(|i| {
+            let [p, v] = [whole.positions[i], whole.velocities[i]].map(|v| v.map(f32::to_bits));
+            [p[0], p[1], p[2], v[0], v[1], v[2], whole.ids[i]]
+        })
+        .collect();
+    spoil(&mut words, 7, &mut random);
+    let mut fluid = Fluid::default();
+    for w in words.chunks(7) {
+        fluid.positions.push([w[0], w[1], w[2]].map(f32::from_bits));
+        fluid.velocities.push([w[3], w[4], w[5]].map(f32::from_bits));
+        fluid.ids.push(w[6]);
+    }
+    let mut making = Making::new(&gpu, &config());
+    for number in 0..3 {
+        making.step(&fluid, &settings(), 0.02, number);
+    }
+    assert!(!making.snapshot(&fluid, &settings(), 3).particles.is_empty(), "none was made");
+    let mut saved: Vec<u32> = bytemuck::pod_collect_to_vec(&making.save());
+    spoil(&mut saved, 1, &mut random);
+    making.restore(bytemuck::cast_slice(&saved));
+    let data = making.upload(&fluid);
+    making.record(&step_of(&data, &fluid, &settings(), 0.02, 4)).expect("a step");
+    let counts = making.generator().counts();
+    let high = making.read(counts, 1)[0];
+    assert!(high <= config().max_particles, "{high} slots of {}", config().max_particles);
 }

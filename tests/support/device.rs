@@ -11,6 +11,8 @@ use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use whitewater::headless::{Device, DeviceOptions};
 use whitewater::{Error, Host};
 
+use super::watchdog::Watch;
+
 const MOST_SHARED: usize = 4;
 static SHARED: [Shared; MOST_SHARED] = [const { Shared::new() }; MOST_SHARED];
 
@@ -34,6 +36,7 @@ pub struct Gpu {
     /// The test leaves objects behind on purpose.
     pub leaks: bool,
     _lock: Option<MutexGuard<'static, ()>>,
+    _watch: Arc<Watch>,
 }
 
 enum Held {
@@ -109,7 +112,15 @@ impl Gpu {
             Held::Shared(device) => (device.device.clone(), device.allocator.clone()),
             Held::Own(device) => (device.device.clone(), device.allocator.clone()),
         };
-        Self { device: Some(device), functions, allocator, claims: None, leaks: false, _lock: lock }
+        Self {
+            device: Some(device),
+            functions,
+            allocator,
+            claims: None,
+            leaks: false,
+            _lock: lock,
+            _watch: Watch::begin(),
+        }
     }
 
     /// One of the devices that most tests share.

@@ -5,6 +5,7 @@ use ash::vk;
 use whitewater::{Access, HostImage};
 
 use super::device::Gpu;
+use super::watchdog;
 
 type Stage = vk::PipelineStageFlags2;
 type Mask = vk::AccessFlags2;
@@ -285,7 +286,7 @@ impl Stub {
         let result = record(self.utility);
         self.submit(self.utility, vk::Fence::null());
         // SAFETY: live queue.
-        unsafe { self.device.queue_wait_idle(self.queue) }.expect("wait");
+        watchdog::waiting(|| unsafe { self.device.queue_wait_idle(self.queue) }).expect("wait");
         result
     }
 
@@ -318,7 +319,8 @@ impl Stub {
             let fences = [*fence];
             // SAFETY: the fence was submitted.
             unsafe {
-                self.device.wait_for_fences(&fences, true, u64::MAX).expect("wait");
+                watchdog::waiting(|| self.device.wait_for_fences(&fences, true, u64::MAX))
+                    .expect("wait");
                 self.device.reset_fences(&fences).expect("reset");
             }
         }

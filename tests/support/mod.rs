@@ -11,6 +11,7 @@ pub mod scenes;
 pub mod shaded;
 pub mod spy;
 pub mod tolerance;
+pub mod watchdog;
 
 /// Whether the long tests are asked for.
 pub fn slow() -> bool {

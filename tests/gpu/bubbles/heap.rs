@@ -6,6 +6,7 @@ use whitewater::bubbles::{DistanceField, Heap, HeapConfig, HeapSettings, HeapSte
 use whitewater::headless::Bubble;
 use whitewater::{Blobs, Count, Error, Slot};
 
+use crate::hostile::spoil;
 use crate::reference::bubbles::heap::{self as twin, Blob, Plane};
 use crate::support::device::Gpu;
 use crate::support::host::{HOST_WRITE, Stub};
@@ -376,4 +377,25 @@ fn blobs_are_set_and_moved_in_one_command_buffer() {
     };
     assert_eq!(balls(&apart), balls(&at_once));
     assert!(balls(&apart).iter().zip(&blobs).any(|(now, then)| *now != then.ball), "they move");
+}
+
+#[test]
+fn hostile_bits_in_a_heap() {
+    let gpu = Gpu::shared();
+    let mut words: Vec<u32> = bytemuck::cast_slice(&cloud(300, [1.0; 3], [0.02, 0.1], 3)).to_vec();
+    let mut speeds = vec![0x3f80_0000_u32; 900];
+    let mut random = Random(4);
+    spoil(&mut words, size_of::<Bubble>() / 4, &mut random);
+    spoil(&mut speeds, 3, &mut random);
+    let blobs: Vec<Bubble> = bytemuck::cast_slice(&words).to_vec();
+    for halvings in [0, 2] {
+        let streams = (&blobs[..], bytemuck::cast_slice(&speeds));
+        let mut running = Running::stepped(&gpu, streams, None, halvings, None);
+        for _ in 0..5 {
+            running.step(1.0 / 60.0, &HeapSettings::default(), &[FLOOR]).expect("a step");
+        }
+        // Those that were not spoiled, each by itself, are blobs still.
+        let left = running.blobs().iter().filter(|b| b.place.is_finite() && b.radius > 0.0).count();
+        assert!(left >= 100, "{left} of 100 sound blobs");
+    }
 }

@@ -1,0 +1,216 @@
+//! Whatever bits a host's streams hold, a frame ends, is finite, and touches no memory but its own: NaN, infinities,
+//! the largest and the tiniest numbers, bits at random. A driver that ends endless loops by itself (lavapipe before Mesa
+//! 25) shows half of it: these tests run on a newer one too.
+
+use ash::vk;
+use whitewater::bubbles::{BubbleConfig, HandOver};
+use whitewater::foam::{DiffuseConfig, Splat};
+use whitewater::headless::Bubble;
+use whitewater::water::Shading;
+use whitewater::{Blobs, Config, Count, DiffuseParticles, Frame, Packets, Particles, Previous};
+use whitewater::{Slot, Stream};
+
+use crate::foam::Foamy;
+use crate::light::everything;
+use crate::support::device::Gpu;
+use crate::support::host::{Data, HOST_WRITE};
+use crate::support::rig::{Rig, stream};
+use crate::support::scenes::{self, Lens, Random};
+
+const SIZE: vk::Extent2D = vk::Extent2D { width: 64, height: 48 };
+const USAGE: vk::BufferUsageFlags = vk::BufferUsageFlags::STORAGE_BUFFER;
+
+/// Bits that a word may hold, one kind after the other; `None`: any.
+const BITS: [Option<u32>; 13] = [
+    Some(0x7fc0_0000), // NaN
+    Some(0xff80_0001), // a signalling one, negative
+    Some(0x7f80_0000), // infinity
+    Some(0xff80_0000),
+    Some(0x7f7f_ffff), // the largest
+    Some(0xff7f_ffff),
+    Some(0x0000_0001), // the tiniest, and the tiniest that is normal
+    Some(0x0080_0000),
+    Some(0x7149_f2ca), // 1e30
+    Some(0x0da2_4260), // 1e-30
+    Some(0x8000_0000), // -0
+    Some(0xffff_ffff),
+    None,
+];
+
+/// Spoils two of three entries, of some all words and of the others one: each kind of bits in each place.
+pub fn spoil(words: &mut [u32], entry: usize, random: &mut Random) {
+    for (i, entry) in words.chunks_mut(entry).enumerate().filter(|(i, _)| i % 3 > 0) {
+        let all = entry.len();
+        let one = (i / 3) % (all + 1);
+        for (k, word) in entry.iter_mut().enumerate() {
+            if one == all || one == k {
+                *word = BITS[(i / 3 + k) % BITS.len()].unwrap_or_else(|| random.bits() as u32);
+            }
+        }
+    }
+}
+
+/// Words of a stream, and how many an entry has.
+#[derive(Clone)]
+struct Words(&'static str, Vec<u32>, usize);
+
+impl Words {
+    fn of<T: bytemuck::NoUninit>(name: &'static str, entries: &[T]) -> Self {
+        Self(name, bytemuck::cast_slice(entries).to_vec(), size_of::<T>() / 4)
+    }
+}
+
+/// The streams of a frame of everything, in this order.
+fn streams(case: &Foamy) -> Vec<Words> {
+    let shot = &case.shot;
+    let (points, mut random) = (scenes::cloud(7, 300, 1.0, 9.0), Random(3));
+    let diffuse = scenes::world(&shot.camera, &points);
+    let count = diffuse.len() as u32;
+    let packets = |count: u32| -> Vec<[u32; 8]> {
+        let wide = 1e3_f32.to_bits();
+        let low = (-1e3_f32).to_bits();
+        (0..count / 16).map(|i| [16 * i, 16, low, low, low, wide, wide, wide]).collect()
+    };
+    let blob = |p: &[f32; 3], i: usize| Bubble {
+        ball: [p[0], p[1], p[2], 0.3],
+        turn: [0.1, 0.2, 0.3, 0.9],
+        id: i as u32,
+    };
+    let blobs: Vec<_> = diffuse.iter().take(60).enumerate().map(|(i, p)| blob(p, i)).collect();
+    let radii: Vec<f32> = (0..count).map(|_| random.between(0.001, 0.4)).collect();
+    vec![
+        Words::of("positions", &shot.positions),
+        Words::of("densities", shot.densities.as_ref().expect("densities")),
+        Words::of("velocities", &case.velocities),
+        Words::of("foam", &case.amounts),
+        Words::of("ids", case.ids.as_ref().expect("ids")),
+        Words::of("packets", &packets(shot.positions.len() as u32)),
+        Words::of("diffuse positions", &diffuse),
+        Words::of("diffuse kinds", &(0..count).map(|i| i % 4).collect::<Vec<_>>()),
+        Words::of("diffuse radii", &radii),
+        Words::of("diffuse ages", &radii),
+        Words::of("diffuse ids", &(0..count).collect::<Vec<_>>()),
+        Words::of("diffuse packets", &packets(count)),
+        Words::of("blobs", &blobs),
+        Words::of("count", &[shot.positions.len() as u32]),
+        Words::of("diffuse count", &[count]),
+        Words::of("blob count", &[60]),
+    ]
+}
+
+fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
+    let data: Vec<Data> =
+        all.iter().map(|w| rig.stub.data(bytemuck::cast_slice(&w.1), USAGE)).collect();
+    let at = |name: &str| all.iter().position(|w| w.0 == name).expect("a stream");
+    let of = |name: &str| -> Stream { stream(&data[at(name)], 0, 4 * all[at(name)].2 as u32) };
+    let count = |name: &str| Count::Gpu { buffer: data[at(name)].buffer, offset: 0 };
+    let packets = |name: &str| Packets {
+        buffer: data[at(name)].buffer,
+        offset: 0,
+        count: (all[at(name)].1.len() / 8) as u32,
+    };
+    let (before, after) = (HOST_WRITE, HOST_WRITE);
+    let particles = Particles {
+        densities: Some(of("densities")),
+        velocities: Some(of("velocities")),
+        foam: Some(of("foam")),
+        ids: Some(of("ids")),
+        packets: Some(packets("packets")),
+        before,
+        after,
+        ..Particles::new(of("positions"), count("count"))
+    };
+    let diffuse = DiffuseParticles {
+        kinds: Some(of("diffuse kinds")),
+        radii: Some(of("diffuse radii")),
+        ages: Some(of("diffuse ages")),
+        ids: Some(of("diffuse ids")),
+        packets: Some(packets("diffuse packets")),
+        before,
+        after,
+        ..DiffuseParticles::new(of("diffuse positions"), count("diffuse count"))
+    };
+    let balls = of("blobs");
+    let part = |offset| Stream { offset, ..balls };
+    let blobs = Blobs {
+        turns: Some(part(16)),
+        ids: Some(part(32)),
+        before,
+        after,
+        ..Blobs::new(balls, count("blob count"))
+    };
+    let theirs = rig.config.bubbles.filter(|bubbles| !bubbles.hand_over);
+    let (color, depth) = rig.scene(&case.shot);
+    let output = color.host_image();
+    let frame = Frame {
+        diffuse: rig.config.diffuse.map(|_| diffuse),
+        bubbles: theirs.map(|_| blobs),
+        ..case.shot.frame(output, depth.host_image(), particles)
+    };
+    let cmd = rig.stub.begin(0);
+    // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+    let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+    rig.stub.end(0);
+    rig.stub.wait(0);
+    let drawn = rig.read(&output, &recorded);
+    rig.renderer().collect(Slot(0));
+    drawn.output.data
+}
+
+#[test]
+fn hostile_bits_in_any_stream_of_a_frame() {
+    let gpu = Gpu::shared();
+    let mut case = Foamy::new(SIZE, Lens::Standard, 40.0);
+    case.shot.settings.bubbles.hand_over = HandOver { near: 2.0, far: 4.0, size: 1.0 };
+    let base = everything(&mut case);
+    case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.02 });
+    let bubbles = BubbleConfig { templates: 2, bubbles: 32, map: 64, ..BubbleConfig::new(64) };
+    let diffuse = DiffuseConfig { packets: true, ..DiffuseConfig::new(1024) };
+    let base = Config {
+        motion: true,
+        noise: Some(1),
+        diffuse: Some(diffuse),
+        bubbles: Some(bubbles),
+        shadow: None,
+        ..base
+    };
+    let others = [
+        ("compute", base),
+        (
+            "raster",
+            Config {
+                depth_splat: Some(whitewater::water::Splat::Raster),
+                thickness_splat: Some(whitewater::water::Splat::Raster),
+                composite: Some(Shading::Compute),
+                diffuse: Some(DiffuseConfig { splat: Some(Splat::Raster), ..diffuse }),
+                bubbles: Some(BubbleConfig { hand_over: true, ..bubbles }),
+                ..base
+            },
+        ),
+    ];
+    for (name, config) in others {
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let all = streams(&case);
+        let mut random = Random(5);
+        let mut spoiled = all.clone();
+        for words in &mut spoiled {
+            match words.0.ends_with("count") {
+                true => words.1.fill(u32::MAX),
+                false => spoil(&mut words.1, words.2, &mut random),
+            }
+        }
+        for i in 0..=all.len() {
+            let mut these = all.clone();
+            if i < all.len() {
+                these[i] = spoiled[i].clone();
+            } else {
+                these.clone_from(&spoiled);
+            }
+            let what = all.get(i).map_or("all", |words| words.0);
+            eprintln!("{name}: {what}");
+            let picture = draw(&mut rig, &case, &these);
+            let bad = picture.iter().flatten().filter(|v| !v.is_finite()).count();
+            assert_eq!(bad, 0, "{name}: values that are not finite, by {what}");
+        }
+    }
+}
