@@ -1,8 +1,9 @@
 //! Conformance on a Vulkan device, by the public API alone: every pass against its CPU twin, the
 //! promises of the contract, and proof that each checker can fail.
 //!
-//! `WHITEWATER_EXPECT_ADAPTER`: part of the adapter's name, asserted. `WHITEWATER_REQUIRE_VALIDATION=1`:
-//! fails without the validation layer. `WHITEWATER_SLOW=1`: the long tests too.
+//! `WHITEWATER_EXPECT_ADAPTER`: part of the name of adapter or driver, asserted. `WHITEWATER_REQUIRE_VALIDATION=1`:
+//! fails without the validation layer. `WHITEWATER_SLOW=1`: the long tests too. `WHITEWATER_WATCHDOG=SECONDS`: the
+//! longest wait for the GPU, 60 where it is not set.
 #![allow(clippy::unwrap_used)] // a test may
 
 mod reference;

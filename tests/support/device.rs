@@ -67,10 +67,10 @@ fn make(options: &DeviceOptions) -> Device {
     let options = DeviceOptions { validation: validates(), ..options.clone() };
     let device = Device::new(&options).unwrap_or_else(|error| panic!("no device: {error}"));
     if let Ok(expected) = std::env::var("WHITEWATER_EXPECT_ADAPTER") {
+        let found = format!("{} ({})", device.adapter, device.driver);
         assert!(
-            device.adapter.to_lowercase().contains(&expected.to_lowercase()),
-            "expected the adapter {expected}, found {}",
-            device.adapter
+            found.to_lowercase().contains(&expected.to_lowercase()),
+            "expected the adapter {expected}, found {found}"
         );
     }
     device
