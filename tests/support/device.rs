@@ -63,6 +63,24 @@ pub fn validates() -> bool {
     })
 }
 
+/// The validation layer's version, by its manifest.
+pub fn layer_version() -> u32 {
+    // SAFETY: the loader stays loaded: the devices of the tests have it.
+    let layers =
+        unsafe { ash::Entry::load().expect("a loader").enumerate_instance_layer_properties() };
+    let named = |layer: &vk::LayerProperties| {
+        layer.layer_name_as_c_str().is_ok_and(|name| name == c"VK_LAYER_KHRONOS_validation")
+    };
+    layers.expect("layers").iter().find(|layer| named(layer)).map_or(0, |layer| layer.spec_version)
+}
+
+/// Whether it looks at what shaders do with storage: since 1.4 by a switch of the environment alone, which tools/test sets.
+pub fn sees_storage() -> bool {
+    let switch = std::env::var_os("VK_LAYER_SYNCVAL_SHADER_ACCESSES_HEURISTIC");
+    validates()
+        && (layer_version() < vk::make_api_version(0, 1, 4, 0) || switch.is_some_and(|v| v == "1"))
+}
+
 fn make(options: &DeviceOptions) -> Device {
     let options = DeviceOptions { validation: validates(), ..options.clone() };
     let device = Device::new(&options).unwrap_or_else(|error| panic!("no device: {error}"));

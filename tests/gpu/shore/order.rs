@@ -10,7 +10,7 @@ use super::composite::look;
 use super::shoreline::{AREA, heights};
 use super::{Mapped, with_shore};
 use crate::harness::is_hazard;
-use crate::support::device::{Gpu, validates};
+use crate::support::device::{Gpu, layer_version, sees_storage};
 use crate::support::host::HOST_WRITE;
 use crate::support::rig::{Rig, Shot, extent, stream};
 use crate::support::scenes::Lens;
@@ -215,10 +215,15 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
         let beside = spy::buffers_beside(marks);
         let arguments = spy::buffers_of_size(96).into_iter().find(|own| beside.contains(own));
         let arguments = arguments.expect("in a set with the marks");
-        // Of a frame's barriers, of which the first is after the frame before, those that the layer sees to be missing.
+        // Of a frame's barriers, of which the first is after the frame before, those that the layer sees to be missing:
+        // 1.3.239 and 1.4.309, seen on Debian 12 and 13, see more of them than Chromium's, which is newer.
         let last = 3 + 2 * contacts;
         let seen: [&dyn Fn(usize) -> bool; 3] =
-            [&|at| at < 2, &|at| at == 0 || at == 2 || at == last, &|at| at < 3];
+            if layer_version() <= vk::make_api_version(0, 1, 4, 309) {
+                [&|at| at < 2, &|at| at == 0 || at == 2 || at == last, &|at| at < 3]
+            } else {
+                [&|at| at == 1, &|at| at == last, &|at| at == 1]
+            };
         // Which of them is that before the runs.
         let of_marks = 4 + strip;
         for (name, buffer, uses, [runs, barriers], seen) in [
@@ -249,7 +254,7 @@ fn each_barrier_of_the_tiles_lists_is_needed() {
                     spare || !wrong.is_empty(),
                     "{name}: without barrier {nth} nothing is wrong"
                 );
-                if validates() && seen(nth % barriers) {
+                if sees_storage() && seen(nth % barriers) {
                     let hazard = messages.iter().any(|message| is_hazard(message));
                     assert!(hazard, "{name}: without barrier {nth} the layer says {messages:?}");
                 }
