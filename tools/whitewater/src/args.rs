@@ -162,7 +162,10 @@ pub struct DrawArgs {
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = times_as_large)]
     pub supersample: u32,
     /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
-    /// [shadow], [noise] and [light]
+    /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
+    /// [foam] also says by what water foams: weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
+    /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,
+    /// scene units a second, y up) and seed = 0 (of its times)
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'

@@ -398,23 +398,22 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     }
     scene.sun = environment.sun_light();
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
-    file.apply(&mut settings).map_err(Failure::input)?;
+    file.apply(&mut settings);
     let Region { center, radius } = lit.region();
     let count = blobs.blobs.len();
+    let bubbles = BubbleConfig { hand_over: false, ..file.bubbles.config() };
     let look = Look {
         camera,
         settings,
+        file,
         environment,
         scene,
         foam: None,
         diffuse: None,
-        occlusion: file.diffuse.occlusion(),
-        splat: file.diffuse.splat(),
-        bubbles: Some((blobs, BubbleConfig { hand_over: false, ..file.bubbles.config() })),
+        bubbles: Some((blobs, bubbles)),
         shores: None,
         exposure: 0.0,
         spray: false,
-        shadows: file.shadows().map_err(Failure::input)?,
         region: Region { center, radius: 1.5 * radius },
         fps: Some(args.fps.unwrap_or(FPS)),
         rate: None,

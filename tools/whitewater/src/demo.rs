@@ -51,8 +51,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     settings.foam = FoamLook::of_spacing(SPACING);
     settings.noise = session::noise(&args.draw);
     let file = settings_file.unwrap_or_default();
-    file.apply(&mut settings).map_err(Failure::input)?;
-    let shadows = file.shadows().map_err(Failure::input)?;
+    file.apply(&mut settings);
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,
         None => viewpoint(args.camera.fov),
@@ -61,24 +60,23 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let count = particles.positions.len();
     let foam = args.draw.foam.unwrap_or(Foaming::Auto);
     let spray = args.draw.spray != Some(SprayArg::None);
-    let foam = foam::settings(foam, std::slice::from_ref(&particles), &[0.0], &settings);
+    let frames = std::slice::from_ref(&particles);
+    let foam = foam::settings(foam, &file.foam, frames, &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
     let (diffuse, fps, rate) = (None, None, None);
     let look = Look {
         camera,
         settings,
+        file,
         environment,
         scene,
         foam,
         diffuse,
-        occlusion: file.diffuse.occlusion(),
-        splat: file.diffuse.splat(),
         bubbles: None,
         shores: None,
         exposure: 0.0,
         spray,
-        shadows,
         region,
         fps,
         rate,

@@ -8,6 +8,7 @@ use whitewater::io::particles::Particles;
 use whitewater::water::FoamSettings;
 
 use crate::args::Foaming;
+use crate::settings::FoamTable;
 
 /// Share of the water that does not foam.
 const CALM: f64 = 0.95;
@@ -15,15 +16,19 @@ const CALM: f64 = 0.95;
 const MOST: f64 = 0.3;
 
 /// The settings for frames of a sequence and their seconds, where they have velocities. A threshold does not
-/// transfer from one simulation to another: where none is given it is taken from the frames.
+/// transfer from one simulation to another: where neither `wanted` nor the table says one it is taken from the frames.
 pub fn settings(
     wanted: Foaming,
+    table: &FoamTable,
     frames: &[Particles],
     seconds: &[f32],
     settings: &Settings,
 ) -> Option<FoamSettings> {
-    let foam = FoamSettings::reduced(settings.water.spacing, 1.0);
-    let foam = FoamSettings { rest_density: settings.water.rest_density, ..foam };
+    let foam = table.formation(&settings.water);
+    let wanted = match (wanted, table.threshold) {
+        (Foaming::Auto, Some(threshold)) => Foaming::From(threshold),
+        (wanted, _) => wanted,
+    };
     let mut moving = frames.iter().filter(|frame| frame.velocities.is_some());
     let threshold = match wanted {
         Foaming::None => return None,
@@ -77,7 +82,10 @@ fn numbers(frame: &Particles, foam: &FoamSettings, spray: f32) -> Vec<(usize, f3
     let velocities = frame.velocities.iter().flatten().enumerate();
     velocities
         .filter(|(i, _)| density(*i) >= spray)
-        .map(|(i, v)| (i, foam.scale * density(i) * v.iter().map(|c| c * c).sum::<f32>()))
+        .map(|(i, v)| {
+            let wind = Vec3::from(*v) - Vec3::from(foam.air);
+            (i, foam.scale * density(i) * wind.length_squared())
+        })
         .filter(|(_, number)| number.is_finite())
         .collect()
 }
@@ -107,6 +115,7 @@ pub fn seconds(first: &Particles, second: &Particles) -> Option<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::Weber;
     use whitewater::io::particles::Extension;
     use whitewater::io::particles::read_bytes;
 
@@ -141,7 +150,7 @@ mod tests {
         let mut frame = csv();
         let look = Settings::default();
         let of = |wanted, frame: &Particles| {
-            settings(wanted, std::slice::from_ref(frame), &[0.0], &look)
+            settings(wanted, &FoamTable::default(), std::slice::from_ref(frame), &[0.0], &look)
         };
         let found = of(Foaming::Auto, &frame).unwrap();
         let number = |speed: f32| found.scale * 1000.0 * speed * speed;
@@ -156,6 +165,34 @@ mod tests {
         assert!(of(Foaming::Auto, &frame).is_none(), "water at rest");
         frame.velocities = None;
         assert!(of(Foaming::Auto, &frame).is_none() && of(Foaming::From(7.0), &frame).is_none());
+    }
+
+    /// What goes with the wind does not foam, and what is at rest in it does: by the number of the relative velocity
+    /// (Eq. 3.1 of the thesis), whatever its unit.
+    #[test]
+    fn water_foams_by_its_speed_through_the_air() {
+        let frame = csv();
+        let of = |air: [f32; 3], weber| {
+            let table = FoamTable { air: Some(air), weber, ..FoamTable::default() };
+            let look = Settings::default();
+            settings(Foaming::Auto, &table, std::slice::from_ref(&frame), &[0.0], &look).unwrap()
+        };
+        for weber in [None, Some(Weber::Full)] {
+            let against = of([-10.0, 0.0, 0.0], weber);
+            let with = of([200.0, 0.0, 0.0], weber);
+            let speed = |foam: FoamSettings| (foam.threshold / (foam.scale * 1000.0)).sqrt();
+            assert!((speed(against) - 105.0).abs() < 1.0e-3, "{against:?}");
+            // The slowest are now the fastest, from 101 to 200.
+            assert!((speed(with) - 196.0).abs() < 1.0e-3, "{with:?}");
+        }
+        let said = FoamTable { threshold: Some(7.0), ..FoamTable::default() };
+        let of = |wanted| {
+            let look = Settings::default();
+            settings(wanted, &said, std::slice::from_ref(&frame), &[0.0], &look)
+        };
+        assert_eq!(of(Foaming::Auto).unwrap().threshold, 7.0);
+        assert_eq!(of(Foaming::From(8.0)).unwrap().threshold, 8.0, "the command line goes first");
+        assert!(of(Foaming::None).is_none());
     }
 
     /// Other four of a hundred are fast in each of ten frames: less than a twentieth. All that were within a
@@ -173,7 +210,9 @@ mod tests {
             .collect();
         let of = |frames: &[Particles], apart: f32| {
             let seconds: Vec<f32> = (0..10_u8).map(|i| apart * f32::from(i)).collect();
-            let found = settings(Foaming::Auto, frames, &seconds, &Settings::default()).unwrap();
+            let table = FoamTable::default();
+            let look = Settings::default();
+            let found = settings(Foaming::Auto, &table, frames, &seconds, &look).unwrap();
             (found.threshold / (found.scale * 1000.0)).sqrt()
         };
         assert!((of(&frames, 0.1) - 9.0).abs() < 1.0e-3, "{}", of(&frames, 0.1));

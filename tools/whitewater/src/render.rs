@@ -364,7 +364,7 @@ fn look(
     if probes.frames.iter().all(|frame| frame.densities.is_none()) {
         settings.spray.densities = GUESSED_DENSITIES;
     }
-    file.apply(&mut settings).map_err(Failure::input)?;
+    file.apply(&mut settings);
     settings.water.spacing = spacing;
 
     let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
@@ -394,7 +394,7 @@ fn look(
                     let sun = stage::side_light(eye - bounds.center());
                     environment = session::environment(&args.draw, Some(sun))?;
                     settings.light = environment.light();
-                    file.apply(&mut settings).map_err(Failure::input)?;
+                    file.apply(&mut settings);
                     settings.water.spacing = spacing;
                     basin
                 }
@@ -415,7 +415,7 @@ fn look(
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
     let foam = args.draw.foam.unwrap_or(foaming(args));
-    let foam = foam::settings(foam, &probes.frames, &seconds, &settings);
+    let foam = foam::settings(foam, &file.foam, &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {
         progress.say(&format!(
             "foam from Weber number {} on (--foam sets it; none)",
@@ -443,7 +443,6 @@ fn look(
         fps
     });
     let region = bounds.region();
-    let shadows = file.shadows().map_err(Failure::input)?;
     let rate = fps.filter(|_| vectors);
     let fps = fps.filter(|_| remembers);
     let fullest = probes.frames.iter().map(|f| f.positions.len()).max().unwrap_or(0);
@@ -460,17 +459,15 @@ fn look(
     Ok(Look {
         camera,
         settings,
+        file,
         environment,
         scene,
         foam,
         diffuse,
-        occlusion: file.diffuse.occlusion(),
-        splat: file.diffuse.splat(),
         bubbles: None,
         shores: None,
         exposure: 0.0,
         spray,
-        shadows,
         region,
         fps,
         rate,

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use whitewater::ash::vk;
 use whitewater::bubbles::BubbleConfig;
-use whitewater::foam::{DiffuseConfig, GenerateSettings, Occlusion, Splat};
+use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Layers};
-use whitewater::water::{FoamSettings, NoiseLook, Shadows, WaterSettings};
+use whitewater::water::{FoamSettings, NoiseLook, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
@@ -21,7 +21,7 @@ use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
 use crate::progress::{Progress, Steps};
-use crate::settings;
+use crate::settings::{Found, SettingsFile};
 use crate::shore::Shores;
 use crate::timings::Times;
 
@@ -29,16 +29,14 @@ use crate::timings::Times;
 pub struct Look {
     pub camera: CameraFile,
     pub settings: Settings,
+    /// The file of settings: what in it chooses passes.
+    pub file: SettingsFile,
     pub environment: Environment,
     pub scene: Scene,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
     /// Diffuse particles beside the water.
     pub diffuse: Option<Diffusing>,
-    /// How the shadow on them is sampled.
-    pub occlusion: Occlusion,
-    /// How they become pixels; `None`: as the library chooses.
-    pub splat: Option<Splat>,
     /// Bubble foam, and how it is drawn.
     pub bubbles: Option<(Blobs, BubbleConfig)>,
     /// Shoreline and contact foam.
@@ -47,8 +45,6 @@ pub struct Look {
     pub exposure: f32,
     /// Particles of the water turn to spray.
     pub spray: bool,
-    /// How the scene's shadow map is filtered.
-    pub shadows: Shadows,
     /// Where water and foam cast shadows.
     pub region: Region,
     /// Frames a second by which foam comes and goes; none: each frame for itself.
@@ -282,7 +278,8 @@ impl<'a> Session<'a> {
                 Diffusing::Files(_) => (diffuse, 12),
                 Diffusing::Made(made) => (made.max_particles(), 16),
             };
-            let Look { occlusion, splat, .. } = self.look;
+            let table = &self.look.file.diffuse;
+            let (occlusion, splat) = (table.occlusion(), table.splat());
             DiffuseConfig { max_stride, occlusion, splat, ..DiffuseConfig::new(most) }
         });
         config.bubbles = self.look.bubbles.as_ref().map(|(blobs, bubbles)| {
@@ -294,7 +291,7 @@ impl<'a> Session<'a> {
         config.shore = self.look.shores.as_ref().map(|shores| shores.config);
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
-        config.shadow = (args.shadows != ShadowArg::None).then_some(self.look.shadows);
+        config.shadow = (args.shadows != ShadowArg::None).then(|| self.look.file.shadows());
         config.cast = (args.shadows == ShadowArg::All).then(|| light_texels(width));
         config.motion = self.motion;
         config.depth_splat = args.splat.map(Into::into);
@@ -554,7 +551,7 @@ impl<'a> Session<'a> {
                 format!("expected no validation messages, found {}: {first}", messages.len()),
             ));
         }
-        let layers = self.with_attributes(layers, source, &camera_file);
+        let layers = self.with_attributes(layers, source, &camera_file)?;
         // Before the pictures, by which a frame counts as finished.
         self.write_made(number)?;
         for target in &self.targets {
@@ -600,21 +597,29 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn with_attributes(&self, mut layers: Layers, source: &str, camera: &CameraFile) -> Layers {
+    fn with_attributes(
+        &self,
+        mut layers: Layers,
+        source: &str,
+        camera: &CameraFile,
+    ) -> Outcome<Layers> {
+        let found = Found { foam: self.look.foam.as_ref(), generate: self.making.as_ref() };
+        let settings = self.look.file.all(&self.look.settings, found).text();
+        let settings = settings.map_err(Failure::input)?;
         let mut note = |name: &str, value: String| {
             layers.attributes.push((name.into(), value));
         };
         note("version", env!("CARGO_PKG_VERSION").into());
         note("input", source.into());
         note("camera", camera.json());
-        note("settings", settings::to_toml(&self.look.settings));
+        note("settings", settings);
         note("environment", self.args.environment.clone());
         if let Some(headless) = &self.headless {
             note("adapter", headless.device().adapter.clone());
             note("driver", headless.device().driver.clone());
             note("config", format!("{:?}", headless.renderer().config()));
         }
-        layers
+        Ok(layers)
     }
 
     /// Writes the times and gives the device back.

@@ -92,7 +92,7 @@ fn sample(
     headless.particles(&[], None)?;
     headless.bubbles(&blobs.blobs)?;
     let mut settings = Settings { light: environment.light(), ..Settings::default() };
-    file.apply(&mut settings).map_err(Failure::input)?;
+    file.apply(&mut settings);
     let aspect = extent.width as f32 / extent.height as f32;
     let fov = 36.0_f32.to_radians();
     let flip = Mat4::from_scale(vec3(1.0, -1.0, 1.0));

@@ -193,7 +193,7 @@ fn sample(
         ..Settings::default()
     };
     if let Some(path) = &args.settings {
-        SettingsFile::read(path)?.diffuse.apply(&mut settings.diffuse);
+        SettingsFile::read(path)?.diffuse.put(&mut settings.diffuse);
     }
     let aspect = extent.width as f32 / extent.height as f32;
     let from = |distance| sea.camera_from(distance, aspect);

@@ -186,7 +186,7 @@ fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option
         Scenery::Lava => scene_of(&Which::Lava, 0.0, &mut settings)?,
         Scenery::Isles | Scenery::Splash => {
             let mut own = Settings::default();
-            file.apply(&mut own).map_err(Failure::input)?;
+            file.apply(&mut own);
             let reach = own.shore.shoreline.reach;
             let (shown, one) = isles::isles(size, cover.unwrap_or(COVER), reach)?;
             part = Some(one);
@@ -199,7 +199,7 @@ fn setting(file: &SettingsFile, pool: &pool::Pool, case: Case) -> Outcome<Option
     let environment = Environment::sky(Some(shown.sun))?;
     scene.sun = environment.sun_light();
     settings.light = environment.light();
-    file.apply(&mut settings).map_err(Failure::input)?;
+    file.apply(&mut settings);
     if path == Path::Everything {
         everything(&mut settings.shore.shoreline);
     }
@@ -270,7 +270,7 @@ fn splash(
     let environment = Environment::sky(Some([-0.55, 0.6, 0.45]))?;
     settings.light = environment.light();
     settings.shore.contact.particle_opacity = 1.0;
-    file.apply(&mut settings).map_err(Failure::input)?;
+    file.apply(&mut settings);
     settings.water.spacing = pool.spacing;
     Ok(Some(Setting {
         scene: Scene { meshes, ground, sun: environment.sun_light(), ..Scene::default() },

@@ -242,7 +242,7 @@ fn own(path: &Path, level: f32) -> Outcome<ShoreScene> {
 pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
     let file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
-    let file = file.unwrap_or_default();
+    let mut file = file.unwrap_or_default();
     let mut settings = Settings::default();
     let (shown, by) = scene_of(which, args.level, &mut settings)?;
     let (first, last) = range.map_or((1, 1), |range| (*range.start(), *range.end()));
@@ -266,27 +266,26 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     // The scenes come round.
     let built_in = !matches!(which, Which::File(_));
     settings.shore.period = built_in.then(|| shown.frames as f32 / shown.fps);
-    file.apply(&mut settings).map_err(Failure::input)?;
+    file.apply(&mut settings);
     let mut scene = shown.scene;
     scene.frame = frames.first().copied().unwrap_or(1);
     scene.sun = environment.sun_light();
     let reach = settings.shore.shoreline.reach;
     let shores = Shores::of(&file, &scene, shown.level, shown.strip, (reach, by))?;
+    file.shore.by.get_or_insert(by);
     let (low, high) = scene.bounds();
     let look = Look {
         camera,
         settings,
+        file,
         environment,
         scene,
         foam: None,
         diffuse: None,
-        occlusion: file.diffuse.occlusion(),
-        splat: file.diffuse.splat(),
         bubbles: None,
         shores: Some(shores),
         exposure: shown.exposure,
         spray: false,
-        shadows: file.shadows().map_err(Failure::input)?,
         region: Region {
             center: (0.5 * (low + high)).to_array(),
             radius: 0.5 * (high - low).length().max(1.0e-3),

@@ -1,0 +1,231 @@
+use whitewater::foam::{DiffuseLook, Limits, Mixing, Reach, Submerged};
+use whitewater::water::settings::{Amplitude, Convolution, Fresnel, Medium};
+use whitewater::water::{NoiseLook, SprayLook};
+
+use super::*;
+
+fn applied(text: &str) -> Settings {
+    let mut settings = Settings::default();
+    SettingsFile::parse(text).unwrap().apply(&mut settings);
+    settings
+}
+
+/// All that settings say, as text.
+fn written(settings: &Settings) -> String {
+    SettingsFile::default().all(settings, Found::default()).text().unwrap()
+}
+
+#[test]
+fn values_arrive() {
+    let settings = applied(
+        "[water]\nspacing = 0.1\nmedium = 'source'\nfresnel = {f0 = 0.05}\n[light]\nambient = [1, 2.0, 3.0]",
+    );
+    assert_eq!(settings.water.spacing, 0.1);
+    assert_eq!(settings.water.medium, Medium::source(0.1));
+    assert_eq!(settings.water.fresnel, Fresnel::Schlick { f0: 0.05 });
+    assert_eq!(settings.light.ambient, [1.0, 2.0, 3.0]);
+    assert_eq!(settings.light.color, Settings::default().light.color);
+}
+
+#[test]
+fn shadows_are_filtered_as_asked() {
+    let of = |text: &str| SettingsFile::parse(text).unwrap().shadows();
+    assert_eq!(of("[shadow]\nwidth = 5.0"), Shadows::Map);
+    let convolution = Convolution { terms: 8, ..Convolution::default() };
+    let text = "[shadow]\nfilter = 'convolution'\nterms = 8";
+    assert_eq!(of(text), Shadows::Convolution(convolution));
+}
+
+#[test]
+fn water_foams_as_asked() {
+    let of = |text: &str| {
+        let file = SettingsFile::parse(text).unwrap();
+        let mut settings = Settings::default();
+        file.apply(&mut settings);
+        file.foam.formation(&settings.water)
+    };
+    let text = "[water]\nspacing = 0.02\nrest_density = 998.0\n[foam]\n";
+    let standard = FoamSettings { rest_density: 998.0, ..FoamSettings::reduced(0.02, 1.0) };
+    assert_eq!(of(text), standard);
+    // Section 3.2 of the thesis: ρ v² l / σ, of a particle's width l and a surface tension of 0.0728 N/m.
+    let full = of(&format!("{text}weber = 'full'\nthreshold = 30.0"));
+    assert!((full.scale / (0.02 / 0.0728) - 1.0).abs() < 1.0e-6, "{full:?}");
+    assert_eq!(full.threshold, 30.0);
+    let said = of(&format!("{text}lifetime = 2.5\nair = [1.0, 0.0, -3.0]\nseed = 7"));
+    assert_eq!(
+        said,
+        FoamSettings { foam_lifetime: 2.5, air: [1.0, 0.0, -3.0], seed: 7, ..standard }
+    );
+}
+
+#[test]
+fn settings_go_out_and_come_back() {
+    let mut settings = Settings::default();
+    settings.water.medium = Medium::source(0.02);
+    settings.water.shininess = 1.0e-7;
+    settings.water.amplitude = Amplitude::Source;
+    settings.foam.veil = 0.25;
+    settings.foam.front_color = [0.1, 0.2, 0.3];
+    settings.spray = SprayLook { size: 1.5, ..SprayLook::SOURCE };
+    settings.diffuse = DiffuseLook {
+        submerged: Submerged::Falloff { most: 0.3, n: 2.0, m: 4.0 },
+        reach: Reach::Metres(5.0),
+        mixing: Mixing::Source,
+        samples: [8, 64],
+        ..DiffuseLook::of_spacing(0.1)
+    };
+    settings.bubbles.film = 450.0;
+    settings.shore.period = Some(7.0);
+    settings.shore.shoreline.floor = Some(-0.2);
+    settings.shore.shoreline.layers[2] = settings.shore.shoreline.layers[0];
+    settings.shore.contact.particle_depth = Some(0.3);
+    settings.shadow.width = 7.5;
+    settings.noise = NoiseLook { cells: 0.7, ..NoiseLook::SOURCE };
+    settings.light.irradiance = [1.0, 2.0, 3.0];
+    assert_eq!(applied(&written(&settings)), settings);
+}
+
+/// Of each table the keys that the reader knows: it says so where one is unknown.
+fn known(table: &str) -> Vec<String> {
+    let message = SettingsFile::parse(&format!("{table}\nno_such_key = 0")).unwrap_err();
+    let (_, keys) = message.split_once("expected").unwrap();
+    keys.split('`').skip(1).step_by(2).map(String::from).collect()
+}
+
+/// A file that says all that may be said, other than by default where that is a number or a truth.
+fn everything() -> SettingsFile {
+    let text = "
+        [water]
+        medium = {absorption = [1.0, 2.0, 3.0], scattering = [4.0, 5.0, 6.0]}
+        [foam]
+        threshold = 30.0
+        [diffuse]
+        splat = 'raster'
+        [bubbles]
+        hand_over = [3.0, 5.0]
+        [shore]
+        period = 7.0
+        web = 'web.png'
+        by = 'screen'
+        map = 256
+        [shoreline]
+        floor = -0.2
+        [contact]
+        particle_depth = 0.3";
+    let file = SettingsFile::parse(text).unwrap();
+    let mut settings = Settings::default();
+    file.apply(&mut settings);
+    let limits = Limits { least: 1.0, most: 2.0 };
+    let generate = (GenerateSettings::new(0.1, [limits; 3], 3.0), 1000);
+    file.all(&settings, Found { foam: None, generate: Some(&generate) })
+}
+
+#[test]
+fn every_key_is_written() {
+    let all: toml::Table = everything().text().unwrap().parse().unwrap();
+    let tables = known("");
+    assert!(tables.len() >= 12, "{tables:?}");
+    for name in tables {
+        let table = all.get(&name).and_then(toml::Value::as_table);
+        // Keys of the file itself, which are no tables, are choices of where to begin: all that they choose is written.
+        let Some(table) = table else { continue };
+        let keys = known(&format!("[{name}]"));
+        assert!(!keys.is_empty());
+        for key in keys {
+            assert!(table.contains_key(&key), "[{name}] {key} is not written");
+        }
+    }
+}
+
+/// Each number and each truth of a tree of values, one after the other, changed.
+fn changed(value: &toml::Value) -> Vec<toml::Value> {
+    use toml::Value::{Array, Boolean, Float, Integer, Table};
+    match value {
+        // Halves of eighths are exact in single precision, and written back as they are.
+        Float(x) => vec![Float(f64::from(*x as f32 * 0.5 + 0.125))],
+        Integer(n) => vec![Integer(n + 1)],
+        Boolean(b) => vec![Boolean(!b)],
+        Array(values) => {
+            let each = values.iter().enumerate();
+            each.flat_map(|(i, part)| {
+                changed(part).into_iter().map(move |part| {
+                    let mut values = values.clone();
+                    values[i] = part;
+                    Array(values)
+                })
+            })
+            .collect()
+        }
+        Table(table) => table
+            .iter()
+            .flat_map(|(key, part)| {
+                changed(part).into_iter().map(move |part| {
+                    let mut table = table.clone();
+                    table.insert(key.clone(), part);
+                    Table(table)
+                })
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// One value after the other is changed in the file that says all: read, laid over the defaults and written again it
+/// has arrived and nothing else has changed.
+#[test]
+fn every_value_arrives_and_is_written() {
+    let all: toml::Table = everything().text().unwrap().parse().unwrap();
+    let mut compared = 0;
+    for variant in changed(&toml::Value::Table(all)) {
+        let text = toml::to_string(&variant).unwrap();
+        let file = SettingsFile::parse(&text).unwrap();
+        let mut settings = Settings::default();
+        file.apply(&mut settings);
+        let mut generate =
+            (GenerateSettings::new(0.1, [Limits { least: 0.0, most: 1.0 }; 3], 0.0), 1);
+        file.generate.apply(&mut generate.0);
+        generate.1 = file.generate.max_particles.unwrap();
+        let formation = file.foam.formation(&settings.water);
+        let found = Found { foam: Some(&formation), generate: Some(&generate) };
+        let back: toml::Table = file.all(&settings, found).text().unwrap().parse().unwrap();
+        let back = toml::Value::Table(back);
+        assert!(same(&back, &variant), "{}\nis not\n{text}", toml::to_string(&back).unwrap());
+        compared += 1;
+    }
+    assert!(compared > 200, "{compared}");
+}
+
+/// Numbers to single precision.
+fn same(a: &toml::Value, b: &toml::Value) -> bool {
+    use toml::Value::{Array, Float, Table};
+    match (a, b) {
+        (Float(a), Float(b)) => *a as f32 == *b as f32,
+        (Array(a), Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        (Table(a), Table(b)) => {
+            a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| same(a, b)))
+        }
+        (a, b) => a == b,
+    }
+}
+
+#[test]
+fn mistakes_are_named() {
+    for (text, part) in [
+        ("[water]\nspacin = 1.0", "`spacing`"),
+        ("[watr]", "`water`"),
+        ("[water]\n\nspacing = 'a'", "line 3"),
+        ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk, source"),
+        ("[water]\nmedium = {absorption=[1.0,1.0,1.0], scatter=[0.0,0.0,0.0]}", "scattering"),
+        ("[water]\namplitude = 'loud'", "`volume` or `source`"),
+        ("[foam]\nweber = 'half'", "`reduced` or `full`"),
+        ("[shadow]\nfilter = 'soft'", "`pcf` or `convolution`"),
+        (
+            "[shoreline]\nlayers = [{weight=1,scale=1},{weight=1,scale=1},{weight=1,scale=1},{weight=1,scale=1},{weight=1,scale=1}]",
+            "at most 4",
+        ),
+        ("[water", "line 1"),
+    ] {
+        let message = SettingsFile::parse(text).unwrap_err();
+        assert!(message.contains(part) && !message.contains('\n'), "{message}");
+    }
+}

@@ -1,0 +1,321 @@
+//! Tables `[water]`, `[foam]`, `[spray]`, `[shadow]`, `[noise]` and `[light]`.
+
+use serde::{Deserialize, Serialize};
+use whitewater::Light;
+use whitewater::water::settings::{
+    Amplitude, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
+};
+use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
+
+use super::table::{table, words};
+
+table! {
+    /// Table `[water]`.
+    WaterTable of WaterSettings
+    keys {
+        spacing: f32,
+        rest_density: f32,
+        density_threshold: f32,
+        density_full: f32,
+        smoothing_width: f32,
+        depth_falloff: f32,
+        amplitude: AmplitudeWord,
+        fresnel: FresnelTable,
+        refraction: f32,
+        specular: f32,
+        shininess: f32,
+    }
+    optional {}
+    not { medium }
+    beside { medium: MediumTable }
+}
+
+words!(AmplitudeWord of Amplitude { Volume, Source });
+
+/// A medium by name or by its numbers.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(
+    untagged,
+    expecting = "medium: expected clear, pool, ocean, milk, source, {absorption=[r,g,b], scattering=[r,g,b]} or \
+                 {base=[r,g,b], falloff=[r,g,b,a]}"
+)]
+pub enum MediumTable {
+    Named(MediumWord),
+    Physical(Physical),
+    Source(Source),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MediumWord {
+    Clear,
+    Pool,
+    Ocean,
+    Milk,
+    Source,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Physical {
+    absorption: [f32; 3],
+    scattering: [f32; 3],
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    base: [f32; 3],
+    falloff: [f32; 4],
+}
+
+impl MediumTable {
+    /// The medium for particles of a spacing.
+    fn medium(self, spacing: f32) -> Medium {
+        match self {
+            Self::Named(MediumWord::Clear) => Medium::CLEAR,
+            Self::Named(MediumWord::Pool) => Medium::POOL,
+            Self::Named(MediumWord::Ocean) => Medium::OCEAN,
+            Self::Named(MediumWord::Milk) => Medium::MILK,
+            Self::Named(MediumWord::Source) => Medium::source(spacing),
+            Self::Physical(Physical { absorption, scattering }) => {
+                Medium::Physical { absorption, scattering }
+            }
+            Self::Source(Source { base, falloff }) => Medium::Source { base, falloff },
+        }
+    }
+}
+
+impl From<Medium> for MediumTable {
+    fn from(medium: Medium) -> Self {
+        match medium {
+            Medium::Physical { absorption, scattering } => {
+                Self::Physical(Physical { absorption, scattering })
+            }
+            Medium::Source { base, falloff } => Self::Source(Source { base, falloff }),
+        }
+    }
+}
+
+/// A reflectance by the numbers of either form.
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(untagged, expecting = "fresnel: expected {f0=0.02} or {bias=0.1, scale=0.4, power=2}")]
+pub enum FresnelTable {
+    Schlick(Schlick),
+    Source(Biased),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Schlick {
+    f0: f32,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Biased {
+    bias: f32,
+    scale: f32,
+    power: f32,
+}
+
+impl From<FresnelTable> for Fresnel {
+    fn from(table: FresnelTable) -> Self {
+        match table {
+            FresnelTable::Schlick(Schlick { f0 }) => Self::Schlick { f0 },
+            FresnelTable::Source(Biased { bias, scale, power }) => {
+                Self::Source { bias, scale, power }
+            }
+        }
+    }
+}
+
+impl From<Fresnel> for FresnelTable {
+    fn from(fresnel: Fresnel) -> Self {
+        match fresnel {
+            Fresnel::Schlick { f0 } => Self::Schlick(Schlick { f0 }),
+            Fresnel::Source { bias, scale, power } => Self::Source(Biased { bias, scale, power }),
+        }
+    }
+}
+
+impl WaterTable {
+    /// Puts what the table says over settings, the medium too.
+    pub fn apply(&self, water: &mut WaterSettings) {
+        self.put(water);
+        water.medium = self.medium.map_or(water.medium, |medium| medium.medium(water.spacing));
+    }
+
+    /// The table that says all of them.
+    pub fn all(water: &WaterSettings) -> Self {
+        Self { medium: Some(water.medium.into()), ..Self::of(water) }
+    }
+}
+
+table! {
+    /// Table `[foam]`.
+    FoamTable of FoamLook
+    keys {
+        extinction: f32,
+        front_extinction: f32,
+        front_depth: f32,
+        motion_threshold: f32,
+        noise: f32,
+        noise_rate: f32,
+        pattern: f32,
+        pattern_size: f32,
+        pattern_period: f32,
+        front_power: f32,
+        veil: f32,
+        relief: f32,
+        shadow: f32,
+        back_color: [f32; 3],
+        front_color: [f32; 3],
+    }
+    optional {}
+    not { time }
+    beside {
+        /// Not of the look, as all below: of which water foams. In which unit the Weber number is.
+        weber: Weber,
+        /// From which Weber number on, where the command line does not say.
+        threshold: f32,
+        /// Mean seconds until foam is gone.
+        lifetime: f32,
+        /// Velocity of the air, scene units a second.
+        air: [f32; 3],
+        /// Of the random times.
+        seed: u32,
+    }
+}
+
+/// In which unit the Weber number is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Weber {
+    /// That of the source's demo, which does not depend on the unit of length.
+    Reduced,
+    /// `ρ v² l / σ` in SI units.
+    Full,
+}
+
+impl FoamTable {
+    /// Which water foams; the threshold is the table's, or 1.
+    pub fn formation(&self, water: &WaterSettings) -> FoamSettings {
+        let threshold = self.threshold.unwrap_or(1.0);
+        let standard = match self.weber {
+            Some(Weber::Full) => FoamSettings::weber(water.spacing, threshold),
+            Some(Weber::Reduced) | None => FoamSettings::reduced(water.spacing, threshold),
+        };
+        FoamSettings {
+            foam_lifetime: self.lifetime.unwrap_or(standard.foam_lifetime),
+            air: self.air.unwrap_or(standard.air),
+            seed: self.seed.unwrap_or(standard.seed),
+            rest_density: water.rest_density,
+            ..standard
+        }
+    }
+
+    /// The table that says all of a look, and by what water foams, as this table and `found` say.
+    pub fn all(&self, look: &FoamLook, found: Option<&FoamSettings>) -> Self {
+        let said = self.formation(&WaterSettings::default());
+        let FoamSettings { scale: _, threshold: _, foam_lifetime, air, rest_density: _, seed } =
+            *found.unwrap_or(&said);
+        Self {
+            weber: Some(self.weber.unwrap_or(Weber::Reduced)),
+            threshold: found.map_or(self.threshold, |found| Some(found.threshold)),
+            lifetime: Some(foam_lifetime),
+            air: Some(air),
+            seed: Some(seed),
+            ..Self::of(look)
+        }
+    }
+}
+
+table! {
+    /// Table `[spray]`.
+    SprayTable of SprayLook
+    keys {
+        opacity: f32,
+        size: f32,
+        droplets: u32,
+        densities: [f32; 3],
+        spread: f32,
+        shutter: f32,
+        color: [f32; 3],
+        additive: bool,
+    }
+    optional {}
+    not {}
+    beside {}
+}
+
+table! {
+    /// Table `[shadow]`: of the scene's shadow map. The last four choose the passes.
+    ShadowTable of ShadowFilter
+    keys { width: f32, damping: f32, offset: f32, scale: f32 }
+    optional {}
+    not {}
+    beside { filter: FilterWord, terms: u32, texels: u32, bits: u32 }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FilterWord {
+    Pcf,
+    Convolution,
+}
+
+impl ShadowTable {
+    /// How the scene's shadow map is filtered.
+    pub fn passes(&self) -> Shadows {
+        match self.filter {
+            Some(FilterWord::Convolution) => Shadows::Convolution(self.convolution()),
+            Some(FilterWord::Pcf) | None => Shadows::Map,
+        }
+    }
+
+    fn convolution(&self) -> Convolution {
+        let Convolution { terms, texels, bits } = Convolution::default();
+        Convolution {
+            terms: self.terms.unwrap_or(terms),
+            texels: self.texels.unwrap_or(texels),
+            bits: self.bits.unwrap_or(bits),
+        }
+    }
+
+    /// The table that says all of a filter, and of the passes as this table does.
+    pub fn all(&self, filter: &ShadowFilter) -> Self {
+        let Convolution { terms, texels, bits } = self.convolution();
+        Self {
+            filter: Some(self.filter.unwrap_or(FilterWord::Pcf)),
+            terms: Some(terms),
+            texels: Some(texels),
+            bits: Some(bits),
+            ..Self::of(filter)
+        }
+    }
+}
+
+table! {
+    /// Table `[noise]`.
+    NoiseTable of NoiseLook
+    keys { weight: f32, falloff: f32, size: f32, cells: f32, foam: f32, color: [f32; 3] }
+    optional {}
+    not {}
+    beside {}
+}
+
+table! {
+    /// Table `[light]`.
+    LightTable of Light
+    keys {
+        direction: [f32; 3],
+        color: [f32; 3],
+        ambient: [f32; 3],
+        irradiance: [f32; 3],
+        shade: [f32; 3],
+    }
+    optional {}
+    not {}
+    beside {}
+}
