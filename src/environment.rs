@@ -48,6 +48,11 @@ impl Default for Sky {
 pub struct Equirectangular {
     /// Linear radiance. Its format must be good for linear filtering.
     pub image: HostImage,
+    /// The same picture without the sun, where the sun that [`Light`](crate::Light) tells of is in it; default `None`:
+    /// it is not. Light that foam gathers from all around comes of this one, so that the sun, which is added to it with
+    /// its shadows, is not counted twice; mirrored is `image`. (What [`Irradiance::Sampled`](crate::foam::Irradiance) takes
+    /// from all around is `image` all the same.)
+    pub without_sun: Option<HostImage>,
     /// Factor on the radiance, default 1; the product is cut at 65 000.
     pub scale: f32,
     /// Right-handed turn of the image about +y in radians: what lay along −z moves towards −x.
@@ -173,46 +178,79 @@ impl Environment {
         descriptors: &Descriptors,
         source: &EnvironmentSource,
     ) -> Result<(), Error> {
-        let size = self.cube.extent.width;
         gpu.begin_label(cmd, c"environment");
+        let recorded = match source {
+            EnvironmentSource::Sky(sky) => self
+                .record_sky(gpu, cmd, descriptors, sky)
+                .and_then(|()| self.record_irradiance(gpu, cmd, descriptors)),
+            EnvironmentSource::Equirectangular(map) => {
+                let gathered = map.without_sun.as_ref().unwrap_or(&map.image);
+                self.record_map(gpu, cmd, descriptors, (gathered, map))
+                    .and_then(|()| self.record_irradiance(gpu, cmd, descriptors))
+                    .and_then(|()| match map.without_sun {
+                        Some(_) => self.record_map(gpu, cmd, descriptors, (&map.image, map)),
+                        None => Ok(()),
+                    })
+            }
+        };
+        gpu.end_label(cmd);
+        recorded
+    }
+
+    /// The cube and its mips of the built-in sky.
+    fn record_sky(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        sky: &Sky,
+    ) -> Result<(), Error> {
+        let size = self.cube.extent.width;
+        let target = self.begin_cube(gpu, cmd);
+        descriptors.bind(gpu, cmd, &self.sky, &[target])?;
+        let [x, y, z] = glam::Vec3::from(sky.sun).normalize_or_zero().to_array();
+        let push = SkyPush { sun: [x, y, z, sky.intensity], size, pad: [0; 3] };
+        // The shader's block ends after `size`.
+        let bytes: [u8; 20] = bytemuck::bytes_of(&push)[..20].try_into().unwrap_or([0; 20]);
+        self.sky.push(gpu, cmd, &bytes);
+        self.fill_cube(gpu, cmd);
+        self.record_mips(gpu, cmd);
+        Ok(())
+    }
+
+    /// The same of an image, scaled and turned as the map says.
+    fn record_map(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        (image, map): (&HostImage, &Equirectangular),
+    ) -> Result<(), Error> {
+        let size = self.cube.extent.width;
+        let target = self.begin_cube(gpu, cmd);
+        let before = access::raw_image(image.image, image.aspect, image.before, COMPUTE_SAMPLED);
+        gpu.barriers(cmd, &[before], &[]);
+        let source = (1, Resource::Sampled(image.view, gpu.samplers.around));
+        descriptors.bind(gpu, cmd, &self.equirect, &[target, source])?;
+        let push = EquirectPush { size, scale: map.scale, turn: map.turn };
+        self.equirect.push(gpu, cmd, &push);
+        self.fill_cube(gpu, cmd);
+        let after = access::raw_image(image.image, image.aspect, COMPUTE_SAMPLED, image.after);
+        gpu.barriers(cmd, &[after], &[]);
+        self.record_mips(gpu, cmd);
+        Ok(())
+    }
+
+    /// What is in the cube goes, and its faces are written next.
+    fn begin_cube(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> (u32, Resource) {
         gpu.barriers(cmd, &[access::image(&self.cube, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
-        let target = (0, Resource::Storage(self.faces.handle));
-        match source {
-            EnvironmentSource::Sky(sky) => {
-                descriptors.bind(gpu, cmd, &self.sky, &[target])?;
-                let [x, y, z] = glam::Vec3::from(sky.sun).normalize_or_zero().to_array();
-                let push = SkyPush { sun: [x, y, z, sky.intensity], size, pad: [0; 3] };
-                // The shader's block ends after `size`.
-                let bytes: [u8; 20] = bytemuck::bytes_of(&push)[..20].try_into().unwrap_or([0; 20]);
-                self.sky.push(gpu, cmd, &bytes);
-            }
-            EnvironmentSource::Equirectangular(equirect) => {
-                let image = &equirect.image;
-                let before =
-                    access::raw_image(image.image, image.aspect, image.before, COMPUTE_SAMPLED);
-                gpu.barriers(cmd, &[before], &[]);
-                descriptors.bind(
-                    gpu,
-                    cmd,
-                    &self.equirect,
-                    &[target, (1, Resource::Sampled(image.view, gpu.samplers.around))],
-                )?;
-                let push = EquirectPush { size, scale: equirect.scale, turn: equirect.turn };
-                self.equirect.push(gpu, cmd, &push);
-            }
-        }
-        let groups = size.div_ceil(8);
+        (0, Resource::Storage(self.faces.handle))
+    }
+
+    fn fill_cube(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+        let groups = self.cube.extent.width.div_ceil(8);
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 6) };
-        if let EnvironmentSource::Equirectangular(equirect) = source {
-            let image = &equirect.image;
-            let after = access::raw_image(image.image, image.aspect, COMPUTE_SAMPLED, image.after);
-            gpu.barriers(cmd, &[after], &[]);
-        }
-        self.record_mips(gpu, cmd);
-        self.record_irradiance(gpu, cmd, descriptors)?;
-        gpu.end_label(cmd);
-        Ok(())
     }
 
     fn record_irradiance(

@@ -648,7 +648,7 @@ impl SlotState {
         let water = crate::water::chunks(&gpu.limits, config).1;
         let near = config.diffuse.filter(|_| config.bubbles.is_some_and(|own| own.hand_over));
         let near = near.map_or(0, |diffuse| near_sets(&gpu.limits, &diffuse));
-        145 + 27 * water + 4 * diffuse + near + diffuse_sets(&gpu.limits, config)
+        149 + 27 * water + 4 * diffuse + near + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

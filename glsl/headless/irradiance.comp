@@ -1,5 +1,5 @@
 #version 460
-// Pass `scene`: irradiance of the environment as nine spherical harmonics (Ramamoorthi and
+// Pass `scene`: irradiance of the environment without the sun as nine spherical harmonics (Ramamoorthi and
 // Hanrahan 2001), from the mip of 8×8 texels a face.
 // Reads: environment. Writes: nine coefficients, the cosine lobe already in them.
 

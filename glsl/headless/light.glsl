@@ -1,4 +1,4 @@
-// What shines on a place of pass `scene`: the sky's irradiance and the environment.
+// What shines on a place of pass `scene`: the sky's irradiance and the environment, both without the sun.
 // Needs scene.glsl. Reads: environment, irradiance.
 
 layout(set = 0, binding = 2) uniform samplerCube environment;

@@ -12,7 +12,7 @@ layout(set = 0, binding = 0, std140) uniform Scene {
     vec4 ray_y;         // w: ndc of a pixel
     vec4 ray_z;
     vec4 sun_direction; // to the sun (world); w: 1 where the ground hides the sky's lower half
-    vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc over it
+    vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc over it, 0 where the picture shows it
     vec4 shadow_texel;  // uv, world size of a texel of the shadow map, height of the ground
     vec4 ground;        // centre x and z, where the ground begins and ends to fade into the sky
     vec4 sea;           // level, length of its largest waves or of a plate of lava, unused, way of the sun's light a metre down

@@ -1,20 +1,22 @@
 #version 460
-// Pass `scene`: the sky where no mesh is: the environment along the pixel's ray, and the sun.
-// The environment does not hold the disc: it would be a few texels of huge radiance there.
+// Pass `scene`: the sky where no mesh is: what is shown of the environment along the pixel's ray, and the sun where that
+// is not in it: the built-in sky does not hold the disc, which would be a few texels of huge radiance there.
 // A sea reaches to the horizon, and has no floor where no mesh is.
-// Reads: environment, irradiance. Writes: scene colour.
+// Reads: environment, what is shown of it, irradiance. Writes: scene colour.
 
 #include "../headless/scene.glsl"
 #include "../headless/noise.glsl"
 #include "../headless/light.glsl"
 #include "../headless/sea.glsl"
 
+layout(set = 0, binding = 5) uniform samplerCube backdrop; // the environment with all that is in it
+
 layout(location = 0) in vec3 ray;
 layout(location = 0) out vec4 color;
 
 void main() {
     vec3 d = normalize(ray);
-    vec3 c = textureLod(environment, d, 0.0).rgb;
+    vec3 c = textureLod(backdrop, d, 0.0).rgb;
     // The end of a loop, not a branch: a CPU runs branches whole.
     int wet = over_sea() && d.y < 0.0 ? 1 : 0;
     for (int i = 0; i < wet; ++i) {
@@ -28,7 +30,7 @@ void main() {
     float disc = smoothstep(radius + edge, radius - edge, angle);
     // The glow of a lens and of haze: a tight and a wide lobe.
     float glow = 0.6 * exp(-angle / 0.012) + 0.03 * exp(-angle / 0.06);
-    float above = smoothstep(-0.01, 0.01, d.y);
+    float above = scene.sun_color.w > 0.0 ? smoothstep(-0.01, 0.01, d.y) : 0.0;
     c += above * scene.sun_color.rgb * (disc * scene.sun_color.w + glow);
     color = vec4(min(c, 60000.0), 1.0);
 }

@@ -5,11 +5,31 @@ use ash::vk;
 use super::Headless;
 use super::transfer::staging;
 use crate::contract::{HostImage, Slot};
-use crate::environment::{EnvironmentSource, Equirectangular, Sky};
+use crate::environment::{Environment, EnvironmentSource, Equirectangular, Sky};
 use crate::error::Error;
-use crate::gpu::access::{self, COPY_WRITE};
+use crate::gpu::access;
+use crate::gpu::descriptors::Descriptors;
 use crate::gpu::graveyard::Destroy;
 use crate::gpu::image::{Image, ImageDesc};
+
+const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+/// A picture as a host hands it over.
+fn host(image: &Image) -> HostImage {
+    HostImage {
+        image: image.handle,
+        view: image.view,
+        format: image.format,
+        aspect: vk::ImageAspectFlags::COLOR,
+        extent: image.extent,
+        rect: image.extent.into(),
+        before: access::COMPUTE_SAMPLED,
+        after: access::COMPUTE_SAMPLED,
+    }
+}
+
+/// Sets of descriptors that making an environment takes at most.
+const SETS: u32 = 2;
 
 impl Headless {
     /// The built-in sky as environment.
@@ -19,6 +39,7 @@ impl Headless {
     pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
         let source = EnvironmentSource::Sky(*sky);
         self.forget_scene();
+        self.without_sun = None;
         self.run(|this, cmd| {
             // SAFETY: cmd is recording; the slot's earlier work is done (every run waits).
             unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
@@ -36,7 +57,38 @@ impl Headless {
         scale: f32,
         turn: f32,
     ) -> Result<(), Error> {
+        self.pictures(extent, pixels, None, (scale, turn))
+    }
+
+    /// The same of a picture that shows the sun of the scene and of [`Light`](crate::Light), and of the same picture
+    /// without it: water and sky show the first, what is lit from all around is lit by the second.
+    ///
+    /// # Errors
+    /// As [`equirectangular`](Self::equirectangular); pictures of different sizes.
+    pub fn equirectangular_with_sun(
+        &mut self,
+        extent: vk::Extent2D,
+        pixels: &[[f32; 4]],
+        without_sun: &[[f32; 4]],
+        (scale, turn): (f32, f32),
+    ) -> Result<(), Error> {
+        if pixels.len() != without_sun.len() {
+            let (expected, found) = (pixels.len(), without_sun.len());
+            let why = format!("expected {expected} texels as the other picture, found {found}");
+            return Err(Error::bad("Equirectangular.without_sun", why));
+        }
+        self.pictures(extent, pixels, Some(without_sun), (scale, turn))
+    }
+
+    fn pictures(
+        &mut self,
+        extent: vk::Extent2D,
+        pixels: &[[f32; 4]],
+        without_sun: Option<&[[f32; 4]]>,
+        (scale, turn): (f32, f32),
+    ) -> Result<(), Error> {
         self.forget_scene();
+        self.without_sun = None;
         let most = self.gpu.limits.max_image_dimension2_d;
         if extent.width > most || extent.height > most {
             let found = format!("{}x{}", extent.width, extent.height);
@@ -44,30 +96,57 @@ impl Headless {
                 format!("expected at most {most}x{most} texels on this device, found {found}");
             return Err(Error::bad("Equirectangular.image.extent", why));
         }
-        let format = vk::Format::R32G32B32A32_SFLOAT;
-        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
-        let image =
-            Image::new(&self.gpu, &ImageDesc::new("headless/equirect", extent, format, usage))?;
-        let staging = staging(&self.gpu, bytemuck::cast_slice(pixels))?;
-        let result = self.run(|this, cmd| {
-            this.upload(cmd, &staging, &image, access::NOTHING, COPY_WRITE);
-            let host = HostImage {
-                image: image.handle,
-                view: image.view,
-                format,
-                aspect: vk::ImageAspectFlags::COLOR,
-                extent,
-                rect: extent.into(),
-                before: COPY_WRITE,
-                after: access::COMPUTE_SAMPLED,
-            };
-            let source =
-                EnvironmentSource::Equirectangular(Equirectangular { image: host, scale, turn });
+        let shown = self.picture("headless/equirect", extent, pixels)?;
+        let lights = without_sun
+            .map(|pixels| self.picture("headless/equirect/without sun", extent, pixels))
+            .transpose()?;
+        let of = |image| Equirectangular { image, without_sun: None, scale, turn };
+        let made = self.of_pictures(of, &shown, lights.as_ref());
+        // The device is done with them, or lost.
+        drop((shown, lights));
+        self.gpu.bury();
+        made
+    }
+
+    fn of_pictures(
+        &mut self,
+        of: impl Fn(HostImage) -> Equirectangular,
+        shown: &Image,
+        lights: Option<&Image>,
+    ) -> Result<(), Error> {
+        if let Some(lights) = lights {
+            let own = Environment::new(&self.gpu, self.renderer.config())?;
+            let descriptors = Descriptors::new(&self.gpu, SETS)?;
+            let source = EnvironmentSource::Equirectangular(of(host(lights)));
+            self.run(|this, cmd| {
+                own.record_setup(&this.gpu, cmd);
+                own.record(&this.gpu, cmd, &descriptors, &source)
+            })?;
+            self.without_sun = Some(own);
+        }
+        let map = Equirectangular { without_sun: lights.map(host), ..of(host(shown)) };
+        let source = EnvironmentSource::Equirectangular(map);
+        self.run(|this, cmd| {
             // SAFETY: as in `sky`.
             unsafe { this.renderer.record_environment(cmd, Slot(0), &source) }
+        })
+    }
+
+    /// A picture on the device, uploaded.
+    fn picture(
+        &mut self,
+        name: &'static str,
+        extent: vk::Extent2D,
+        pixels: &[[f32; 4]],
+    ) -> Result<Image, Error> {
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let image = Image::new(&self.gpu, &ImageDesc::new(name, extent, FORMAT, usage))?;
+        let staging = staging(&self.gpu, bytemuck::cast_slice(pixels))?;
+        let uploaded = self.run(|this, cmd| {
+            this.upload(cmd, &staging, &image, access::NOTHING, access::COMPUTE_SAMPLED);
+            Ok(())
         });
         staging.destroy(&self.gpu);
-        image.destroy(&self.gpu);
-        result
+        uploaded.map(|()| image)
     }
 }

@@ -42,7 +42,7 @@ use crate::composite::way;
 use crate::contract::{
     Access, Config, Layer, ParticleCounts, Previous, Region, Slot, SmoothingLevels,
 };
-use crate::environment::Sky;
+use crate::environment::{Environment, Sky};
 use crate::error::{Error, VkContext};
 use crate::gpu::Gpu;
 use crate::gpu::access;
@@ -103,6 +103,8 @@ pub struct Headless {
     active_samples: Option<(vk::Buffer, u32)>,
     bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
+    /// The environment without the sun, where that is in it: what lights the scene.
+    without_sun: Option<Environment>,
     device: Device,
 }
 
@@ -154,6 +156,7 @@ impl Headless {
             active_samples: None,
             bubble_words: None,
             scene: None,
+            without_sun: None,
             device,
         };
         if let Err(error) = headless.first_contents() {
@@ -265,7 +268,7 @@ impl Headless {
         // Freed with the shared objects.
         drop((self.commands, self.color, self.depth, self.scene));
         drop((self.positions, self.densities, self.velocities, self.ids, self.diffuse));
-        drop((self.bubbles, self.shores));
+        drop((self.bubbles, self.shores, self.without_sun));
         // SAFETY: the device is idle, or lost.
         unsafe { renderer.destroy() };
         gpu.destroy();

@@ -152,6 +152,7 @@ impl Headless {
             color: &self.color,
             depth: &self.depth,
             environment: self.renderer.environment_view(),
+            without_sun: self.without_sun.as_ref().map(|own| own.cube.view),
             sampler: gpu.samplers.linear,
         };
         stage.renderer.record(gpu, cmd, &frame)?;

@@ -1,6 +1,6 @@
 //! PNG out and in, Radiance HDR in.
 
-use std::io::{self, Cursor, Write};
+use std::io::{self, Cursor, Read as _, Write};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError, ImageFormat, ImageReader};
@@ -81,9 +81,16 @@ pub fn read_png(bytes: &[u8]) -> Result<Layers, String> {
     Ok(layers)
 }
 
+/// Both signatures of a Radiance HDR; the decoder knows the first alone.
+const SIGNATURES: [&[u8]; 2] = [b"#?RADIANCE", b"#?RGBE"];
+
 pub fn read_hdr(bytes: &[u8]) -> Result<Layers, String> {
-    let decoder =
-        image::codecs::hdr::HdrDecoder::new(Cursor::new(bytes)).map_err(|e| e.to_string())?;
+    let body = match SIGNATURES.iter().find_map(|signature| bytes.strip_prefix(*signature)) {
+        Some(body) => body,
+        None => return Err("neither #?RADIANCE nor #?RGBE".into()),
+    };
+    let file = SIGNATURES[0].chain(body);
+    let decoder = image::codecs::hdr::HdrDecoder::new(file).map_err(|e| e.to_string())?;
     let image = image::DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
     let image = image.into_rgb32f();
     let mut layers = Layers::new(image.width() as usize, image.height() as usize);
@@ -124,5 +131,22 @@ mod tests {
         assert!(why.contains("20000x10000") && why.contains("512 MiB"), "{why}");
         let why = read_png(&png(200, 100)).unwrap_err();
         assert!(!why.contains("200x100"), "{why}");
+    }
+
+    /// Two pixels by either signature that Radiance pictures have.
+    #[test]
+    fn both_signatures_of_radiance_are_read() {
+        let read = |signature: &str| {
+            let header = format!("{signature}\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n");
+            // A part of 128 is a half, times 2 to the exponent over 128.
+            let pixels = [128, 64, 32, 129, 64, 128, 0, 130];
+            read_hdr(&[header.as_bytes(), &pixels].concat())
+        };
+        for signature in ["#?RADIANCE", "#?RGBE"] {
+            let picture = read(signature).unwrap();
+            let rgb = picture.rgb().unwrap();
+            assert_eq!(rgb, [[1.0, 0.5, 0.25], [1.0, 2.0, 0.0]], "{signature}");
+        }
+        assert!(read("#?XYZE").unwrap_err().contains("#?RGBE"));
     }
 }

@@ -109,20 +109,32 @@ impl<'g> Rig<'g> {
         scale: f32,
         turn: f32,
     ) {
+        let image = self.map(size, texels);
+        let (image, without_sun) = (image.host_image(), None);
+        let source = Equirectangular { image, without_sun, scale, turn };
+        self.any_environment(&EnvironmentSource::Equirectangular(source));
+    }
+
+    /// The same of a map that shows the sun, and of the map without it.
+    pub fn environment_with_sun(
+        &mut self,
+        size: vk::Extent2D,
+        [texels, without_sun]: [&[[f32; 4]]; 2],
+    ) {
+        let [image, without_sun] = [texels, without_sun].map(|texels| self.map(size, texels));
+        let (image, without_sun) = (image.host_image(), Some(without_sun.host_image()));
+        let source = Equirectangular { image, without_sun, scale: 1.0, turn: 0.0 };
+        self.any_environment(&EnvironmentSource::Equirectangular(source));
+    }
+
+    fn map(&self, size: vk::Extent2D, texels: &[[f32; 4]]) -> Texture {
         let after = Access::new(
             vk::PipelineStageFlags2::COMPUTE_SHADER,
             vk::AccessFlags2::SHADER_SAMPLED_READ,
             vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
         );
-        let image = self.stub.uploaded(
-            OUTPUT,
-            size,
-            vk::ImageUsageFlags::SAMPLED,
-            bytemuck::cast_slice(texels),
-            after,
-        );
-        let source = Equirectangular { image: image.host_image(), scale, turn };
-        self.any_environment(&EnvironmentSource::Equirectangular(source));
+        let usage = vk::ImageUsageFlags::SAMPLED;
+        self.stub.uploaded(OUTPUT, size, usage, bytemuck::cast_slice(texels), after)
     }
 
     /// A renderer in an environment from 0 to 1. (Where it was only cleared, SwiftShader prepares it

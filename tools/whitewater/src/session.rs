@@ -16,7 +16,7 @@ use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
-use crate::environment::{Environment, Source};
+use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
@@ -302,11 +302,12 @@ impl<'a> Session<'a> {
             .map_err(|error| too_large(error, args.supersample))?;
         times.step("environment", number, || match &self.look.environment.source {
             Source::Sky(sky) => Ok(headless.sky(sky)?),
-            Source::Picture(map) => {
-                let extent = vk::Extent2D { width: map.width as u32, height: map.height as u32 };
-                let pixels: Vec<[f32; 4]> =
-                    map.pixels.iter().map(|c| c.extend(1.0).to_array()).collect();
-                let made = headless.equirectangular(extent, &pixels, 1.0, 0.0);
+            Source::Picture { shown, without_sun } => {
+                let (width, height) = (shown.width as u32, shown.height as u32);
+                let extent = vk::Extent2D { width, height };
+                let [shown, without_sun] = [shown, without_sun].map(Panorama::texels);
+                let made =
+                    headless.equirectangular_with_sun(extent, &shown, &without_sun, (1.0, 0.0));
                 made.map_err(|error| bad_picture(error, &args.environment))
             }
         })?;

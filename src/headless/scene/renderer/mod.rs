@@ -58,8 +58,10 @@ pub struct SceneFrame<'a> {
     /// Depth target in DEPTH_STENCIL_ATTACHMENT_OPTIMAL, before and after.
     pub depth: &'a Image,
     /// Cube of the environment with its mips, in SHADER_READ_ONLY_OPTIMAL; its last barrier makes
-    /// it visible to compute and fragment shaders.
+    /// it visible to compute and fragment shaders. It is shown.
     pub environment: vk::ImageView,
+    /// The same without the sun, which lights the scene for itself; `None`: it is without.
+    pub without_sun: Option<vk::ImageView>,
     /// Linear in the texels and between the mips.
     pub sampler: vk::Sampler,
 }
@@ -103,14 +105,14 @@ struct Recording<'a> {
     /// All of the frame.
     area: vk::Rect2D,
     /// All but the texture.
-    resources: [(u32, Resource); 4],
+    resources: [(u32, Resource); 5],
 }
 
 impl Recording<'_> {
     /// Everything that a shader of the scene may read.
-    fn resources(&self, texture: usize) -> [(u32, Resource); 5] {
-        let [a, b, c, d] = self.resources;
-        [a, b, c, d, (4, self.textures.resource(texture))]
+    fn resources(&self, texture: usize) -> [(u32, Resource); 6] {
+        let [a, b, c, d, e] = self.resources;
+        [a, b, c, d, (4, self.textures.resource(texture)), e]
     }
 }
 
@@ -224,8 +226,11 @@ impl SceneRenderer {
             return Err(Error::bad("SceneFrame.depth", "not of the colour image's size"));
         }
         let (far, extent) = (lens.nothing(), frame.color.extent);
-        let uniforms =
+        let mut uniforms =
             Uniforms::new(&self.surroundings, &self.shadow.sun, frame.camera, &lens, far, extent);
+        if frame.without_sun.is_some() {
+            uniforms.hide_sun();
+        }
         let bytes = bytemuck::bytes_of(&uniforms);
         slot.uniforms.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
         let earlier = slot.targets.take().and_then(|targets| targets.samples);
@@ -243,8 +248,15 @@ impl SceneRenderer {
             resources: [
                 (0, Resource::buffer(&slot.uniforms)),
                 (1, self.shadow.resource()),
-                (2, Resource::Sampled(frame.environment, frame.sampler)),
+                (
+                    2,
+                    Resource::Sampled(
+                        frame.without_sun.unwrap_or(frame.environment),
+                        frame.sampler,
+                    ),
+                ),
                 (3, self.irradiance.resource()),
+                (5, Resource::Sampled(frame.environment, frame.sampler)),
             ],
         };
         gpu.begin_label(cmd, c"scene");

@@ -133,4 +133,9 @@ impl Uniforms {
             sea,
         }
     }
+
+    /// No disc and no glow: the environment shows them.
+    pub fn hide_sun(&mut self) {
+        self.sun_color[3] = 0.0;
+    }
 }
