@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::Descriptors;
 use crate::gpu::timing::{Timer, Timing};
-use crate::water::{Classify, ROW};
+use crate::water::Classify;
 
 /// What fixes the memory of a [`State`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,7 +134,7 @@ impl State {
 
     /// Bytes of a saved state.
     pub fn size(&self) -> u64 {
-        u64::from(self.classify.rows) * ROW
+        self.classify.size()
     }
 
     /// Records a copy of the state after the last step into a buffer of the host's, from which

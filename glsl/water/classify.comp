@@ -1,7 +1,8 @@
 #version 460
 // Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up
 // by its id in the table of the step before, moved on, and entered in this step's table: order does
-// not matter, and ids that are gone are forgotten.
+// not matter, and ids that are gone are forgotten. A dispatch sees one part of the tables, and moves on the particles
+// whose ids belong there.
 // Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 #include "random.glsl"
@@ -23,7 +24,7 @@ layout(set = 0, binding = 3, std430) readonly buffer Ids { uint ids[]; };
 layout(set = 0, binding = 4, std430) readonly buffer HostCount { uint host_count; };
 layout(set = 0, binding = 5, std430) readonly buffer Old { Row old_rows[]; };
 layout(set = 0, binding = 6, std430) buffer New { Row new_rows[]; };
-// Foam and age of each particle, in the order of the step's streams.
+// Foam and age of each particle of the chunk, in the order of the step's streams.
 layout(set = 0, binding = 7, std430) writeonly buffer Foam { vec2 foam[]; };
 
 layout(push_constant, std430) uniform Push {
@@ -37,7 +38,9 @@ layout(push_constant, std430) uniform Push {
     uint count;           // most particles
     uint from_gpu;        // 1: as many as the host's buffer says, at most count
     uint chunk_end;       // first particle of the next chunk
-    uint rows;
+    uint rows;            // of all parts
+    uint part_first;      // row of the part
+    uint part_rows;
     uint seed;
     float scale;          // Weber number per density and squared speed
     float threshold;
@@ -67,21 +70,22 @@ float weber(uint i) {
     return number;
 }
 
+// Where its search begins in the part, or the part's end or more where it belongs to another.
 uint slot_of(uint key) {
     uint high;
     uint low;
     umulExtended(pcg(key), push.rows, high, low);
-    return high;
+    return high - push.part_first;
 }
 
+// A search that comes to the end of the part goes on at its beginning.
 uint next(uint slot) {
-    return slot + 1u == push.rows ? 0u : slot + 1u;
+    return slot + 1u == push.part_rows ? 0u : slot + 1u;
 }
 
 // The particle's row of the step before; a new one is water.
-Row row_before(uint key) {
-    uint slot = slot_of(key);
-    for (uint n = 0u; n < push.rows && old_rows[slot].key != 0u; ++n) {
+Row row_before(uint key, uint slot) {
+    for (uint n = 0u; n < push.part_rows && old_rows[slot].key != 0u; ++n) {
         if (old_rows[slot].key == key) {
             Row row = old_rows[slot];
             row.age += push.dt;
@@ -92,9 +96,8 @@ Row row_before(uint key) {
     return Row(key, WATER, 0.0, 0.0, 0.0);
 }
 
-void enter(Row row) {
-    uint slot = slot_of(row.key);
-    for (uint n = 0u; n < push.rows; ++n) {
+void enter(Row row, uint slot) {
+    for (uint n = 0u; n < push.part_rows; ++n) {
         uint there = atomicCompSwap(new_rows[slot].key, 0u, row.key);
         if (there == 0u) {
             new_rows[slot].phase = row.phase;
@@ -154,21 +157,24 @@ void main() {
     if (particle >= min(count, push.chunk_end)) {
         return;
     }
-    float number = weber(i);
     if (push.id_stride == 0u) {
         // No ids, no memory: a ramp round the threshold. Comparisons with NaN are false.
-        float ramp = number / push.threshold - 0.5;
-        foam[particle] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
+        float ramp = weber(i) / push.threshold - 0.5;
+        foam[i] = vec2(ramp > 0.0 ? min(ramp, 1.0) : 0.0, 0.0);
         return;
     }
     uint id = ids[push.id_word + i * push.id_stride];
     uint key = id + 1u;
-    if (key == 0u) {
-        foam[particle] = vec2(0.0);
+    uint slot = slot_of(key);
+    if (slot >= push.part_rows) {
         return;
     }
-    Row row = row_before(key);
-    float now = advance(row, id, number);
-    enter(row);
-    foam[particle] = vec2(now, row.age);
+    if (key == 0u) {
+        foam[i] = vec2(0.0);
+        return;
+    }
+    Row row = row_before(key, slot);
+    float now = advance(row, id, weber(i));
+    enter(row, slot);
+    foam[i] = vec2(now, row.age);
 }

@@ -2,7 +2,8 @@
 //! Listing A.14 culls hard where Sec. 3.2.1 lets a particle be both: here it is both).
 //!
 //! State follows the particle's id, in a hash table that each step writes anew from that of the
-//! step before: particles may be reordered, be born and vanish, and no step depends on their order.
+//! step before: particles may be reordered, be born and vanish, and no step depends on their order. Tables longer than
+//! a binding may be are in parts, each a hash table by itself, and each step goes through them one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 use ash::vk;
@@ -27,6 +28,14 @@ use crate::gpu::timing::Timer;
 pub const ROW: u64 = 20;
 /// Particles of a dispatch at most: 64 a group, 65 535 groups.
 const MOST_CHUNK: u32 = 1 << 21;
+/// Bytes of a part at most: every device binds as many, so that what one has saved fits any other.
+const MOST_PART: u64 = 1 << 27;
+/// Rows that parts are a multiple of: 64 are 1280 bytes, a multiple of every device's offset alignment.
+const PART_UNIT: u64 = 64;
+/// Particles that chunks are a multiple of, where there are several: the foam of 32 is 256 bytes.
+const CHUNK_UNIT: u32 = 32;
+/// Bytes of a particle's foam and age.
+const FOAM: u64 = 8;
 
 /// How foam is read by the passes that draw it, and copied.
 const FOAM_USE: Access = COMPUTE_READ.and(VERTEX_READ).and(COPY_READ);
@@ -45,6 +54,8 @@ struct Push {
     from_gpu: u32,
     chunk_end: u32,
     rows: u32,
+    part_first: u32,
+    part_rows: u32,
     seed: u32,
     scale: f32,
     threshold: f32,
@@ -70,6 +81,8 @@ shader::assert_layout!(
         from_gpu,
         chunk_end,
         rows,
+        part_first,
+        part_rows,
         seed,
         scale,
         threshold,
@@ -82,46 +95,81 @@ shader::assert_layout!(
     }
 );
 
+/// How the tables are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Parts {
+    /// Rows of a part.
+    rows: u32,
+    count: u32,
+}
+
+impl Parts {
+    /// For so many particles, where so many bytes can be bound.
+    fn new(max_particles: u32, range: u32) -> Option<Self> {
+        // Two of three taken keep the searches short.
+        let rows = u64::from(max_particles) * 3 / 2 + 1;
+        let whole = u64::from(range).min(MOST_PART) / ROW;
+        let (rows, count) = if rows <= whole {
+            (rows, 1)
+        } else {
+            // Ids are spread evenly: of millions a part gets its share within a thousandth.
+            let fits = (whole - whole % PART_UNIT).max(PART_UNIT);
+            let count = rows.div_ceil(fits);
+            (rows.div_ceil(count).next_multiple_of(PART_UNIT), count)
+        };
+        let parts = Self { rows: rows as u32, count: count as u32 };
+        u32::try_from(rows * count).is_ok().then_some(parts)
+    }
+
+    /// Rows of all.
+    fn all(self) -> u32 {
+        self.rows * self.count
+    }
+
+    /// A part of a table.
+    fn of(self, table: &Buffer, part: u32) -> Resource {
+        let bytes = ROW * u64::from(self.rows);
+        Resource::Buffer(table.handle, bytes * u64::from(part), bytes)
+    }
+}
+
 /// The pass.
 pub struct Classify {
     pipeline: Pipeline,
     /// Tables of the step before and of this one, in turn.
     tables: [Buffer; 2],
+    parts: Parts,
     /// Foam (0 to 1) and age (seconds) of each particle of the last step, in its order.
     pub foam: Buffer,
-    /// Rows of a table.
-    pub rows: u32,
     max_particles: u32,
     chunk: u32,
 }
 
 impl Classify {
     pub fn new(gpu: &Gpu, max_particles: u32, max_stride: u32) -> Result<Self, Error> {
-        let range = u64::from(gpu.limits.max_storage_buffer_range);
-        // Two of three taken keep the searches short.
-        let rows = u64::from(max_particles) * 3 / 2 + 1;
-        if rows * ROW > range {
-            let most = (range / ROW - 1) * 2 / 3;
-            return Err(Error::bad(
-                "StateConfig.max_particles",
-                format!("{max_particles}: the device binds state for {most} at most"),
-            ));
-        }
+        let range = gpu.limits.max_storage_buffer_range;
+        let parts = Parts::new(max_particles, range).ok_or_else(|| {
+            let why = format!("{max_particles}: more than a table has rows for, 2.8 thousand millions");
+            Error::bad("StateConfig.max_particles", why)
+        })?;
         type Usage = vk::BufferUsageFlags;
         let usage = Usage::STORAGE_BUFFER | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
         let make = |name, size| Buffer::new(gpu, name, size, usage, MemoryLocation::GpuOnly);
-        let fits = (range.saturating_sub(256) / u64::from(max_stride.max(4))) as u32;
+        let table = |name| make(name, ROW * u64::from(parts.all()));
+        let fits = range.saturating_sub(256) / max_stride.max(FOAM as u32);
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_CLASSIFY_COMP, &[])?,
-            tables: [
-                make("water/classify/even", rows * ROW)?,
-                make("water/classify/odd", rows * ROW)?,
-            ],
-            foam: make("water/classify/foam", 8 * u64::from(max_particles))?,
-            rows: rows as u32,
+            tables: [table("water/classify/even")?, table("water/classify/odd")?],
+            parts,
+            foam: make("water/classify/foam", FOAM * u64::from(max_particles))?,
             max_particles,
-            chunk: fits.clamp(1, MOST_CHUNK),
+            chunk: (fits - fits % CHUNK_UNIT).clamp(CHUNK_UNIT, MOST_CHUNK),
         })
+    }
+
+    /// Bytes of a table.
+    pub fn size(&self) -> u64 {
+        ROW * u64::from(self.parts.all())
     }
 
     /// The table that holds the state, when `odd` steps were recorded or not.
@@ -148,7 +196,7 @@ impl Classify {
         out: bool,
     ) {
         let table = self.table(odd).handle;
-        let size = u64::from(self.rows) * ROW;
+        let size = self.size();
         let [from, to] = if out { [table, host] } else { [host, table] };
         let [from_offset, to_offset] = if out { [0, offset] } else { [offset, 0] };
         let region = vk::BufferCopy { src_offset: from_offset, dst_offset: to_offset, size };
@@ -196,58 +244,53 @@ impl Classify {
             Count::Cpu(count) => (count.min(most), None),
             Count::Gpu { buffer, offset } => (most, Some(Resource::Buffer(buffer, offset, 4))),
         };
-        let settings = step.settings;
-        let [air_x, air_y, air_z] = settings.air;
-        let mut first = 0;
-        while first < count {
-            let chunk = self.chunk.min(count - first);
-            let bound = Window::all(gpu, &step.velocities, [&step.densities, &step.ids], first);
-            // A stream that ends before the chunk has no particles in it: the count was clamped.
-            let Some((velocities, [densities, ids])) = bound else { break };
-            descriptors.bind(
-                gpu,
-                cmd,
-                &self.pipeline,
-                &[
-                    (1, velocities.resource),
-                    (2, densities.resource),
-                    (3, ids.resource),
-                    (4, from_gpu.unwrap_or(velocities.resource)),
-                    (5, Resource::buffer(old)),
-                    (6, Resource::buffer(new)),
-                    (7, Resource::buffer(&self.foam)),
-                ],
-            )?;
-            self.pipeline.push(
-                gpu,
-                cmd,
-                &Push {
-                    velocity_word: velocities.word,
-                    velocity_stride: velocities.stride,
-                    density_word: densities.word,
-                    density_stride: densities.stride,
-                    id_word: ids.word,
-                    id_stride: ids.stride,
-                    first,
-                    count,
-                    from_gpu: u32::from(from_gpu.is_some()),
-                    chunk_end: first + chunk,
-                    rows: self.rows,
-                    seed: settings.seed,
-                    scale: settings.scale,
-                    threshold: settings.threshold,
-                    foam_lifetime: settings.foam_lifetime,
-                    dt: step.dt,
-                    air_x,
-                    air_y,
-                    air_z,
-                    rest_density: settings.rest_density,
-                },
-            );
-            let groups = chunk.div_ceil(self.pipeline.local_size[0]);
-            // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
-            unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
-            first += chunk;
+        // Without ids there is nothing to look up, and no part but the first one bound.
+        let parts = if step.ids.is_some() { self.parts.count } else { 1 };
+        let mut written = false;
+        for part in 0..parts {
+            for first in (0..count).step_by(self.chunk as usize) {
+                let bound = Window::all(gpu, &step.velocities, [&step.densities, &step.ids], first);
+                // A stream that ends before the chunk has no particles in it: the count was clamped.
+                let Some((velocities, [densities, ids])) = bound else { break };
+                if std::mem::replace(&mut written, true) {
+                    // The others' foam and rows lie in what this one writes beside.
+                    let ours = [new.handle, self.foam.handle]
+                        .map(|own| buffer(own, COMPUTE_READ_WRITE, COMPUTE_READ_WRITE));
+                    gpu.barriers(cmd, &[], &ours);
+                }
+                let chunk = self.chunk.min(count - first);
+                let foam = (FOAM * u64::from(first), FOAM * u64::from(chunk));
+                descriptors.bind(
+                    gpu,
+                    cmd,
+                    &self.pipeline,
+                    &[
+                        (1, velocities.resource),
+                        (2, densities.resource),
+                        (3, ids.resource),
+                        (4, from_gpu.unwrap_or(velocities.resource)),
+                        (5, self.parts.of(old, part)),
+                        (6, self.parts.of(new, part)),
+                        (7, Resource::Buffer(self.foam.handle, foam.0, foam.1)),
+                    ],
+                )?;
+                let [velocity, density, id] = [velocities, densities, ids];
+                let push = self.push(step, [velocity, density, id], part);
+                self.pipeline.push(
+                    gpu,
+                    cmd,
+                    &Push {
+                        first,
+                        count,
+                        from_gpu: u32::from(from_gpu.is_some()),
+                        chunk_end: first + chunk,
+                        ..push
+                    },
+                );
+                let groups = chunk.div_ceil(self.pipeline.local_size[0]);
+                // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+                unsafe { gpu.device.cmd_dispatch(cmd, groups, 1, 1) };
+            }
         }
 
         let mut after = vec![buffer(self.foam.handle, COMPUTE_WRITE, FOAM_USE)];
@@ -257,12 +300,42 @@ impl Classify {
         Ok(())
     }
 
+    /// What goes with a dispatch, but for which particles it is over.
+    fn push(&self, step: &Step<'_>, [velocity, density, id]: [Window; 3], part: u32) -> Push {
+        let settings = step.settings;
+        let [air_x, air_y, air_z] = settings.air;
+        Push {
+            velocity_word: velocity.word,
+            velocity_stride: velocity.stride,
+            density_word: density.word,
+            density_stride: density.stride,
+            id_word: id.word,
+            id_stride: id.stride,
+            first: 0,
+            count: 0,
+            from_gpu: 0,
+            chunk_end: 0,
+            rows: self.parts.all(),
+            part_first: part * self.parts.rows,
+            part_rows: self.parts.rows,
+            seed: settings.seed,
+            scale: settings.scale,
+            threshold: settings.threshold,
+            foam_lifetime: settings.foam_lifetime,
+            dt: step.dt,
+            air_x,
+            air_y,
+            air_z,
+            rest_density: settings.rest_density,
+        }
+    }
+
     pub fn memory(&self) -> u64 {
         self.tables.iter().map(|table| table.size).sum::<u64>() + self.foam.size
     }
 
     /// Sets of a step.
     pub fn sets(&self) -> u32 {
-        self.max_particles.div_ceil(self.chunk).max(1)
+        self.max_particles.div_ceil(self.chunk).max(1) * self.parts.count
     }
 }

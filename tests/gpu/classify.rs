@@ -8,8 +8,10 @@ use crate::hostile::spoil;
 use crate::reference::classify::{self as twin, Entry, NO_ID, Particle, Phase, Phases};
 use crate::support::device::Gpu;
 use crate::support::host::{Data, HOST_WRITE, Stub};
+use crate::support::limits::{Claims, claim};
 use crate::support::rig::stream;
 use crate::support::scenes::Random;
+use crate::support::spy;
 use crate::support::tolerance::U;
 
 const SLOTS: u32 = 2;
@@ -265,6 +267,58 @@ fn a_saved_state_goes_on_as_if_uncut() {
         }
         assert_eq!(part.step(&settings, 0.05, &particles), expected, "step {step}");
     }
+}
+
+/// Where a device binds only a part of the tables at once, and a part of the particles, nothing of it shows.
+#[test]
+fn tables_in_parts_hold_the_same_state() {
+    let mut gpu = Gpu::spied();
+    spy::install(&mut gpu);
+    let config = StateConfig { max_stride: 20, ..StateConfig::new(700) };
+    let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(700));
+    let steps: Vec<Vec<Particle>> = (0..40).map(|_| sea.step().to_vec()).collect();
+    let run = |gpu: &Gpu, looks: &dyn Fn(u64)| -> (Vec<Foam>, Vec<u8>) {
+        let mut body = Body::new(gpu, config);
+        let mut foam = Vec::new();
+        for (i, particles) in steps.iter().enumerate() {
+            let cloud = Cloud::new(&body.stub, particles);
+            let step = cloud.step(&settings, 0.05);
+            drop(spy::take_bound());
+            // Without ids every ninth: what the table holds then is nobody's, in both.
+            let step = if i % 9 == 8 { Step { ids: None, ..step } } else { step };
+            body.record(&step).expect("a step");
+            let bytes = (cloud.data.buffer, cloud.data.size);
+            let foamed = (body.state().foam(), 8 * 700);
+            for bound in spy::take_bound() {
+                let table = bound.range == vk::WHOLE_SIZE && bound.buffer != bytes.0;
+                assert!(!table, "of a buffer of unknown size: {bound:?}");
+                looks(bound.bytes(&[bytes, foamed]));
+            }
+            foam.push(body.foam(particles.len()));
+        }
+        (foam, body.save())
+    };
+    let (whole, saved) = run(&gpu, &|_| {});
+    // 250 rows, and 237 particles of 20 bytes: 224.
+    let claims = Claims { max_storage_buffer_range: Some(5000), ..Claims::default() };
+    claim(&mut gpu, claims);
+    let gpu = gpu;
+    let longest = std::cell::Cell::new(0);
+    let (parts, in_parts) = run(&gpu, &|bytes| longest.set(longest.get().max(bytes)));
+    assert!(longest.get() <= 5000, "{} bytes bound", longest.get());
+    assert!(in_parts.len() > saved.len(), "of one part: {} bytes", in_parts.len());
+    for (i, (parts, whole)) in parts.iter().zip(&whole).enumerate() {
+        assert_eq!(parts, whole, "step {i}");
+    }
+    for (i, particles) in steps.iter().enumerate() {
+        if i % 9 == 8 {
+            phases = Phases::default();
+        } else {
+            let _ = phases.step(&twin_settings(&settings), 0.05, particles);
+        }
+    }
+    assert_state("whole", &saved, &phases);
+    assert_state("parts", &in_parts, &phases);
 }
 
 /// A step that was thrown away did not happen.

@@ -77,6 +77,12 @@ impl From<Error> for Failure {
             Error::BadInput { field, .. } if field.starts_with("Config.") => {
                 Self::usage(error.to_string())
             }
+            // Of objects that the flags say nothing of.
+            Error::BadInput { field, why }
+                if field.starts_with("StateConfig.") || field.starts_with("GenerateConfig.") =>
+            {
+                Self::input(format!("the particles: {why}"))
+            }
             Error::BadInput { .. } => Self::input(error.to_string()),
             Error::Allocation { .. } => Self::new(
                 Kind::Device,
