@@ -114,7 +114,7 @@
 //! | foam: depth, thickness and its sums, what water is before it (`foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
 //! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | foam: sprites and shares (`foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |
-//! | spray: optical depth, and what of it is lit (`spray`) | 4 w h | 3.5 MiB | 7.9 MiB |
+//! | spray: optical depth, and what of it is lit (`spray`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | motion vectors, and sums at quarter resolution (`motion`) | 12½ w h | 11.0 MiB | 24.7 MiB |
 //! | spray: sprites (`spray`) | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //! | surface noise at half resolution (`noise`) | w h | 0.9 MiB | 2.0 MiB |

@@ -27,6 +27,8 @@ mod diffuse;
 mod diffuse_parts;
 #[path = "gpu/environment.rs"]
 mod environment;
+#[path = "gpu/far.rs"]
+mod far;
 #[path = "gpu/foam/mod.rs"]
 mod foam;
 #[path = "gpu/generate.rs"]

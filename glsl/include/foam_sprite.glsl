@@ -1,4 +1,4 @@
-// A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl,
+// A foam sprite as it is drawn, by quads or by invocations. Needs frame.glsl, random.glsl, whole_steps.glsl,
 // gradient_noise.glsl, foam.glsl, pattern.glsl, kernel.glsl.
 
 // Over the foam, the depth's part of the half-axes: whole before there is enough foam to be seen, for what
@@ -21,6 +21,7 @@ struct FoamNoise {
     vec3 across;
     vec3 coarse; // logarithm of the pattern in its middle, and what it gains to its half-axes
     vec2 torn;   // strength of the noise; share of the sun's light
+    uint chance; // that it is rounded up by
 };
 
 FoamPlane foam_plane(FoamSprite sprite, bool thick) {
@@ -71,13 +72,15 @@ FoamNoise foam_noise(FoamSprite sprite, FoamPlane plane) {
         noise.torn.x = frame.foam_noise.x * told_apart(cell, plane.texel);
     }
     noise.torn.y = sprite.rest.y;
+    noise.chance = chance_of(id, 0u);
     return noise;
 }
 
 // What it adds where a ray meets it: to all foam, to the layer right behind the frontmost, to what of that the
-// sun lights, and by how far behind the frontmost it lies. Whole steps, their sums are exact, in any order.
+// sun lights, and by how far behind the frontmost it lies. Whole steps, their sums are exact, in any order; all rounded
+// alike, so that none is more than what it is a part of.
 // before: metres to the scene.
-vec4 foam_steps(float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
+vec4 foam_steps(ivec2 texel, float amount, FoamNoise own, vec2 place, float depth, float front, float before) {
     float noise = own.torn.x * gradient_noise(own.place + own.along * place.x + own.across * place.y);
     amount *= thickness_kernel(dot(place, place));
     amount *= has_pattern() ? exp(own.coarse.x + dot(own.coarse.yz, place) + noise) : max(1.0 + noise, 0.0);
@@ -89,5 +92,5 @@ vec4 foam_steps(float amount, FoamNoise own, vec2 place, float depth, float fron
     // Bounded, so that steps can hold its sum, and led by what is near, which hides the rest.
     float behind = max(depth - front - frame.particle.y, 0.0);
     float far = behind / (behind + frame.particle.y);
-    return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + 0.5);
+    return floor(amount * vec4(1.0, first, first * own.torn.y, far) / frame.foam_back.w + rounding_up(own.chance, texel));
 }

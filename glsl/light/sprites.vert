@@ -5,6 +5,8 @@
 
 #include "frame.glsl"
 #include "density.glsl"
+#include "random.glsl"
+#include "whole_steps.glsl"
 
 layout(constant_id = 9) const uint FOAM = 0;
 
@@ -30,6 +32,7 @@ layout(location = 3) flat out vec2 amount; // height of its water and of its foa
 void main() {
     uint index = gl_InstanceIndex;
     uint at = push.position_word + index * push.position_stride;
+layout(location = 4) flat out uint chance; // that they are rounded up by
     vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
     float bulk_share = 1.0;
     float spray_share = 0.0;
@@ -52,6 +55,9 @@ void main() {
     float texel = frame.light_map.y;
     float radius = frame.particle.x * max(bulk_share, 0.5);
     // No narrower than a texel: it must not fall between them.
+    // No ids are read for it: by its place, whatever the order.
+    uvec3 bits = floatBitsToUint(position);
+    chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     axis = max(push.front == 1u ? radius : frame.particle.z, texel);
     depth = seen.z;
     // As on the screen: the integral over the map is the volume.

@@ -5,11 +5,14 @@
 
 #include "frame.glsl"
 #include "kernel.glsl"
+#include "random.glsl"
+#include "whole_steps.glsl"
 
 layout(location = 0) flat in vec2 centre;
 layout(location = 1) flat in float depth;
 layout(location = 2) flat in float axis;
 layout(location = 3) flat in vec2 amount;
+layout(location = 4) flat in uint chance;
 
 layout(location = 0) out vec4 thickness;
 
@@ -21,7 +24,8 @@ void main() {
     }
     // Whole steps: their sums are exact, in any order.
     float step = frame.foam_back.w;
-    vec2 height = floor(amount * (thickness_kernel(rho2) / step) + 0.5) * step;
+    float up = rounding_up(chance, ivec2(gl_FragCoord.xy));
+    vec2 height = floor(amount * (thickness_kernel(rho2) / step) + up) * step;
     // Of places in quarters of a spacing, a power of two again: products and sums are exact too.
     thickness = vec4(height, height * (floor(depth / (512.0 * step) + 0.5) * (512.0 * step)));
 }

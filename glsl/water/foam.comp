@@ -8,6 +8,7 @@
 #include "sphere.glsl"
 #include "counts.glsl"
 #include "random.glsl"
+#include "whole_steps.glsl"
 #include "gradient_noise.glsl"
 #include "foam.glsl"
 #include "pattern.glsl"
@@ -115,7 +116,7 @@ void splat(ivec2 texel, Splat s) {
         return;
     }
     float frontmost = front < scene ? uintBitsToFloat(front) : EMPTY;
-    uvec4 steps = uvec4(foam_steps(s.amount, s.noise, place, depth, frontmost, before));
+    uvec4 steps = uvec4(foam_steps(texel, s.amount, s.noise, place, depth, frontmost, before));
     if (steps.x > 0u) {
         uvec2 behind = uvec2(min(steps.w, steps.x), steps.x - min(steps.x, steps.y));
         uint unlit = steps.y - min(steps.z, steps.y);

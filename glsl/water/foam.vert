@@ -7,6 +7,7 @@
 #include "frame.glsl"
 #include "sphere.glsl"
 #include "random.glsl"
+#include "whole_steps.glsl"
 #include "gradient_noise.glsl"
 #include "foam.glsl"
 #include "pattern.glsl"

@@ -6,6 +6,7 @@
 
 #include "frame.glsl"
 #include "random.glsl"
+#include "whole_steps.glsl"
 #include "gradient_noise.glsl"
 #include "foam.glsl"
 #include "pattern.glsl"
@@ -34,5 +35,5 @@ void main() {
     }
     float front = texelFetch(foam_depth, ivec2(gl_FragCoord.xy), 0).x;
     float before = scene > 0.0 ? scene - depth : EMPTY;
-    thickness = foam_steps(amount, noise, place, depth, front, before) * frame.foam_back.w;
+    thickness = foam_steps(ivec2(gl_FragCoord.xy), amount, noise, place, depth, front, before) * frame.foam_back.w;
 }

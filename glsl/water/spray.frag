@@ -1,14 +1,22 @@
 #version 460
 // Pass `spray`: how much of the light from behind droplets before scene and water take away (thesis
 // Sec. 4.9.5 adds a colour instead).
-// Reads: scene depth, water depth. Writes: spray (RG16F), summed.
+// Reads: scene depth, water depth. Writes: spray (RG32F, or RG16F where that is not blended), summed.
 
 #include "frame.glsl"
+#include "random.glsl"
+#include "whole_steps.glsl"
 #include "kernel.glsl"
 #include "sprite_hit.glsl"
 
 layout(location = 4) flat in vec2 amount;
 layout(location = 5) flat in int aside;
+layout(location = 6) flat in uint chance;
+
+// 1: sums are of single precision.
+layout(constant_id = 34) const uint SINGLE = 1;
+// Steps of an optical depth of 1: sums are exact in any order up to 64, of half floats up to 4.
+const float STEPS = SINGLE == 1u ? 262144.0 : 512.0;
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D water_depth;
@@ -38,6 +46,5 @@ void main() {
     float before = 1.0 - smoothstep(0.0, 1.5 * frame.particle.y, depth - water);
     // As the thickness: the source's exp(-2 rho^2) alone ends with an edge.
     float added = before * amount.x * thickness_kernel(dot(place, place));
-    // Whole steps: sums of half floats are exact up to 4, in any order.
-    optical_depth = floor(added * vec2(1.0, amount.y) * 512.0 + 0.5) / 512.0;
+    optical_depth = floor(added * vec2(1.0, amount.y) * STEPS + rounding_up(chance, pixel)) / STEPS;
 }

@@ -6,6 +6,7 @@
 
 #include "frame.glsl"
 #include "random.glsl"
+#include "whole_steps.glsl"
 #include "convolution.glsl"
 #include "intensity.glsl"
 #include "sunlight.glsl"
@@ -19,6 +20,7 @@ layout(location = 2) flat out vec3 across;
 layout(location = 3) flat out vec3 normal;
 layout(location = 4) flat out vec2 amount; // optical depth in its middle; share that the sun lights
 layout(location = 5) flat out int aside;   // pixels to water beside it
+layout(location = 6) flat out uint chance; // that it is rounded up by
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
@@ -32,6 +34,7 @@ void main() {
     SpraySprite sprite = sprites[gl_InstanceIndex / droplets];
     uint id = floatBitsToUint(sprite.velocity.w);
     uint number = 5u * (gl_InstanceIndex % droplets);
+    chance = chance_of(id, number);
     // Even in the ball of the spread.
     float level = 2.0 * uniform_of(PLACE, id, number) - 1.0;
     float turn = 6.2831853 * uniform_of(PLACE, id, number + 1u);

@@ -39,6 +39,8 @@ pub struct Gpu {
     pub kind: vk::PhysicalDeviceType,
     /// Timestamps that the queue family writes; 0 for none.
     pub timestamp_bits: u32,
+    /// R32G32_SFLOAT can be a blended colour attachment: most devices can, none has to.
+    pub blends_pairs: bool,
     /// Conditional rendering, when enabled.
     pub conditional: Option<ash::ext::conditional_rendering::Device>,
     /// Samplers shared by all passes.
@@ -65,12 +67,16 @@ impl Gpu {
     /// Takes over what the host hands in.
     pub fn new(host: &Host<'_>) -> Result<Arc<Self>, Error> {
         // SAFETY: the host guarantees that its handles are alive and belong together.
-        let (properties, families) = unsafe {
+        let (properties, families, pairs) = unsafe {
+            let (instance, physical) = (host.instance, host.physical_device);
+            let pairs = vk::Format::R32G32_SFLOAT;
             (
-                host.instance.get_physical_device_properties(host.physical_device),
-                host.instance.get_physical_device_queue_family_properties(host.physical_device),
+                instance.get_physical_device_properties(physical),
+                instance.get_physical_device_queue_family_properties(physical),
+                instance.get_physical_device_format_properties(physical, pairs),
             )
         };
+        let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
         let family = families.get(host.queue_family as usize).ok_or_else(|| {
             Error::bad(
                 "Host.queue_family",
@@ -97,6 +103,7 @@ impl Gpu {
             limits: properties.limits,
             kind: properties.device_type,
             timestamp_bits: family.timestamp_valid_bits,
+            blends_pairs: pairs.optimal_tiling_features.contains(blended),
             conditional: host
                 .enabled
                 .conditional_rendering

@@ -3,9 +3,11 @@
 //! What of a particle its density makes spray is drawn as droplets round it, each a sprite that faces
 //! the eye and streaks along its motion; `composite` lays them over all else. The source draws one
 //! sprite a particle, added to the picture, which shows as a disc near the eye. Sums of optical depth
-//! need no order.
+//! need no order: each droplet adds whole steps, so fine ones that far droplets, which are thinned to be a pixel wide,
+//! are many of them still, and what is less than one is rounded by chance (glsl/include/whole_steps.glsl).
 //! Reads: the counts of `cull`, the host's particles, scene depth, water depth. Writes: spray,
-//! RG16F, optical depth of the droplets before scene and water, and how much of it the sun lights.
+//! RG32F (RG16F, of coarser steps, where a device does not blend that), optical depth of the droplets before scene
+//! and water, and how much of it the sun lights.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -74,7 +76,9 @@ pub struct Spray {
 
 impl Spray {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let target = Target::new(gpu, &desc(config), vk::AttachmentLoadOp::CLEAR)?;
+        let target = Target::new(gpu, &desc(gpu, config), vk::AttachmentLoadOp::CLEAR)?;
+        let single = [(34, u32::from(gpu.blends_pairs))];
+        let constants = [&crate::light::constants(config)[..], &single].concat();
         let draw = Pipeline::graphics(
             gpu,
             &Graphics {
@@ -83,7 +87,7 @@ impl Spray {
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
                 pass: target.pass.handle,
                 blend: &[blend(vk::BlendOp::ADD)],
-                constants: &crate::light::constants(config),
+                constants: &constants,
             },
         )?;
         let shader = shader::WATER_SPRAY_LIST_COMP;
@@ -107,7 +111,7 @@ impl Spray {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        self.target.resize(gpu, &desc(config), retired)
+        self.target.resize(gpu, &desc(gpu, config), retired)
     }
 
     /// Optical depth of the droplets, and of those that the sun lights.
@@ -179,6 +183,8 @@ fn desc(config: &Config) -> ImageDesc<'static> {
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::COLOR_ATTACHMENT
         | vk::ImageUsageFlags::TRANSFER_SRC;
-    // Every device blends it.
-    ImageDesc::new("water/spray", config.extent, vk::Format::R16G16_SFLOAT, usage)
+    // Every device blends half floats.
+    let (single, half) = (vk::Format::R32G32_SFLOAT, vk::Format::R16G16_SFLOAT);
+    let format = if gpu.blends_pairs { single } else { half };
+    ImageDesc::new("water/spray", config.extent, format, usage)
 }

@@ -10,6 +10,7 @@
 mod diffuse;
 
 use super::thickness::{J, kernel};
+use super::whole_steps;
 use super::{EMPTY, Image, is_surface};
 use crate::support::rounded::{Rounded, dot, exact, normalize, off, smoothstep};
 use crate::support::tolerance::{Between, U};
@@ -195,7 +196,8 @@ impl Light {
     }
 
     /// The map of thicknesses, channel by channel. Kernel and amplitude add 40u; a multiple of the
-    /// step is the nearest to any number in between, and sums of them are exact up to 2^24.
+    /// step is next to any number in between, by chance of the particle's place and the texel, whose
+    /// sum is rounded by 2u; sums of them are exact up to 2^24.
     pub fn thickness(&self, particles: &[Particle]) -> [Between; 4] {
         let (n, step) = (self.texels, self.step());
         let empty = || Between { low: Image::new(n, n, 0.0), high: Image::new(n, n, 0.0) };
@@ -208,18 +210,20 @@ impl Light {
             let (at, d) = self.place(particle.position);
             let off = self.off(particle.position);
             let from = off + 8.0 * U * a;
+            let chance = whole_steps::of_place(particle.position.as_vec3());
             let nearest = |v: f64, unit: f64| (v / unit + 0.5).floor() * unit;
             let ends = [-1.0, 1.0].map(|s| nearest(d + s * (off + 4.0 * U * d.abs()), slab));
             for (x, y, away) in self.within(at, a + from) {
                 let at = |away: f64| kernel((away / a).min(1.0).powi(2));
                 let (least, greatest) = (at(away + from), at((away - from).max(0.0)));
+                let up = whole_steps::rounding_up(chance, x, y);
+                let whole = |h: f64, by: f64| (h / step + up + by * 2.0 * U).floor() * step;
                 for (i, part) in parts.iter().enumerate() {
                     let height = self.spacing.powi(3) / (PI * J * a * a);
                     let q = [
-                        (part.v - part.e).max(0.0) * height * least * (1.0 - 40.0 * U),
-                        (part.v + part.e) * height * greatest * (1.0 + 40.0 * U),
-                    ]
-                    .map(|h| nearest(h, step));
+                        whole((part.v - part.e).max(0.0) * height * least * (1.0 - 40.0 * U), -1.0),
+                        whole((part.v + part.e) * height * greatest * (1.0 + 40.0 * U), 1.0),
+                    ];
                     *sums[i].low.at_mut(x, y) += q[0];
                     *sums[i].high.at_mut(x, y) += q[1];
                     let all = [q[0] * ends[0], q[0] * ends[1], q[1] * ends[0], q[1] * ends[1]];

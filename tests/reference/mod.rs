@@ -31,6 +31,7 @@ pub mod smooth;
 pub mod spray;
 pub mod surface;
 pub mod thickness;
+pub mod whole_steps;
 
 /// The depth of a pixel without a surface.
 pub const EMPTY: f64 = 1e10;

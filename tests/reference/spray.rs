@@ -4,7 +4,7 @@
 //! With p a droplet's centre, N the direction to it and `w = (s_x, s_y, -1)` the pixel's ray, t w
 //! with `t = N.p / N.w` is the point of its plane that is seen, q its place in half-axes. [`spray`]
 //! is the sum of `before A sqrt(1 - q^2) exp(-2 q^2)`, an optical depth, and between what it must
-//! lie where all is single precision and the sum half precision, in any order; [`over`] lays it
+//! lie where all is single precision and the sum of a [`Sums`], in any order; [`over`] lays it
 //! over a colour.
 //!
 //! Conventions are those of the twin of the foam, whose planes and rays these are: a number is
@@ -39,16 +39,63 @@ const ASIDE: f64 = 1.5;
 const FADE: f64 = 1.5;
 /// What sine and cosine may be off. Vulkan says so from -pi to pi alone.
 const TRIGONOMETRY: f64 = 1.0 / 2048.0;
-/// Sums of half precision of multiples of the [`STEP`] are exact up to this.
-const EXACT: f64 = 4.0;
-/// What a droplet adds is a multiple of this.
-pub const STEP: f64 = 1.0 / 512.0;
 /// Mist: its half-axis in spreads, and its optical depth over that of a droplet.
 const MIST: [f64; 2] = [0.7, 0.08];
 /// Mean of the squares of the sizes of many droplets.
 const SQUARES: f64 = 0.513;
-/// Half an ulp of half precision, of a number and of the least ones.
-const HALF: (f64, f64) = (1.0 / 2048.0, 1.0 / (1 << 25) as f64);
+
+/// How droplets are summed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sums {
+    /// What a droplet adds is a multiple of this, next to what it is; 0: it is not rounded.
+    pub step: f64,
+    /// Half an ulp, of a number and of the least ones.
+    half: (f64, f64),
+}
+
+impl Sums {
+    /// Single precision.
+    pub const SINGLE: Self = Self { step: 1.0 / 262_144.0, half: (U, 0.0) };
+    /// Half precision.
+    pub const HALF: Self = Self { step: 1.0 / 512.0, half: (1.0 / 2048.0, 1.0 / (1 << 25) as f64) };
+
+    /// Sums of multiples of the step are exact up to this: there are as many of them as of parts of 1.
+    fn exact(&self) -> f64 {
+        self.step / self.half.0
+    }
+
+    /// What an addend may be rounded to, at least or at most by the sign: down or up.
+    fn in_steps(&self, addend: f64, sign: f64) -> f64 {
+        if self.step == 0.0 {
+            return addend;
+        }
+        let steps = addend / self.step;
+        let whole = if sign > 0.0 { steps.ceil() } else { steps.floor() };
+        whole * self.step
+    }
+
+    /// Least and most that a sum of so many additions is, in any order: each is of no more than the
+    /// whole, rounded to the nearest or, which Vulkan leaves open, towards zero.
+    fn summed(&self, sum: f64, count: u32) -> [f64; 2] {
+        if self.step > 0.0 && sum <= self.exact() {
+            return [sum; 2];
+        }
+        let (n, (by, least)) = (f64::from(count), self.half);
+        let low = sum * (1.0 - 2.0 * by).powf(n) - 2.0 * n * least;
+        [low.max(0.0), sum * (1.0 + by).powf(n) + n * least]
+    }
+
+    /// The same of a sum that was made so itself, in another order.
+    pub fn again(&self, sum: f64, count: u32) -> [f64; 2] {
+        if sum < self.exact() {
+            return [sum; 2];
+        }
+        let (n, (by, least)) = (f64::from(count), self.half);
+        let ratio = ((1.0 + by) / (1.0 - 2.0 * by)).powf(n);
+        // Three of the least, or two times a ratio and one.
+        [sum / ratio - 4.0 * n * least, sum * ratio + 4.0 * n * least]
+    }
+}
 
 /// A particle, in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,8 +129,8 @@ pub struct Settings {
     pub densities: [f64; 2],
     /// Seconds of motion that a droplet streaks over.
     pub shutter: f64,
-    /// What a droplet adds is a multiple of this, and sums are exact up to [`EXACT`]; 0: they are not.
-    pub step: f64,
+    /// How droplets are summed.
+    pub sums: Sums,
 }
 
 /// A number that is more than another: by both as they are, surely, perhaps.
@@ -329,55 +376,25 @@ pub fn spray_in_sun(
             let rounding = U * (0.5 + 9.0 + 14.0 + 2.0);
             if one.drawn.surely && hit.sure {
                 let least = (top.v - top.e).max(0.0) * kernel((q.v + q.e).min(1.0));
-                *low.at_mut(x, y) += in_steps(least * (1.0 - rounding), -1.0, settings.step);
+                *low.at_mut(x, y) += settings.sums.in_steps(least * (1.0 - rounding), -1.0);
                 let least = least * (share.v - share.e).max(0.0) * (1.0 - rounding - U);
-                *lit.low.at_mut(x, y) += in_steps(least, -1.0, settings.step);
+                *lit.low.at_mut(x, y) += settings.sums.in_steps(least, -1.0);
             }
             let most = (top.v + top.e) * kernel((q.v - q.e).max(0.0));
-            *high.at_mut(x, y) += in_steps(most * (1.0 + rounding), 1.0, settings.step);
+            *high.at_mut(x, y) += settings.sums.in_steps(most * (1.0 + rounding), 1.0);
             let most = most * (share.v + share.e) * (1.0 + rounding + U);
-            *lit.high.at_mut(x, y) += in_steps(most, 1.0, settings.step);
+            *lit.high.at_mut(x, y) += settings.sums.in_steps(most, 1.0);
             *count.at_mut(x, y) += 1;
         }
     }
     let mut bounds = Between { low, high };
     for of in [&mut bounds, &mut lit] {
         for (i, n) in count.data.iter().enumerate() {
-            of.low.data[i] = summed(of.low.data[i], *n, settings.step)[0];
-            of.high.data[i] = summed(of.high.data[i], *n, settings.step)[1];
+            of.low.data[i] = settings.sums.summed(of.low.data[i], *n)[0];
+            of.high.data[i] = settings.sums.summed(of.high.data[i], *n)[1];
         }
     }
     Spray { depth, bounds, lit, count }
-}
-
-/// What an addend may be rounded to, at least or at most by the sign.
-fn in_steps(addend: f64, sign: f64, step: f64) -> f64 {
-    if step == 0.0 {
-        return addend;
-    }
-    ((addend / step + 0.5 + sign * 2.0 * U).floor() * step).max(0.0)
-}
-
-/// Least and most that half precision makes of a sum of so many additions, in any order: each is of
-/// no more than the whole, rounded to the nearest or, which Vulkan leaves open, towards zero.
-fn summed(sum: f64, count: u32, step: f64) -> [f64; 2] {
-    if step > 0.0 && sum <= EXACT {
-        return [sum; 2];
-    }
-    let (n, (by, least)) = (f64::from(count), HALF);
-    let low = sum * (1.0 - 2.0 * by).powf(n) - 2.0 * n * least;
-    [low.max(0.0), sum * (1.0 + by).powf(n) + n * least]
-}
-
-/// The same of a sum that was made so itself, in another order.
-pub fn summed_again(sum: f64, count: u32) -> [f64; 2] {
-    if sum < EXACT {
-        return [sum; 2];
-    }
-    let (n, (by, least)) = (f64::from(count), HALF);
-    let ratio = ((1.0 + by) / (1.0 - 2.0 * by)).powf(n);
-    // Three of the least, or two times a ratio and one.
-    [sum / ratio - 4.0 * n * least, sum * ratio + 4.0 * n * least]
 }
 
 /// A channel of a colour with spray of an optical depth over it, of a light, and what single
@@ -408,7 +425,7 @@ mod tests {
             spread: 0.0,
             densities: [0.6, 0.85],
             shutter: 1.0 / 60.0,
-            step: 0.0,
+            sums: Sums { step: 0.0, ..Sums::HALF },
         }
     }
 

@@ -16,23 +16,31 @@ pub struct Claims {
     /// Of all queue families.
     pub timestamp_valid_bits: Option<u32>,
     pub timestamp_period: Option<f32>,
+    /// It is no blended colour attachment.
+    pub unblended: Option<vk::Format>,
 }
 
 type Properties = unsafe extern "system" fn(vk::PhysicalDevice, *mut vk::PhysicalDeviceProperties);
 type Families =
     unsafe extern "system" fn(vk::PhysicalDevice, *mut u32, *mut vk::QueueFamilyProperties);
 
-static CLAIMED: Mutex<(Claims, Option<(Properties, Families)>)> = Mutex::new((
+type Formats = unsafe extern "system" fn(vk::PhysicalDevice, vk::Format, *mut vk::FormatProperties);
+
+/// The real functions.
+type Real = (Properties, Families, Formats);
+
+static CLAIMED: Mutex<(Claims, Option<Real>)> = Mutex::new((
     Claims {
         offset_alignment: None,
         max_storage_buffer_range: None,
         timestamp_valid_bits: None,
         timestamp_period: None,
+        unblended: None,
     },
     None,
 ));
 
-fn claimed() -> (Claims, (Properties, Families)) {
+fn claimed() -> (Claims, Real) {
     let claimed = CLAIMED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     (claimed.0, claimed.1.expect("install stores the real functions"))
 }
@@ -41,7 +49,7 @@ unsafe extern "system" fn properties(
     physical: vk::PhysicalDevice,
     found: *mut vk::PhysicalDeviceProperties,
 ) {
-    let (claims, (real, _)) = claimed();
+    let (claims, (real, ..)) = claimed();
     // SAFETY: the driver's function; it fills what the caller gave.
     let limits = unsafe {
         real(physical, found);
@@ -63,7 +71,7 @@ unsafe extern "system" fn families(
     count: *mut u32,
     found: *mut vk::QueueFamilyProperties,
 ) {
-    let (claims, (_, real)) = claimed();
+    let (claims, (_, real, _)) = claimed();
     // SAFETY: the driver's function; it fills `count` records where there is room for them.
     let found = unsafe {
         real(physical, count, found);
@@ -79,6 +87,22 @@ unsafe extern "system" fn families(
     }
 }
 
+unsafe extern "system" fn formats(
+    physical: vk::PhysicalDevice,
+    format: vk::Format,
+    found: *mut vk::FormatProperties,
+) {
+    let (claims, (_, _, real)) = claimed();
+    // SAFETY: the driver's function; it fills what the caller gave.
+    let found = unsafe {
+        real(physical, format, found);
+        &mut *found
+    };
+    if claims.unblended == Some(format) {
+        found.optimal_tiling_features &= !vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
+    }
+}
+
 /// The instance the library is given makes these claims.
 pub fn claim(gpu: &mut Gpu, claims: Claims) {
     gpu.assert_spied();
@@ -87,10 +111,12 @@ pub fn claim(gpu: &mut Gpu, claims: Claims) {
     let real = (
         functions.get_physical_device_properties,
         functions.get_physical_device_queue_family_properties,
+        functions.get_physical_device_format_properties,
     );
     *CLAIMED.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = (claims, Some(real));
     functions.get_physical_device_properties = properties;
     functions.get_physical_device_queue_family_properties = families;
+    functions.get_physical_device_format_properties = formats;
     gpu.claims = Some(ash::Instance::from_parts_1_3(
         instance.handle(),
         functions,

@@ -235,8 +235,8 @@ fn memory_is_as_documented() {
             (2, 0, false, false, 4.5, 2.5),
             (1, 3, true, false, 4.5, 3.25),
             (2, 3, true, false, 5.25, 5.75),
-            (1, 3, false, true, 4.5, 4.0),
-            (2, 3, true, true, 5.25, 9.75),
+            (1, 3, false, true, 4.5, 8.0),
+            (2, 3, true, true, 5.25, 13.75),
         ]
         .into_iter()
         .step_by(if whole { step } else { 7 })

@@ -3,12 +3,16 @@
 use whitewater::Config;
 
 use crate::foam::Foamy;
+use crate::reference::spray::Sums;
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::Rig;
 use crate::support::scenes::Lens;
 
 use super::{SIZE, even, everything};
+
+/// What spray is a multiple of.
+const STEP: f32 = Sums::SINGLE.step as f32;
 
 /// What of the spray the sun lights: all of it, nothing, or of each droplet the same part.
 #[test]
@@ -36,8 +40,8 @@ fn spray_is_lit_by_the_sun_that_comes() {
     let (_, lit, _) = draw(&mut case, &mut rig, 0.25);
     let mut some = 0;
     for (lit, all) in lit.data.iter().zip(&all.data) {
-        // Each droplet to the nearest step, of which ten at most share a pixel.
-        assert!((lit - 0.25 * all).abs() <= 10.0 * 0.75 / 512.0, "{lit} of {all}");
+        // Each droplet to a step next to it, as all of it, of which ten at most share a pixel.
+        assert!((lit - 0.25 * all).abs() <= 10.0 * 1.25 * STEP, "{lit} of {all}");
         some += usize::from(*lit > 0.02);
     }
     assert!(some > 50, "{some} pixels with spray");

@@ -114,14 +114,16 @@ impl Settings {
         }
     }
 
-    /// What an addend may be rounded to, at least or at most by the sign. The quotient is rounded
-    /// by u, which may pass a middle.
+    /// What an addend may be rounded to, at least or at most by the sign: down or up to a whole step next to
+    /// it. The quotient is rounded by u, and the sum with the chance.
     fn in_steps(&self, addend: f64, sign: f64) -> f64 {
         if self.step == 0.0 {
             return addend;
         }
         let steps = addend / self.step;
-        ((steps * (1.0 + sign * 2.0 * U) + 0.5 + sign * 2.0 * U).floor() * self.step).max(0.0)
+        let steps = steps * (1.0 + sign * 2.0 * U);
+        let whole = if sign > 0.0 { (steps + 2.0 * U).ceil() } else { steps.floor() };
+        (whole * self.step).max(0.0)
     }
 
     /// How much of what lies so far behind the nearest foam counts to the front layer.

@@ -239,7 +239,10 @@ impl Rig<'_> {
                 "water.thickness" => drawn.thickness = self.floats(layer, whole),
                 "water.foam" => (foam.depth, foams) = (self.floats(layer, whole), true),
                 "water.spray" => {
-                    let both = self.halves(layer, whole);
+                    let both = match layer.format {
+                        vk::Format::R16G16_SFLOAT => self.halves(layer, whole),
+                        _ => self.pairs(layer, whole),
+                    };
                     drawn.spray = Some(both.map(|s| s[0]));
                     drawn.lit_spray = Some(both.map(|s| s[1]));
                 }

@@ -1,0 +1,242 @@
+//! The light that far particles take away: sums over the picture times the area of a pixel are the particles' own at
+//! every distance, down to a pixel for ten spacings. What each fragment adds is a whole number of steps, so that sums do
+//! not depend on the order; what is thin beside a step must not be lost by that.
+
+use glam::{Mat4, vec3};
+use whitewater::foam::DiffuseConfig;
+use whitewater::headless::Diffuse;
+use whitewater::water::{Splat, SprayLook};
+use whitewater::{Config, Particles, Region};
+
+use crate::foam::Foamy;
+use crate::support::device::Gpu;
+use crate::support::limits::{Claims, claim};
+use crate::support::rig::{Drawn, Rig, Shot, config};
+use crate::support::scenes::{self, Lens, Random};
+
+const SIZE: ash::vk::Extent2D = ash::vk::Extent2D { width: 96, height: 64 };
+const SPACING: f32 = 0.04;
+/// Spacings a pixel.
+const DISTANCES: [f32; 7] = [0.16, 0.32, 0.65, 1.3, 2.6, 5.2, 10.4];
+/// What may be lost.
+const LOSS: f64 = 0.05;
+
+/// Degrees high: so few that nothing is seen from the side.
+const HIGH: f32 = 6.0;
+
+/// Width of a pixel a depth of 1.
+fn slope() -> f32 {
+    2.0 * (0.5 * HIGH).to_radians().tan() / SIZE.height as f32
+}
+
+/// So many particles apart from each other at rest, in a plane across the view, so far away that a pixel is as wide as
+/// some spacings, from `left` pixels on away from the picture's edges.
+fn plane(count: usize, spacings: f32, left: f32) -> Foamy {
+    let mut random = Random(11);
+    let depth = spacings * SPACING / slope();
+    let half = |pixels: u32| (0.5 * pixels as f32 - left) * slope() * depth;
+    let (x, y) = (half(SIZE.width), half(SIZE.height));
+    let mut shot = Shot::new(SIZE, Lens::Infinite, 0.656 * SPACING, &[]);
+    let square = SIZE.width as f32 / SIZE.height as f32;
+    let projection = Mat4::perspective_infinite_rh(HIGH.to_radians(), square, 0.1);
+    shot.camera.projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0)) * projection;
+    let points: Vec<_> =
+        (0..count).map(|_| [random.between(-x, x), random.between(-y, y), depth]).collect();
+    shot.positions = scenes::world(&shot.camera, &points);
+    shot.scene_depth(|_, _| None);
+    // Nothing that makes it more here and less there.
+    (shot.settings.foam.noise, shot.settings.foam.pattern) = (0.0, 0.0);
+    let ids = (0..count).map(|_| random.bits() as u32).collect();
+    let (amounts, velocities) = (vec![[0.0; 2]; count], vec![[0.0; 3]; count]);
+    Foamy { shot, amounts, velocities, ids: Some(ids) }
+}
+
+/// Draws it with the streams that the renderer takes.
+fn draw(case: &Foamy, rig: &mut Rig<'_>) -> Drawn {
+    let streams = case.streams(rig);
+    let all = streams.particles();
+    let foam = all.foam.filter(|_| rig.config.foam);
+    rig.draw_particles(&case.shot, &Particles { foam, ..all })
+}
+
+/// The sum of texels of `level` over a plane at such a distance: of a particle, square spacings times the unit.
+fn total(texels: impl Iterator<Item = f32>, case: &Foamy, spacings: f32, level: u32) -> f64 {
+    let texel = f64::from(spacings) * f64::from(1 << level);
+    texels.map(f64::from).sum::<f64>() * texel * texel / case.amounts.len() as f64
+}
+
+/// Sums of a kind at all distances, in what they should be.
+fn kept(name: &str, wanted: f64, sum: impl FnMut(f32) -> f64) {
+    let parts: Vec<f64> = DISTANCES.into_iter().map(sum).map(|sum| sum / wanted).collect();
+    eprintln!("{name}: {parts:.3?} of it at {DISTANCES:?} spacings a pixel");
+    assert!(parts.iter().all(|part| (part - 1.0).abs() < LOSS), "{name}: {parts:.3?}");
+}
+
+/// The mean over sizes of droplets 0.35 + 1.15 u³ of their square.
+const SQUARES: f64 = 0.1225 + 0.805 / 4.0 + 1.3225 / 7.0;
+/// The integral of a sprite's kernel over its disc, over that of 1 and over π.
+const KERNEL: f64 = 0.340_003;
+
+/// The optical depth of a particle's spray over its area in square spacings, by the definition.
+fn spray_of(case: &Foamy) -> f64 {
+    let look = &case.shot.settings.spray;
+    let many = f64::from(look.droplets);
+    // All droplets together cover what one would of this half-axis; mist, the first, is 0.7 of the spread wide.
+    let whole = f64::from(look.size) * 0.656;
+    let droplets = (many - 1.0) / many * whole * whole * SQUARES / 0.513;
+    let mist = 0.08 * (0.7 * f64::from(look.spread)).powi(2);
+    -(1.0 - f64::from(look.opacity)).ln() * std::f64::consts::PI * KERNEL * (droplets + mist)
+}
+
+fn spray(drawn: &Drawn) -> impl Iterator<Item = f32> {
+    drawn.spray.as_ref().expect("spray").data.iter().copied()
+}
+
+fn spray_keeps_its_light(gpu: &Gpu, opacities: &[f32]) {
+    let mut rig = Rig::new(gpu, &Config { spray: true, ..config(SIZE) });
+    for &opacity in opacities {
+        let case = |spacings| {
+            let mut case = plane(4000, spacings, 12.0);
+            case.shot.settings.spray = SprayLook { opacity, ..SprayLook::default() };
+            case.shot.densities = Some(vec![1.0; 4000]);
+            case
+        };
+        kept(&format!("spray of opacity {opacity}"), spray_of(&case(1.0)), |spacings| {
+            let case = case(spacings);
+            total(spray(&draw(&case, &mut rig)), &case, spacings, 0)
+        });
+    }
+}
+
+#[test]
+fn far_spray_keeps_its_light() {
+    spray_keeps_its_light(&Gpu::shared(), &[0.5, 0.05]);
+}
+
+/// Where the device blends no single floats. Of fainter spray there are so few of the wider steps that what chance makes
+/// of them shows in their sum.
+#[test]
+fn far_spray_of_half_floats_keeps_its_light() {
+    let mut gpu = Gpu::spied();
+    let unblended = Some(ash::vk::Format::R32G32_SFLOAT);
+    claim(&mut gpu, Claims { unblended, ..Claims::default() });
+    spray_keeps_its_light(&gpu, &[0.5]);
+}
+
+/// Both ways, at two levels of the thickness: the library's own is 2.
+#[test]
+fn far_foam_keeps_its_light() {
+    let gpu = Gpu::shared();
+    for (splat, level) in
+        [Splat::Compute, Splat::Raster].into_iter().flat_map(|splat| [(splat, 2), (splat, 1)])
+    {
+        let ways = Config { thickness_splat: Some(splat), thickness_level: level, ..config(SIZE) };
+        let mut rig = Rig::new(&gpu, &Config { foam: true, ..ways });
+        for amount in [1.0, 0.1] {
+            // A plane is one layer: of all foam, of what lies right behind the frontmost, of what of that is lit.
+            for (i, layer) in ["all", "front"].into_iter().enumerate() {
+                let volume = f64::from(amount) * f64::from(SPACING);
+                kept(
+                    &format!("{layer} foam of {amount}, {splat:?}, {level}"),
+                    volume,
+                    |spacings| {
+                        let mut case = plane(2000, spacings, 18.0);
+                        case.amounts.fill([amount, 0.0]);
+                        let drawn = draw(&case, &mut rig);
+                        let foam = &drawn.foam.as_ref().expect("foam").thickness;
+                        total(foam.data.iter().map(|t| t[i]), &case, spacings, level)
+                    },
+                );
+            }
+        }
+    }
+}
+
+/// Water has no such steps, by blending, or so fine ones that they do not count.
+#[test]
+fn far_water_keeps_its_volume() {
+    let gpu = Gpu::shared();
+    for splat in [Splat::Compute, Splat::Raster] {
+        let config = Config { thickness_splat: Some(splat), thickness_level: 2, ..config(SIZE) };
+        let mut rig = Rig::new(&gpu, &config);
+        kept(&format!("water, {splat:?}"), f64::from(SPACING), |spacings| {
+            let case = plane(2000, spacings, 18.0);
+            total(draw(&case, &mut rig).thickness.data.iter().copied(), &case, spacings, 2)
+        });
+    }
+}
+
+/// Texels of the sun's map are as wide as pixels here.
+#[test]
+fn far_maps_of_the_sun_keep_what_casts() {
+    let gpu = Gpu::shared();
+    let config = Config { cast: Some(64), foam: true, spray: true, ..config(SIZE) };
+    let mut rig = Rig::new(&gpu, &config);
+    // Of the map's channels, by the foam of a particle: metres of water and of foam.
+    for (amount, channel, share) in [(0.0, 0, 1.0), (1.0, 1, 1.0), (0.1, 1, 0.1)] {
+        let wanted = share * f64::from(SPACING);
+        kept(&format!("channel {channel} of the sun's map, foam {amount}"), wanted, |spacings| {
+            let mut random = Random(5);
+            let mut case = plane(2000, 1.0, 12.0);
+            case.amounts.fill([amount, 0.0]);
+            let radius = 0.5 * 64.0 * spacings * SPACING;
+            let mut place = || random.between(-0.7, 0.7) * radius;
+            case.shot.positions = (0..2000).map(|_| [place(), 0.0, place()]).collect();
+            case.shot.settings.light.direction = [0.0, 1.0, 0.0];
+            case.shot.sun.region = Some(Region { center: [0.0; 3], radius });
+            let drawn = draw(&case, &mut rig);
+            let map = drawn.light_thickness.as_ref().expect("a map");
+            total(map.data.iter().map(|t| t[channel]), &case, spacings, 0)
+        });
+    }
+}
+
+/// Diffuse particles, to the eye and to the sun: of a radius like the water's, of a fifth of it and in between.
+#[test]
+fn far_diffuse_particles_keep_their_light() {
+    let gpu = Gpu::shared();
+    let diffuse = Some(DiffuseConfig::new(4096));
+    let mut rig = Rig::new(&gpu, &Config { diffuse, cast: Some(64), ..config(SIZE) });
+    const COUNT: usize = 2000;
+    // What is left of it at an age is the second.
+    for (age, life) in [(0.0, 1.0), (0.998, (1.0_f32 - 0.998 * 0.998).powf(0.4))] {
+        let radius = 0.656_f32;
+        // A fifth of each of five sizes, of a shape 1 - x^2.25.
+        let squares: f64 = (1..=5).map(|i| 1.0 / f64::from(i * i)).sum::<f64>() / 5.0;
+        let wanted = std::f64::consts::PI * f64::from(radius * radius) * squares;
+        let wanted = wanted * (1.0 - 2.0 / 4.25) * f64::from(life);
+        let mut drawn = |spacings: f32, sun: bool| {
+            let mut case = plane(COUNT, spacings, 18.0);
+            if sun {
+                let mut random = Random(5);
+                let radius = 0.5 * 64.0 * spacings * SPACING;
+                let mut place = || random.between(-0.7, 0.7) * radius;
+                case.shot.positions = (0..COUNT).map(|_| [place(), 0.0, place()]).collect();
+                case.shot.sun.region = Some(Region { center: [0.0; 3], radius });
+            } else {
+                case.shot.sun.region = Some(Region { center: [0.0; 3], radius: 1.0 });
+            }
+            case.shot.settings.light.direction = [0.0, 1.0, 0.0];
+            case.shot.settings.diffuse.radius = radius * SPACING;
+            let positions = std::mem::take(&mut case.shot.positions);
+            let ids: Vec<u32> = (0..COUNT as u32).collect();
+            let ages = vec![age; COUNT];
+            let input = Diffuse {
+                positions: &positions,
+                kinds: None,
+                radii: None,
+                ages: Some(&ages),
+                ids: Some(&ids),
+            };
+            let (water, cloud) = (rig.particles(&case.shot), rig.diffuse(&input));
+            let drawn = rig.draw_diffuse(&case.shot, &water.particles(), Some(cloud.particles()));
+            let map = match sun {
+                true => drawn.light_diffuse.expect("a map"),
+                false => drawn.diffuse.expect("foam").thickness,
+            };
+            total(map.data.iter().map(|t| t[0]), &case, spacings, 0)
+        };
+        kept(&format!("foam of age {age}"), wanted, |spacings| drawn(spacings, false));
+        kept(&format!("foam of age {age} to the sun"), wanted, |spacings| drawn(spacings, true));
+    }
+}
