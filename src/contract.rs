@@ -285,7 +285,8 @@ pub enum Count {
 
 /// The host's own groups of particles for culling: `count` records of 32 bytes: first particle
 /// (u32), number of particles (u32), minimum corner (3×f32), maximum corner (3×f32) of the
-/// centres, in world space. Particles in no packet are not drawn.
+/// centres, in world space. Particles in no packet are nowhere: they are not drawn and cast no shadow. Those in packets
+/// outside the view are not drawn, and cast what of their shadow falls into it. A particle may be in one packet only.
 #[derive(Clone, Copy, Debug)]
 pub struct Packets {
     /// A buffer with storage usage.

@@ -1,7 +1,7 @@
 #version 460
 // Pass `light`: a quad round each particle as the sun sees it, straight from the host's streams. Not in
 // the source.
-// Reads: positions, densities, foam. Writes: the disc's corners, place, size and heights.
+// Reads: positions, densities, foam, members. Writes: the disc's corners, place, size and heights.
 
 #include "frame.glsl"
 #include "density.glsl"
@@ -22,17 +22,21 @@ layout(push_constant, std430) uniform Push {
     uint foam_word;
     uint foam_stride;     // 0: no foam
     uint front;           // 1: as spheres, 0: as thickness sprites
+    uint packets;         // 1: particles in no packet are nowhere
 } push;
+
+#define MEMBERS 4
+#include "members.glsl"
 
 layout(location = 0) flat out vec2 centre; // in texels
 layout(location = 1) flat out float depth; // metres along the light
 layout(location = 2) flat out float axis;  // half-axis, metres
 layout(location = 3) flat out vec2 amount; // height of its water and of its foam
+layout(location = 4) flat out uint chance; // that they are rounded up by
 
 void main() {
     uint index = gl_InstanceIndex;
     uint at = push.position_word + index * push.position_stride;
-layout(location = 4) flat out uint chance; // that they are rounded up by
     vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
     float bulk_share = 1.0;
     float spray_share = 0.0;
@@ -51,13 +55,13 @@ layout(location = 4) flat out uint chance; // that they are rounded up by
     }
     // Spray is thin: half of what foam would be.
     vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + 0.5 * spray_share * (1.0 - bulk_share * foam));
+    // No ids are read for it: by its place, whatever the order.
+    uvec3 bits = floatBitsToUint(position);
+    chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
     float texel = frame.light_map.y;
     float radius = frame.particle.x * max(bulk_share, 0.5);
     // No narrower than a texel: it must not fall between them.
-    // No ids are read for it: by its place, whatever the order.
-    uvec3 bits = floatBitsToUint(position);
-    chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     axis = max(push.front == 1u ? radius : frame.particle.z, texel);
     depth = seen.z;
     // As on the screen: the integral over the map is the volume.
@@ -67,6 +71,6 @@ layout(location = 4) flat out uint chance; // that they are rounded up by
     // A texel more, so that snapping does not cut it.
     centre = seen.xy * frame.light_map.x;
     vec2 ndc = (centre + side * (axis / texel + 1.0)) / frame.light_map.x * 2.0 - 1.0;
-    bool there = shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));
+    bool there = is_member(index) && shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));
     gl_Position = vec4(there ? ndc : vec2(-4.0), 0.5, 1.0);
 }

@@ -2,7 +2,7 @@
 // Pass `cull`: the border. Drops NaN and infinite particles, sets spray aside, tests the rest
 // against the frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the
 // survivors in eye space: small sprites from the front of the list, large ones from its back.
-// Reads: positions, densities, packets. Writes: Counts, visible.
+// Reads: positions, densities, packets. Writes: Counts, visible, members.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -15,6 +15,8 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint PACKETS = 0;
 // 1: what is foam of a particle is no water of it.
 layout(constant_id = 1) const uint FOAM = 0;
+// 1: passes go over the host's particles again, and ask which are in packets.
+layout(constant_id = 2) const uint MEMBERS = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
@@ -24,6 +26,8 @@ layout(set = 0, binding = 5, std430) writeonly buffer Visible { vec4 visible[]; 
 layout(set = 0, binding = 6, std430) readonly buffer Amounts { float amounts[]; };
 // The share of each visible sphere that is water.
 layout(set = 0, binding = 7, std430) writeonly buffer Shares { float shares[]; };
+// A bit a particle (members.glsl).
+layout(set = 0, binding = 8, std430) buffer Members { uint members[]; };
 
 layout(push_constant, std430) uniform Push {
     uint position_word;   // of the chunk's first particle
@@ -133,6 +137,18 @@ void append(uint kind, vec4 sphere, float share) {
     barrier();
 }
 
+// All of the packet's, whether or not it is seen: the sun sees others.
+void enter(Packet packet) {
+    uint past = (packet.past + 31u) >> 5;
+    for (uint word = (packet.first >> 5) + gl_LocalInvocationIndex; word < past; word += gl_WorkGroupSize.x) {
+        uint low = max(packet.first, 32u * word) - 32u * word;
+        uint high = min(packet.past - 32u * word, 32u);
+        if (low < high) {
+            atomicOr(members[word], (~0u >> (32u - (high - low))) << low);
+        }
+    }
+}
+
 void main() {
     uint here = counts.particles;
     vec4 sphere = vec4(0.0);
@@ -144,6 +160,9 @@ void main() {
         return;
     }
     Packet packet = packet_at(gl_WorkGroupID.x, push.chunk_first, here);
+    if (MEMBERS == 1u) {
+        enter(packet);
+    }
     vec3 centre = (frame.view * vec4(packet.middle, 1.0)).xyz;
     // The bounding sphere of the box, grown by a sprite: conservative.
     if (!in_frustum(centre, packet.reach + frame.particle.z)) {

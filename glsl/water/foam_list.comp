@@ -1,7 +1,7 @@
 #version 460
 // Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2).
 // Spray is none: what is turning into it is that much less foam.
-// Reads: Counts (particles), positions, foam, velocities, ids, densities, what casts shadows. Writes:
+// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, what casts shadows. Writes:
 // Counts (foam), sprites.
 
 #include "frame.glsl"
@@ -38,9 +38,16 @@ layout(push_constant, std430) uniform Push {
     uint density_word;
     uint density_stride;  // 0: no densities
     uint chunk_first;
+    uint packets;         // 1: particles in no packet are nowhere
 } push;
 
+#define MEMBERS 8
+#include "members.glsl"
+
 void visit(uint index) {
+    if (!is_member(index)) {
+        return;
+    }
     uint at = push.amount_word + index * push.amount_stride;
     // Comparisons with NaN are false.
     if (!(amounts[at] > 0.0)) {

@@ -2,7 +2,7 @@
 // Pass `motion`, second part, not in the sources: how far each particle near a surface has come, weighted
 // as its thickness. Those that few texels see are an invocation's each; the others are done by the whole
 // group.
-// Reads: Counts (particles), positions, velocities, densities, foam, fronts. Writes: sums.
+// Reads: Counts (particles), positions, velocities, densities, foam, members, fronts. Writes: sums.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -33,8 +33,11 @@ layout(push_constant, std430) uniform Push {
     uint foam_word;
     uint foam_stride;     // 0: no foam
     uint level;
+    uint packets;         // 1: particles in no packet are nowhere
 } push;
 
+#define MEMBERS 8
+#include "members.glsl"
 #include "motion.glsl"
 
 // A particle's sprite, of its water or of its foam.
@@ -211,7 +214,7 @@ void main() {
             large_count = 0u;
         }
         barrier();
-        if (first + local < count) {
+        if (first + local < count && is_member(first + local)) {
             visit(first + local, false);
             if (FOAM == 1u && push.foam_stride > 0u) {
                 visit(first + local, true);

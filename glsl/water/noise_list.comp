@@ -2,7 +2,7 @@
 // Pass `noise`, first part: the particles on the screen that are no spray, in eye space. (To leave out
 // those that `front` knows to lie deep below the surface saved nothing: where they are small no sphere
 // covers its cells.)
-// Reads: Counts (particles), positions, densities, ids. Writes: Counts (noise), sprites.
+// Reads: Counts (particles), positions, densities, ids, members. Writes: Counts (noise), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -25,9 +25,16 @@ layout(push_constant, std430) uniform Push {
     uint id_word;
     uint id_stride;       // 0: no ids, the number in the frame instead
     uint chunk_first;
+    uint packets;         // 1: particles in no packet are nowhere
 } push;
 
+#define MEMBERS 6
+#include "members.glsl"
+
 void visit(uint index) {
+    if (!is_member(index)) {
+        return;
+    }
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
         // As in cull.comp: 0 marks a particle just emitted, comparisons with NaN are false.

@@ -1,7 +1,7 @@
 #version 460
 // Pass `spray`, first part: the particles that are spray, all of them or in part, in eye space
 // (thesis Sec. 4.9.5).
-// Reads: Counts (particles), positions, densities, velocities, ids. Writes: Counts (droplets), sprites.
+// Reads: Counts (particles), positions, densities, velocities, ids, members. Writes: Counts (droplets), sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"
@@ -28,9 +28,16 @@ layout(push_constant, std430) uniform Push {
     uint id_word;
     uint id_stride;       // 0: no ids, the number in the frame instead
     uint chunk_first;
+    uint packets;         // 1: particles in no packet are nowhere
 } push;
 
+#define MEMBERS 7
+#include "members.glsl"
+
 void visit(uint index) {
+    if (!is_member(index)) {
+        return;
+    }
     float density = densities[push.density_word + index * push.density_stride];
     // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
     float share = density > 0.0 ? share_of_spray(density) : 0.0;

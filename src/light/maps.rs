@@ -1,8 +1,8 @@
 //! Pass `light`: water and foam as the sun sees them.
 //!
 //! Every particle is drawn, whatever the camera sees, straight from the host's streams: nothing is
-//! listed for one look. Packets are not asked for.
-//! Reads: the counts of `cull`, the host's particles. Writes: front, R32F, metres along the light to
+//! listed for one look. Of packets too: those beside the view cast into it.
+//! Reads: the counts and the members of `cull`, the host's particles. Writes: front, R32F, metres along the light to
 //! what it meets first; thickness, RGBA32F, metres of water and of foam along it, and both times where
 //! they lie.
 
@@ -38,6 +38,7 @@ struct Push {
     foam_word: u32,
     foam_stride: u32,
     front: u32,
+    packets: u32,
 }
 shader::assert_layout!(
     shader::LIGHT_SPRITES_VERT,
@@ -50,6 +51,7 @@ shader::assert_layout!(
         foam_word,
         foam_stride,
         front,
+        packets,
     }
 );
 
@@ -112,6 +114,7 @@ impl Map {
                 (1, positions.resource),
                 (2, densities.resource),
                 (3, foam.resource),
+                (4, list.chunk(index).members),
             ];
             r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
             self.pipeline.push(
@@ -125,6 +128,7 @@ impl Map {
                     foam_word: foam.word,
                     foam_stride: foam.stride,
                     front: u32::from(self.front),
+                    packets: u32::from(particles.packets.is_some()),
                 },
             );
             let draw = list.chunk(index).arguments + water::CAST;

@@ -18,7 +18,7 @@ use crate::contract::{Config, Count, Particles, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    Access, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer,
+    Access, CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, INDIRECT, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -132,6 +132,16 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
     (size, config.max_particles.max(1).div_ceil(size))
 }
 
+/// Whether passes after `cull` go over the host's particles again.
+fn goes_over_particles(config: &Config) -> bool {
+    config.foam || config.spray || config.motion || config.noise.is_some() || config.cast.is_some()
+}
+
+/// Bytes of a chunk's members: whole words, from offsets on that every device can bind.
+fn member_bytes(chunk_size: u32) -> u64 {
+    u64::from(chunk_size.div_ceil(8)).next_multiple_of(256)
+}
+
 /// How lists are read by the passes that draw or dispatch them.
 pub const LIST_USE: Access = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
 
@@ -144,6 +154,8 @@ pub struct SphereList {
     pub spheres: Buffer,
     /// The share of its particle that each is, where others are foam.
     pub shares: Option<Buffer>,
+    /// Of each of the host's particles a bit: whether a packet holds it. For passes that go over these again.
+    pub members: Option<Buffer>,
     pub chunk_size: u32,
     pub chunks: u32,
 }
@@ -157,6 +169,8 @@ pub struct Chunk {
     pub spheres: Resource,
     /// The chunk's shares, or anything where all are whole.
     pub shares: Resource,
+    /// Which of its particles are in packets, or anything where there are none.
+    pub members: Resource,
     /// Byte offset of `Counts` in its buffer.
     pub arguments: u64,
     /// Spheres the part can hold.
@@ -186,14 +200,24 @@ impl SphereList {
                 MemoryLocation::GpuOnly,
             )?,
             shares: None,
+            members: None,
             chunk_size,
             chunks,
         })
     }
 
-    /// The same with shares, where the configuration has foam.
-    fn with_shares(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
+    /// The same with shares, where the configuration has foam, and members, where it has passes that ask for them.
+    fn of_host(gpu: &Gpu, config: &Config, name: &str) -> Result<Self, Error> {
         let mut list = Self::new(gpu, config, name)?;
+        if goes_over_particles(config) {
+            list.members = Some(Buffer::new(
+                gpu,
+                &format!("{name}/members"),
+                u64::from(list.chunks) * member_bytes(list.chunk_size),
+                vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+                MemoryLocation::GpuOnly,
+            )?);
+        }
         if config.foam {
             list.shares = Some(Buffer::new(
                 gpu,
@@ -218,7 +242,12 @@ impl SphereList {
         let shares = self.shares.as_ref().map_or(spheres, |shares| {
             Resource::Buffer(shares.handle, bytes / 4 * u64::from(index), bytes / 4)
         });
+        let members = self.members.as_ref().map_or(spheres, |members| {
+            let bytes = member_bytes(self.chunk_size);
+            Resource::Buffer(members.handle, bytes * u64::from(index), bytes)
+        });
         Chunk {
+            members,
             counts: Resource::Buffer(
                 self.counts.handle,
                 COUNTS_STRIDE * u64::from(index),
@@ -233,7 +262,8 @@ impl SphereList {
 
     /// Bytes of device memory.
     pub fn memory(&self) -> u64 {
-        self.counts.size + self.spheres.size + self.shares.as_ref().map_or(0, |b| b.size)
+        let more = [&self.shares, &self.members].into_iter().flatten().map(|b| b.size);
+        self.counts.size + self.spheres.size + more.sum::<u64>()
     }
 }
 
@@ -250,13 +280,17 @@ pub struct Cull {
 
 impl Cull {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let foam = (1, u32::from(config.foam));
+        let (foam, again) = (u32::from(config.foam), u32::from(goes_over_particles(config)));
+        let each = |packets| {
+            let constants = [(0, packets), (1, foam), (2, again)];
+            Pipeline::compute(gpu, shader::WATER_CULL_COMP, &constants)
+        };
         Ok(Self {
             begin: Pipeline::compute(gpu, shader::WATER_CULL_BEGIN_COMP, &[])?,
-            each: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 0), foam])?,
-            packets: Pipeline::compute(gpu, shader::WATER_CULL_COMP, &[(0, 1), foam])?,
+            each: each(0)?,
+            packets: each(1)?,
             end: Pipeline::compute(gpu, shader::WATER_CULL_END_COMP, &[])?,
-            list: SphereList::with_shares(gpu, config, "water/cull")?,
+            list: SphereList::of_host(gpu, config, "water/cull")?,
             max_particles: config.max_particles,
         })
     }
@@ -340,6 +374,13 @@ impl Cull {
             host.push(buffer(shares.handle, LIST_USE, COMPUTE_WRITE));
         }
         gpu.barriers(cmd, &[], &host);
+        let members = list.members.as_ref().filter(|_| particles.packets.is_some());
+        if let Some(members) = members {
+            gpu.barriers(cmd, &[], &[buffer(members.handle, LIST_USE, CLEAR)]);
+            // SAFETY: cmd is recording outside a render pass; the buffer has transfer usage.
+            unsafe { gpu.device.cmd_fill_buffer(cmd, members.handle, 0, vk::WHOLE_SIZE, 0) };
+            gpu.barriers(cmd, &[], &[buffer(members.handle, CLEAR, COMPUTE_READ_WRITE)]);
+        }
 
         let most = self.most(particles);
         let (count, from_gpu, host_count) = match particles.count {
@@ -367,7 +408,8 @@ impl Cull {
         let ours = [Some(&list.counts), Some(&list.spheres), list.shares.as_ref()];
         let ours: Vec<_> = ours.into_iter().flatten().collect();
         let written = ours.iter().map(|b| buffer(b.handle, COMPUTE_WRITE, LIST_USE));
-        gpu.barriers(cmd, &[], &written.collect::<Vec<_>>());
+        let entered = members.map(|b| buffer(b.handle, COMPUTE_READ_WRITE, LIST_USE));
+        gpu.barriers(cmd, &[], &written.chain(entered).collect::<Vec<_>>());
         r.end(scope);
         Ok(())
     }
@@ -395,8 +437,11 @@ impl Cull {
         else {
             return Ok(());
         };
-        let some = particles.packets.filter(|packets| packets.count > 0);
-        let packets = some.map_or(positions.resource, |p| {
+        // Of no packets there is nothing to bind.
+        if particles.packets.is_some_and(|packets| packets.count == 0) {
+            return Ok(());
+        }
+        let packets = particles.packets.map_or(positions.resource, |p| {
             Resource::Buffer(p.buffer, p.offset, 32 * u64::from(p.count))
         });
         let pipeline = if particles.packets.is_some() { &self.packets } else { &self.each };
@@ -413,6 +458,7 @@ impl Cull {
                 (5, chunk.spheres),
                 (6, foam.resource),
                 (7, chunk.shares),
+                (8, chunk.members),
             ],
         )?;
         pipeline.push(

@@ -66,6 +66,7 @@ struct Push {
     density_word: u32,
     density_stride: u32,
     chunk_first: u32,
+    packets: u32,
 }
 shader::assert_layout!(
     shader::WATER_FOAM_LIST_COMP,
@@ -82,6 +83,7 @@ shader::assert_layout!(
         density_word,
         density_stride,
         chunk_first,
+        packets,
     }
 );
 
@@ -366,6 +368,7 @@ impl Foam {
                     density_word: densities.word,
                     density_stride: densities.stride,
                     chunk_first,
+                    packets: u32::from(particles.packets.is_some()),
                 }
             })?;
         }

@@ -52,6 +52,7 @@ struct Push {
     foam_word: u32,
     foam_stride: u32,
     level: u32,
+    packets: u32,
 }
 shader::assert_layout!(
     shader::WATER_MOTION_COMP,
@@ -66,6 +67,7 @@ shader::assert_layout!(
         foam_word,
         foam_stride,
         level,
+        packets,
     }
 );
 
@@ -206,7 +208,8 @@ impl Motion {
             let streams = [&particles.velocities, &particles.densities, &particles.foam];
             let over = Over { particles, streams, binding: 4 };
             for index in 0..list.chunks {
-                let own = [ours[1], ours[2], (3, list.chunk(index).counts)];
+                let chunk = list.chunk(index);
+                let own = [ours[1], ours[2], (3, chunk.counts), (8, chunk.members)];
                 over.record(r, &self.each, (list, index), &own, |_, positions, streams| {
                     let [velocities, densities, foam] = streams;
                     Push {
@@ -219,6 +222,7 @@ impl Motion {
                         foam_word: foam.word,
                         foam_stride: foam.stride,
                         level: self.level,
+                        packets: u32::from(particles.packets.is_some()),
                     }
                 })?;
             }

@@ -47,6 +47,7 @@ struct Push {
     id_word: u32,
     id_stride: u32,
     chunk_first: u32,
+    packets: u32,
 }
 shader::assert_layout!(
     shader::WATER_NOISE_LIST_COMP,
@@ -59,6 +60,7 @@ shader::assert_layout!(
         id_word,
         id_stride,
         chunk_first,
+        packets,
     }
 );
 
@@ -137,6 +139,7 @@ impl Noise {
                 id_word: ids.word,
                 id_stride: ids.stride,
                 chunk_first,
+                packets: u32::from(particles.packets.is_some()),
             }
         })?;
         let to = COLOR_ATTACHMENT;

@@ -49,6 +49,7 @@ struct Push {
     id_word: u32,
     id_stride: u32,
     chunk_first: u32,
+    packets: u32,
 }
 shader::assert_layout!(
     shader::WATER_SPRAY_LIST_COMP,
@@ -63,6 +64,7 @@ shader::assert_layout!(
         id_word,
         id_stride,
         chunk_first,
+        packets,
     }
 );
 
@@ -146,6 +148,7 @@ impl Spray {
                     id_word: ids.word,
                     id_stride: ids.stride,
                     chunk_first,
+                    packets: u32::from(particles.packets.is_some()),
                 }
             })?;
         }
@@ -179,7 +182,7 @@ impl Spray {
     }
 }
 
-fn desc(config: &Config) -> ImageDesc<'static> {
+fn desc(gpu: &Gpu, config: &Config) -> ImageDesc<'static> {
     let usage = vk::ImageUsageFlags::SAMPLED
         | vk::ImageUsageFlags::COLOR_ATTACHMENT
         | vk::ImageUsageFlags::TRANSFER_SRC;

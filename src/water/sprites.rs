@@ -75,7 +75,7 @@ pub struct Sprites {
 
 impl Sprites {
     /// `shader`, specialised by `constants`: lists them. Its bindings are the frame's uniforms, positions,
-    /// streams, `Counts`, sprites, and what is the pass' own. `read`: by a draw's vertices, or by compute.
+    /// streams, `Counts`, sprites, members, and what is the pass' own. `read`: by a draw's vertices, or by compute.
     pub fn new(
         gpu: &Gpu,
         config: &Config,
@@ -113,8 +113,9 @@ impl Sprites {
         r.gpu.barriers(r.cmd, &[], &before);
         let binding = over.next_binding();
         for index in 0..list.chunks {
-            let sprites = self.chunk(list, index);
-            let mut resources = vec![(binding, list.chunk(index).counts), (binding + 1, sprites)];
+            let (chunk, sprites) = (list.chunk(index), self.chunk(list, index));
+            let mut resources =
+                vec![(binding, chunk.counts), (binding + 1, sprites), (binding + 2, chunk.members)];
             resources.extend_from_slice(own);
             over.record(r, &self.list, (list, index), &resources, &push)?;
         }

@@ -4,9 +4,11 @@
 use ash::vk;
 use whitewater::water::Shading::{Compute, Raster};
 use whitewater::water::Splat;
-use whitewater::{Config, Count, Packets, Particles, Stream};
+use whitewater::{Config, Count, Packets, Particles, Previous, Region, Stream};
 
 use crate::depth::spheres;
+use crate::foam::Foamy;
+use crate::reference::Image;
 use crate::reference::cull::{CullParams, cull};
 use crate::support::compare;
 use crate::support::device::Gpu;
@@ -342,6 +344,88 @@ fn packets_cull_as_single_particles() {
         less.positions.truncate(n as usize / 2);
         same_drawn("packets-half", &drawn, &rig.draw(&less));
     }
+}
+
+/// Those in no packet are nowhere, whichever pass goes over the particles; those in packets that the camera does not see
+/// cast what of their shadow it sees.
+#[test]
+fn particles_in_no_packet_are_in_no_pass() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for max_stride in [16, 1 << 19] {
+        let passes =
+            Config { foam: true, spray: true, noise: Some(1), motion: true, ..exact(size) };
+        let mut rig = Rig::lit(&gpu, &Config { cast: Some(64), max_stride, ..passes }, 1);
+        let mut case = Foamy::new(size, Lens::Standard, 20.0);
+        let n = case.shot.positions.len();
+        let mut random = Random(8);
+        case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
+        case.shot.settings.noise.foam = 1.0;
+        case.shot.settings.light.direction = [0.0, 1.0, 0.0];
+        let region = |center| Some(Region { center, radius: 6.0 });
+        case.shot.sun.region = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
+        case.shot.previous = Some(Previous { camera: case.shot.camera, dt: 0.05 });
+        let packed = |case: &Foamy, rig: &mut Rig<'_>, ranges: &[(u32, u32)]| {
+            let streams = case.streams(rig);
+            let bytes = packet_bytes(&case.shot, ranges);
+            // A buffer of none has room for one.
+            let bytes = if bytes.is_empty() { vec![0; 32] } else { bytes };
+            let data = rig.stub.data(&bytes, STORAGE);
+            let count = ranges.len() as u32;
+            let packets = Some(Packets { buffer: data.buffer, offset: 0, count });
+            rig.draw_particles(&case.shot, &Particles { packets, ..streams.particles() })
+        };
+        let of = |case: &Foamy, ranges: &[(u32, u32)]| {
+            let which = || ranges.iter().flat_map(|&(first, count)| first..first + count);
+            let pick = |i: u32| i as usize;
+            let mut less = case.clone();
+            less.shot.positions = which().map(|i| case.shot.positions[pick(i)]).collect();
+            let densities = case.shot.densities.as_ref();
+            less.shot.densities = densities.map(|d| which().map(|i| d[pick(i)]).collect());
+            less.amounts = which().map(|i| case.amounts[pick(i)]).collect();
+            less.velocities = which().map(|i| case.velocities[pick(i)]).collect();
+            less.ids = case.ids.as_ref().map(|ids| which().map(|i| ids[pick(i)]).collect());
+            less
+        };
+        let n = n as u32;
+        let (half, some) = (vec![(0, n / 2)], vec![(3, 40), (60, 1), (90, 37)]);
+        let all: Vec<_> = (0..n).step_by(7).map(|i| (i, 7.min(n - i))).collect();
+        for (name, ranges) in [("half", half), ("some", some), ("all", all), ("none", Vec::new())] {
+            let name = format!("packets-{name}-{max_stride}");
+            let (drawn, expected) =
+                (packed(&case, &mut rig, &ranges), of(&case, &ranges).draw(&mut rig));
+            same_drawn(&name, &drawn, &expected);
+            same_passes(&name, &drawn, &expected);
+        }
+        // All of it behind the eye.
+        case.shot.sun.region = region(scenes::world(&case.shot.camera, &[[0.0, 0.0, -8.0]])[0]);
+        let behind = scenes::world(&case.shot.camera, &scenes::cloud(31, n as usize, -10.0, -6.0));
+        case.shot.positions = behind;
+        let (drawn, expected) = (packed(&case, &mut rig, &[(0, n)]), case.draw(&mut rig));
+        same_passes("packets-behind", &drawn, &expected);
+        let lit = drawn.light_thickness.expect("a map");
+        assert!(lit.data.iter().any(|t| t[0] > 0.0), "what is behind the eye casts");
+    }
+}
+
+/// What other passes than the water's leave.
+fn same_passes(name: &str, actual: &Drawn, expected: &Drawn) {
+    let foam = |drawn: &Drawn| drawn.foam.clone().expect("foam");
+    let (found, wanted) = (foam(actual), foam(expected));
+    compare::same(&format!("{name}-foam"), &found.depth, &wanted.depth);
+    assert!(found.thickness.data == wanted.thickness.data, "{name}: foam's thickness");
+    for (layer, of) in [
+        ("spray", (|drawn| drawn.spray.clone()) as fn(&Drawn) -> Option<Image<f32>>),
+        ("noise", |drawn| drawn.noise.clone()),
+        ("front to the sun", |drawn| drawn.light_front.clone()),
+        ("to the right", |drawn| drawn.motion.as_ref().map(|m| m.map(|m| m[0]))),
+        ("down", |drawn| drawn.motion.as_ref().map(|m| m.map(|m| m[1]))),
+    ] {
+        let [found, wanted] = [actual, expected].map(|drawn| of(drawn).expect("a layer"));
+        compare::same(&format!("{name}-{layer}"), &found, &wanted);
+    }
+    let map = |drawn: &Drawn| drawn.light_thickness.clone().expect("a map");
+    compare::same_color(&format!("{name}-to-the-sun"), &map(actual), &map(expected));
 }
 
 /// The stride there may be decides how many particles are worked on at a time.
