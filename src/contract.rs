@@ -303,7 +303,8 @@ pub struct Particles {
     /// World-space centres (3×f32, metres or the scene's unit). NaN and infinite ones are dropped
     /// and counted.
     pub positions: Stream,
-    /// SPH densities (f32); `None`: every particle has the rest density, none is spray.
+    /// SPH densities (f32), (0, ∞). 0, a negative number and NaN mean that there is no sum yet, as of a particle that was
+    /// just emitted: the rest density, so that it is whole water or foam and no spray. `None`: all have that.
     pub densities: Option<Stream>,
     /// World velocities (3×f32, scene units a second), along which foam and spray are drawn, and for
     /// motion vectors; read with [`Config::foam`], [`Config::spray`] or [`Config::motion`] alone.
@@ -555,7 +556,8 @@ pub struct Step<'a> {
     pub slot: Slot,
     /// World-space velocities (3×f32, scene units per second).
     pub velocities: Stream,
-    /// SPH densities (f32); `None`: every particle has the rest density.
+    /// SPH densities (f32), (0, ∞). 0, a negative number and NaN mean that there is no sum yet, as of a particle that was
+    /// just emitted: [`FoamSettings::rest_density`]. `None`: all have that.
     pub densities: Option<Stream>,
     /// Ids (u32), unique among the particles of a step and the same from step to step; not dense.
     /// Of two with the same id the first to come keeps the state; 0xffff_ffff is never foam. `None`:

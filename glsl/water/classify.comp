@@ -64,8 +64,9 @@ float weber(uint i) {
     precise float y = velocities[at + 1u] - push.air_y;
     precise float z = velocities[at + 2u] - push.air_z;
     precise float square = (x * x + y * y) + z * z;
-    float density = push.density_stride > 0u ? densities[push.density_word + i * push.density_stride]
-                                             : push.rest_density;
+    float density = push.density_stride > 0u ? densities[push.density_word + i * push.density_stride] : 0.0;
+    // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+    density = density > 0.0 ? density : push.rest_density;
     precise float number = (density * square) * push.scale;
     return number;
 }

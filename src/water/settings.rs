@@ -262,7 +262,7 @@ pub struct FoamSettings {
     pub foam_lifetime: f32,
     /// World velocity of the air, default 0.
     pub air: [f32; 3],
-    /// Density where no stream gives one, default 1000.
+    /// Density where no stream gives one, or gives 0 (a particle just emitted), (0, ∞), default 1000.
     pub rest_density: f32,
     /// Of the random times.
     pub seed: u32,

@@ -140,6 +140,7 @@ fn twin_settings(settings: &FoamSettings) -> twin::Settings {
         threshold: settings.threshold,
         foam_lifetime: settings.foam_lifetime,
         air: settings.air,
+        rest_density: settings.rest_density,
     }
 }
 
@@ -423,7 +424,8 @@ fn every_kind_of_input() {
     }
 }
 
-/// NaN and infinite values are not foam by themselves, and harm no other particle.
+/// NaN and infinite velocities are not foam by themselves, and harm no other particle. Without a density, which is 0, less
+/// or NaN, a particle has the rest density: as fast as another it foams as that one.
 #[test]
 fn broken_particles() {
     let gpu = Gpu::shared();
@@ -444,7 +446,8 @@ fn broken_particles() {
         let expected = phases.step(&twin_settings(&settings), 0.05, &particles);
         assert_foam("broken", &body.step(&settings, 0.05, &particles), &expected);
     }
-    assert!(body.foam(6)[5][0] > 0.99, "the whole one is foam");
+    assert!(body.foam(6)[2..].iter().all(|foam| foam[0] > 0.99), "those with a speed are foam");
+    assert!(body.foam(6)[0][0] == 0.0, "the one without is not");
     // Two of an id: no crash, and one of them is remembered.
     let twins = [of(6, 9.0, 1000.0), of(6, 9.0, 1000.0)];
     assert!(body.step(&settings, 0.05, &twins).iter().all(|foam| foam[0] > 0.99));

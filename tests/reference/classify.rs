@@ -20,6 +20,8 @@ pub struct Settings {
     pub threshold: f32,
     /// The mean time in which foam turns back to water.
     pub foam_lifetime: f32,
+    /// The density of a particle that has none yet: where it is 0, less or not a number.
+    pub rest_density: f32,
     /// The velocity of the air.
     pub air: [f32; 3],
 }
@@ -27,7 +29,13 @@ pub struct Settings {
 impl Settings {
     /// The defaults for a scale and a threshold.
     pub fn new(scale: f32, threshold: f32) -> Self {
-        Self { seed: 0, scale, threshold, foam_lifetime: 1.0, air: [0.0; 3] }
+        let (foam_lifetime, rest_density) = (1.0, 1000.0);
+        Self { seed: 0, scale, threshold, foam_lifetime, rest_density, air: [0.0; 3] }
+    }
+
+    /// The density of a particle.
+    fn density(&self, own: f32) -> f32 {
+        if own > 0.0 { own } else { self.rest_density }
     }
 }
 
@@ -129,7 +137,8 @@ impl Entry {
     /// One transition at most, by the phase that it begins with. Returns the foam.
     fn step(&mut self, settings: &Settings, dt: f32, particle: &Particle) -> f32 {
         // False for a Weber number that is not a number.
-        let foams = weber(settings, particle.velocity, particle.density) >= settings.threshold;
+        let density = settings.density(particle.density);
+        let foams = weber(settings, particle.velocity, density) >= settings.threshold;
         match self.phase {
             Phase::Water => {
                 if foams {
@@ -190,7 +199,7 @@ pub fn weber(settings: &Settings, velocity: [f32; 3], density: f32) -> f32 {
 /// The foam of a particle without an id: half where the Weber number is at the threshold. What is
 /// not a number has none.
 pub fn stateless(settings: &Settings, velocity: [f32; 3], density: f32) -> f32 {
-    let foam = weber(settings, velocity, density) / settings.threshold - 0.5;
+    let foam = weber(settings, velocity, settings.density(density)) / settings.threshold - 0.5;
     if foam.is_nan() { 0.0 } else { foam.clamp(0.0, 1.0) }
 }
 
@@ -217,7 +226,7 @@ mod tests {
 
     /// The Weber number of [`particle`] is its density.
     fn settings() -> Settings {
-        Settings { seed: 42, ..Settings::new(1.0, 10.0) }
+        Settings { seed: 42, rest_density: 0.0, ..Settings::new(1.0, 10.0) }
     }
 
     fn particle(id: u32, weber: f32) -> Particle {

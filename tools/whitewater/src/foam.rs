@@ -78,7 +78,9 @@ fn of_lifetimes(
 
 /// Weber numbers of the particles that are no spray, and which those are.
 fn numbers(frame: &Particles, foam: &FoamSettings, spray: f32) -> Vec<(usize, f32)> {
-    let density = |i: usize| frame.densities.as_ref().map_or(foam.rest_density, |d| d[i]);
+    // 0 marks a particle that was just emitted and has no sum yet.
+    let known = |i: usize| frame.densities.as_ref().map(|d| d[i]).filter(|d| *d > 0.0);
+    let density = |i: usize| known(i).unwrap_or(foam.rest_density);
     let velocities = frame.velocities.iter().flatten().enumerate();
     velocities
         .filter(|(i, _)| density(*i) >= spray)
@@ -161,6 +163,9 @@ mod tests {
         frame.densities = Some((0..100).map(|i| if i > 95 { 1.0 } else { 1000.0 }).collect());
         let without = of(Foaming::Auto, &frame).unwrap();
         assert!((without.threshold / number(91.0) - 1.0).abs() < 1.0e-5, "{without:?}");
+        // One that was just emitted has no density yet, and is water as any other.
+        frame.densities = Some(vec![0.0; 100]);
+        assert_eq!(of(Foaming::Auto, &frame), Some(found));
         frame.velocities = Some(vec![[0.0; 3]; 100]);
         assert!(of(Foaming::Auto, &frame).is_none(), "water at rest");
         frame.velocities = None;
