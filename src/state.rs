@@ -123,12 +123,12 @@ impl State {
         Ok(())
     }
 
-    /// Records that all particles are water again.
+    /// Records that all particles are water again. The steps before are over: none can be taken back.
     ///
     /// # Safety
     /// As [`record_step`](Self::record_step).
     pub unsafe fn record_reset(&mut self, cmd: vk::CommandBuffer) {
-        self.fresh = false;
+        (self.fresh, self.last) = (false, None);
         self.classify.record_clear(&self.gpu, cmd, self.odd);
     }
 
@@ -151,12 +151,12 @@ impl State {
         self.classify.record_copy(&self.gpu, cmd, self.odd, (to, offset), true);
     }
 
-    /// Records a copy of a saved state back.
+    /// Records a copy of a saved state back. The steps before are over: none can be taken back.
     ///
     /// # Safety
     /// As [`record_save`](Self::record_save), with transfer-source usage.
     pub unsafe fn record_restore(&mut self, cmd: vk::CommandBuffer, from: vk::Buffer, offset: u64) {
-        self.fresh = false;
+        (self.fresh, self.last) = (false, None);
         self.classify.record_copy(&self.gpu, cmd, self.odd, (from, offset), false);
     }
 

@@ -370,6 +370,36 @@ fn an_abandoned_first_step_leaves_an_empty_state() {
     assert!(body.save().iter().all(|byte| *byte == 0), "rows of another's");
 }
 
+/// A state that was reset or brought back after a step is not what the step made: to abandon the step takes nothing
+/// back.
+#[test]
+fn an_abandoned_step_does_not_undo_a_reset_or_a_restore() {
+    let gpu = Gpu::shared();
+    let config = StateConfig { max_stride: 20, ..StateConfig::new(100) };
+    let (settings, mut sea) = (settings(), Sea::new(100));
+    for restored in [true, false] {
+        let mut body = Body::new(&gpu, config);
+        for _ in 0..9 {
+            body.step(&settings, 0.1, sea.step());
+        }
+        let saved = body.save();
+        assert!(saved.iter().any(|byte| *byte != 0));
+        body.steps = 0;
+        body.step(&settings, 0.1, sea.step());
+        let wanted = if restored {
+            body.restore(&saved);
+            saved
+        } else {
+            let state = body.state.as_mut().expect("only drop takes it");
+            // SAFETY: submitted at once, after the step.
+            body.stub.run(|cmd| unsafe { state.record_reset(cmd) });
+            vec![0; saved.len()]
+        };
+        body.state().abandon(Slot(0));
+        assert!(body.save() == wanted, "restored {restored}: another state");
+    }
+}
+
 /// Counts from the GPU, streams of their own, without densities, without ids, and no particles.
 #[test]
 fn every_kind_of_input() {
