@@ -163,7 +163,8 @@
 //!   frontmost's depth, and a thin veil brings up what lies deep, with its own outline (so it stays with
 //!   [`water::Medium::Source`]).
 //! - Foam is thick here and thin there by one noise in space that it carries along ([`water::FoamLook::pattern`]); in the
-//!   thesis each sprite has a noise of its own, and many over each other are a mist. It is there as a pattern of 0.
+//!   thesis each sprite has a noise of its own, and many over each other are a mist. It is there as
+//!   [`water::FoamLook::noise`], with a pattern of 0.
 //! - The thickness of foam shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
 //!   looks nine times a pixel, at depths that jump from sprite to sprite.

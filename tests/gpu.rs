@@ -59,6 +59,8 @@ mod rect;
 mod reduce;
 #[path = "gpu/sea.rs"]
 mod sea;
+#[path = "gpu/settings.rs"]
+mod settings;
 #[path = "gpu/shading.rs"]
 mod shading;
 #[path = "gpu/sheets/mod.rs"]

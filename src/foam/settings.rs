@@ -130,9 +130,10 @@ pub struct DiffuseLook {
     /// Their radii in those of the particles: the first number and the second for each pass from 1 on, [0, 100]; default 1
     /// and 7 (AO_InitSRFac, AO_SRIncFac).
     pub search: [f32; 2],
-    /// Samples a cubic pixel, [0, 16], default 0.5 (AO_SDens).
+    /// Samples a cubic pixel, [0, 16], default 0.5 (AO_SDens). With [`Occlusion::Reference`] alone:
+    /// [`Occlusion::Fast`] has a share of the most samples, whatever the size.
     pub density: f32,
-    /// Least and most samples of a sphere, 1 to 512, default 16 and 512.
+    /// Least and most samples of a sphere, 1 to 512, default 16 and 512. The least with [`Occlusion::Reference`] alone.
     pub samples: [u32; 2],
     /// How far before it an occluder hides a point (AO_MaxOcclDist).
     pub reach: Reach,

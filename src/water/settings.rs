@@ -328,13 +328,15 @@ pub struct FoamLook {
     pub front_depth: f32,
     /// Speed at which a sprite is stretched to twice its width, spacings a second, (0, ∞), default 21.
     pub motion_threshold: f32,
-    /// Strength of the noise in a sprite, 0 (none) to 1 (default); it fades where its cells are less than
-    /// two texels of the thickness wide.
+    /// Strength of a noise of its own in each sprite that tears it, as the source has it, 0 (none, default) to 1; it
+    /// fades where its cells are less than two texels of the thickness wide. In the place of the pattern: of the two
+    /// one has to be 0.
     pub noise: f32,
-    /// Cells of the noise that pass in a second of age, [0, ∞), default 2.
+    /// Cells of that noise that pass in a second of a particle's age, [0, 1e3], default 2.
     pub noise_rate: f32,
     /// How much thicker it is here than there by a noise in space that the foam carries along, [0, 2], default 1: a
-    /// tenth of it is twice as thick or more, a tenth a quarter or less. Not in the source; 0: none of that.
+    /// tenth of it is twice as thick or more, a tenth a quarter or less. Not in the source; 0: none of that, as a
+    /// [`noise`](Self::noise) needs it.
     pub pattern: f32,
     /// Width of the largest of the clumps, spacings, (0, 1e3], default 3.
     pub pattern_size: f32,
@@ -368,7 +370,7 @@ impl FoamLook {
             front_power: 0.0,
             front_depth: 60.0 * spacing,
             motion_threshold: 21.0,
-            noise: 1.0,
+            noise: 0.0,
             noise_rate: 2.0,
             pattern: 1.0,
             pattern_size: 3.0,
@@ -391,6 +393,13 @@ impl FoamLook {
         range("Settings.foam.motion_threshold", self.motion_threshold, 1.0e-6, f32::MAX)?;
         range("Settings.foam.noise", self.noise, 0.0, 1.0)?;
         range("Settings.foam.pattern", self.pattern, 0.0, 2.0)?;
+        if self.noise > 0.0 && self.pattern > 0.0 {
+            let why = format!(
+                "{} beside Settings.foam.pattern of {}: expected one of them, set the other to 0",
+                self.noise, self.pattern
+            );
+            return Err(crate::error::Error::bad("Settings.foam.noise", why));
+        }
         range("Settings.foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
         range("Settings.foam.pattern_period", self.pattern_period, 1.0e-3, 1.0e3)?;
         if !self.time.is_finite() {

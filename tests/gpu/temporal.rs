@@ -46,7 +46,7 @@ fn block(pixels: f32, layers: usize) -> Foamy {
     let points = scenes::block(3, spacing, count, [-w, -h, depth]);
     let mut shot = Shot::new(size, Lens::Standard, 0.656 * spacing, &points);
     let look = FoamLook::of_spacing(shot.settings.water.spacing);
-    shot.settings.foam = FoamLook { pattern: 0.0, ..look };
+    shot.settings.foam = FoamLook { pattern: 0.0, noise: 1.0, ..look };
     Foamy {
         shot,
         amounts: vec![[1.0, 0.0]; points.len()],
@@ -378,7 +378,7 @@ fn the_pattern_changes_by_its_phases_alone() {
         let (mut moved, mut most) = (0, 0.0_f64);
         for n in 0..=12 {
             let mut case = block(8.0, 3);
-            case.shot.settings.foam.pattern = 1.0;
+            (case.shot.settings.foam.pattern, case.shot.settings.foam.noise) = (1.0, 0.0);
             case.shot.settings.foam.time = 0.975 + f64::from(n) * step;
             let slack = 40.0 * f64::from(case.shot.settings.water.spacing) / 2048.0;
             let now = case.draw(&mut rig).foam.expect("foam").thickness;

@@ -163,6 +163,7 @@ fn spoils() -> Vec<Spoil> {
         ("drops", "Settings.spray.color", |g| g.settings.spray.color[2] = 2.0),
         ("extinction", "Settings.foam.extinction", |g| g.settings.foam.extinction = f32::NAN),
         ("noise", "Settings.foam.noise", |g| g.settings.foam.noise = 1.5),
+        ("noise beside a pattern", "Settings.foam.noise", |g| g.settings.foam.noise = 0.1),
         ("pattern", "Settings.foam.pattern", |g| g.settings.foam.pattern = -0.5),
         ("pattern size", "Settings.foam.pattern_size", |g| g.settings.foam.pattern_size = 0.0),
         ("pattern period", "Settings.foam.pattern_period", |g| {

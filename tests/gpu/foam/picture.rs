@@ -308,7 +308,7 @@ fn the_ladder_adds_a_layer_a_rung() {
     case.shot.settings.water.medium = Medium::Physical { absorption, scattering: [0.0; 3] };
     let look = &mut case.shot.settings.foam;
     (look.relief, look.veil, look.extinction, look.front_extinction) = (0.0, 0.0, 2.0, 3.0);
-    look.pattern = 0.0;
+    (look.pattern, look.noise) = (0.0, 1.0);
     (look.front_depth, look.back_color, look.front_color) = (1.5, [0.2, 0.3, 0.4], [0.9, 0.8, 0.7]);
     case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
     let view = case.shot.view(size);

@@ -161,7 +161,7 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
 /// Foam by a noise of each sprite's own, and by one that all share.
 fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
     let wave = "--eye 0.6,0.85,0.3 --target -1.4,0.15,-0.1 --fov 50";
-    let own = tool.settings("[foam]\npattern = 0\n")?;
+    let own = tool.settings("[foam]\npattern = 0\nnoise = 1\n")?;
     let panels = [
         tool.frame("waterfall", 195, &own)?.picture,
         tool.frame("waterfall", 195, "")?.picture,

@@ -1,0 +1,392 @@
+//! Each setting does what it says: a change of any one shows in the picture, where the configuration has what it is of. Those
+//! that only count in a mode are changed in that mode. The shore's have tests of their own ([`super::shore`]).
+
+use std::f32::consts::PI;
+
+use ash::vk;
+use glam::{Mat4, Vec3};
+use whitewater::bubbles::{BubbleConfig, HandOver};
+use whitewater::foam::{DiffuseConfig, Mixing, Occlusion, Reach, Submerged};
+use whitewater::headless::{Bubble, Diffuse};
+use whitewater::water::{
+    Amplitude, Convolution, Fresnel, Ladder, Medium, NoiseLook, Rule, Shadows, SprayLook,
+};
+use whitewater::{Config, Region, Settings, Shadow};
+
+use crate::foam::Foamy;
+use crate::light::shadows;
+use crate::reference::Image;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, Lens, Random};
+
+const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
+
+type Change = (&'static str, fn(&mut Settings));
+
+/// Each of the changes shows: in pixels of a picture that is drawn from settings.
+fn all_show(
+    mode: &str,
+    base: &Settings,
+    changes: &[Change],
+    mut draw: impl FnMut(&Settings) -> Drawn,
+) {
+    let expected = draw(base).output;
+    let idle = changes.iter().filter(|(name, change)| {
+        let mut settings = base.clone();
+        change(&mut settings);
+        assert_ne!(settings, *base, "{mode}: {name} is as it was");
+        draw(&settings).output.data == expected.data
+    });
+    let idle: Vec<_> = idle.map(|(name, _)| *name).collect();
+    assert!(idle.is_empty(), "{mode}: these do nothing: {idle:?}");
+}
+
+/// The same where a change does nothing and says so.
+fn none_show(
+    mode: &str,
+    base: &Settings,
+    changes: &[Change],
+    mut draw: impl FnMut(&Settings) -> Drawn,
+) {
+    let expected = draw(base).output;
+    for (name, change) in changes {
+        let mut settings = base.clone();
+        change(&mut settings);
+        assert!(draw(&settings).output.data == expected.data, "{mode}: {name} shows");
+    }
+}
+
+/// Water, foam and spray of all kinds that stand before each other, in the sun.
+fn layered() -> Foamy {
+    let mut case = Foamy::new(SIZE, Lens::Standard, 20.0);
+    let n = case.shot.positions.len();
+    let mut random = Random(12);
+    case.shot.densities = Some((0..n).map(|_| random.between(300.0, 1000.0)).collect());
+    let center = scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0];
+    case.shot.sun.region = Some(Region { center, radius: 6.0 });
+    let settings = &mut case.shot.settings;
+    // The sun behind the eye, and a highlight so wide that it is seen.
+    settings.light.direction = Vec3::new(-0.5, 0.7, 0.6).normalize().to_array();
+    settings.water.shininess = 4.0;
+    // A front layer that ends within the foam.
+    settings.foam.front_depth = 2.0 * settings.water.spacing;
+    settings.noise = NoiseLook { foam: 0.5, ..NoiseLook::default() };
+    settings.spray = SprayLook { size: 1.5, ..SprayLook::default() };
+    case
+}
+
+fn drawer<'r>(case: Foamy, rig: &'r mut Rig<'_>) -> impl FnMut(&Settings) -> Drawn + 'r {
+    let mut case = case;
+    move |settings| {
+        case.shot.settings = settings.clone();
+        case.draw(rig)
+    }
+}
+
+#[test]
+fn every_setting_of_water_foam_spray_noise_and_light_shows() {
+    let gpu = Gpu::shared();
+    let both = Config { foam: true, spray: true, noise: Some(0), ..config(SIZE) };
+    let config = Config { cast: Some(64), sheets: 2, thickness_level: 0, ..both };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let case = layered();
+    let base = case.shot.settings.clone();
+    let changes: [Change; 52] = [
+        ("water.spacing", |s| s.water.spacing *= 1.1),
+        ("water.rest_density", |s| s.water.rest_density *= 1.1),
+        ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
+        ("water.depth_falloff", |s| s.water.depth_falloff = 0.5),
+        ("water.amplitude", |s| s.water.amplitude = Amplitude::Source),
+        ("water.medium.absorption", |s| {
+            s.water.medium =
+                Medium::Physical { absorption: [2.0; 3], scattering: [0.014, 0.03, 0.04] };
+        }),
+        ("water.medium.scattering", |s| {
+            s.water.medium =
+                Medium::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.5; 3] };
+        }),
+        ("water.medium", |s| s.water.medium = Medium::source(s.water.spacing)),
+        ("water.fresnel.f0", |s| s.water.fresnel = Fresnel::Schlick { f0: 0.2 }),
+        ("water.refraction", |s| s.water.refraction = 0.05),
+        ("water.specular", |s| s.water.specular = 0.5),
+        ("water.shininess", |s| s.water.shininess = 6.0),
+        ("foam.extinction", |s| s.foam.extinction *= 2.0),
+        ("foam.front_extinction", |s| s.foam.front_extinction *= 2.0),
+        ("foam.front_power", |s| s.foam.front_power = 2.0),
+        ("foam.front_depth", |s| s.foam.front_depth *= 2.0),
+        ("foam.motion_threshold", |s| s.foam.motion_threshold = 4.0),
+        ("foam.pattern", |s| s.foam.pattern = 0.5),
+        ("foam.pattern_size", |s| s.foam.pattern_size = 6.0),
+        ("foam.pattern_period", |s| s.foam.pattern_period = 0.7),
+        ("foam.time", |s| s.foam.time += 0.2),
+        ("foam.veil", |s| s.foam.veil *= 2.0),
+        ("foam.relief", |s| s.foam.relief = 0.7),
+        ("foam.shadow", |s| s.foam.shadow *= 3.0),
+        ("foam.back_color", |s| s.foam.back_color = [0.3; 3]),
+        ("foam.front_color", |s| s.foam.front_color = [0.5; 3]),
+        ("spray.opacity", |s| s.spray.opacity = 0.8),
+        ("spray.size", |s| s.spray.size = 1.0),
+        ("spray.droplets", |s| s.spray.droplets = 9),
+        ("spray.densities[0]", |s| s.spray.densities[0] = 0.5),
+        ("spray.densities[1]", |s| s.spray.densities[1] = 0.8),
+        ("spray.densities[2]", |s| s.spray.densities[2] = 0.95),
+        ("spray.spread", |s| s.spray.spread = 1.0),
+        ("spray.shutter", |s| s.spray.shutter = 0.1),
+        ("spray.color", |s| s.spray.color = [0.5; 3]),
+        ("spray.additive", |s| s.spray.additive = true),
+        ("noise.weight", |s| s.noise.weight = 0.6),
+        ("noise.falloff", |s| s.noise.falloff = 0.5),
+        ("noise.size", |s| s.noise.size = 1.5),
+        ("noise.cells", |s| s.noise.cells = 2.0),
+        ("noise.foam", |s| s.noise.foam = 1.0),
+        ("noise.color", |s| s.noise.color = [0.9; 3]),
+        ("light.direction", |s| s.light.direction = [0.0, 1.0, 0.0]),
+        ("light.color", |s| s.light.color = [2.0; 3]),
+        ("light.ambient", |s| s.light.ambient = [1.0; 3]),
+        ("light.irradiance", |s| s.light.irradiance = [PI; 3]),
+        ("light.shade", |s| s.light.shade = [0.1; 3]),
+        ("ladder 0", |s| s.ladder = Ladder::Background),
+        ("ladder 1", |s| s.ladder = Ladder::BackWater),
+        ("ladder 2", |s| s.ladder = Ladder::Foam),
+        ("ladder 3", |s| s.ladder = Ladder::FrontWater),
+        ("fresnel", |s| {
+            s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
+        }),
+    ];
+    all_show("layered", &base, &changes, drawer(case, &mut rig));
+}
+
+/// Of two ways of which one is taken the other has its settings too.
+#[test]
+fn every_setting_of_the_other_modes_shows() {
+    let gpu = Gpu::shared();
+    let plain = Config { foam: true, thickness_level: 0, ..config(SIZE) };
+    let mut rig = Rig::lit(&gpu, &plain, 1);
+    let mut case = layered();
+    case.shot.sun.region = None;
+    let look = &mut case.shot.settings.foam;
+    (look.pattern, look.noise) = (0.0, 0.5);
+    let source = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
+    case.shot.settings.water.fresnel = source;
+    case.shot.settings.water.medium = Medium::source(case.shot.settings.water.spacing);
+    let base = case.shot.settings.clone();
+    let changes: [Change; 10] = [
+        // Where spray is not drawn these are what is no water.
+        ("water.density_threshold", |s| s.water.density_threshold = 0.42),
+        ("water.density_full", |s| s.water.density_full = 0.9),
+        ("water.fresnel.bias", |s| {
+            s.water.fresnel = Fresnel::Source { bias: 0.2, scale: 0.4, power: 2.0 };
+        }),
+        ("water.fresnel.scale", |s| {
+            s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.6, power: 2.0 };
+        }),
+        ("water.fresnel.power", |s| {
+            s.water.fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 4.0 };
+        }),
+        ("water.medium.base", |s| change_source(s, |base, _| base[0] = 0.9)),
+        ("water.medium.falloff", |s| change_source(s, |_, falloff| falloff[1] *= 2.0)),
+        ("water.medium.falloff of what is behind", |s| {
+            change_source(s, |_, falloff| falloff[3] *= 2.0)
+        }),
+        ("foam.noise", |s| s.foam.noise = 1.0),
+        ("foam.noise_rate", |s| s.foam.noise_rate = 50.0),
+    ];
+    all_show("other modes", &base, &changes, drawer(case, &mut rig));
+    // A rule of the smoothing that has a width of its own says so.
+    let ruled = Config { rule: Rule::Source, ..plain };
+    let mut rig = Rig::lit(&gpu, &ruled, 1);
+    let mut case = layered();
+    case.shot.sun.region = None;
+    let base = case.shot.settings.clone();
+    let width: [Change; 1] = [("water.smoothing_width", |s| s.water.smoothing_width *= 2.0)];
+    none_show("the source's rule", &base, &width, drawer(case, &mut rig));
+}
+
+fn change_source(settings: &mut Settings, change: fn(&mut [f32; 3], &mut [f32; 4])) {
+    if let Medium::Source { base, falloff } = &mut settings.water.medium {
+        change(base, falloff);
+    }
+}
+
+/// Of a shadow map that is filtered.
+#[test]
+fn every_setting_of_the_shadow_filter_shows() {
+    let gpu = Gpu::shared();
+    let convolution = Convolution { texels: 64, ..Convolution::default() };
+    let shadow = Some(Shadows::Convolution(convolution));
+    let config = Config { foam: true, shadow, thickness_level: 0, ..config(SIZE) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let mut case = layered();
+    case.shot.sun.region = None;
+    let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
+    let sun = Vec3::from(case.shot.settings.light.direction);
+    let light = Mat4::look_at_rh(middle + 20.0 * sun, middle, Vec3::Y);
+    let view_projection = Mat4::orthographic_rh(-9.0, 9.0, -9.0, 9.0, 1.0, 40.0) * light;
+    let map = Image::from_fn(64, 64, |x, y| if (x / 9 + y / 7) % 2 == 0 { 0.3 } else { 0.9 });
+    let image = shadows(&rig, Shadows::Convolution(convolution), &map);
+    case.shot.sun.shadow = Some(Shadow { image: image.host_image(), view_projection, bias: 0.05 });
+    let base = case.shot.settings.clone();
+    let changes: [Change; 4] = [
+        ("shadow.width", |s| s.shadow.width = 6.0),
+        ("shadow.damping", |s| s.shadow.damping = 0.3),
+        ("shadow.offset", |s| s.shadow.offset = 0.2),
+        ("shadow.scale", |s| s.shadow.scale = 1.0),
+    ];
+    all_show("shadow filter", &base, &changes, drawer(case, &mut rig));
+}
+
+/// A heap of diffuse particles about some water.
+fn heap(size: vk::Extent2D) -> (Shot, Vec<[f32; 3]>, Vec<u32>, Vec<f32>) {
+    let mut shot = Shot::new(size, Lens::Standard, 0.2, &scenes::cloud(31, 60, 3.0, 6.0));
+    let positions = scenes::world(&shot.camera, &scenes::cloud(7, 600, 2.5, 6.5));
+    shot.settings.diffuse.radius = 0.3;
+    // Half of it a wall close behind some.
+    shot.scene_depth(|x, _| Some(if x < size.width / 2 { 8.5 } else { 5.0 }));
+    let n = positions.len();
+    let mut random = Random(3);
+    let kinds = (0..n).map(|i| i as u32 % 3).collect();
+    let ages = (0..n).map(|_| random.between(0.0, 1.0)).collect();
+    (shot, positions, kinds, ages)
+}
+
+fn heap_drawer<'r>(rig: &'r mut Rig<'_>) -> (Settings, impl FnMut(&Settings) -> Drawn + 'r) {
+    let (mut shot, positions, kinds, ages) = heap(rig.config.extent);
+    let base = shot.settings.clone();
+    let draw = move |settings: &Settings| {
+        shot.settings = settings.clone();
+        let water = rig.particles(&shot);
+        let input = Diffuse {
+            positions: &positions,
+            kinds: Some(&kinds),
+            radii: None,
+            ages: Some(&ages),
+            ids: None,
+        };
+        let cloud = rig.diffuse(&input);
+        rig.draw_diffuse(&shot, &water.particles(), Some(cloud.particles()))
+    };
+    (base, draw)
+}
+
+#[test]
+fn every_setting_of_diffuse_particles_shows() {
+    let gpu = Gpu::shared();
+    let changes: [Change; 18] = [
+        ("diffuse.radius", |s| s.diffuse.radius *= 1.2),
+        ("diffuse.submerged", |s| s.diffuse.submerged = FALLOFF),
+        ("diffuse.half", |s| s.diffuse.half = 1.0),
+        ("diffuse.exponent", |s| s.diffuse.exponent = 2.0),
+        ("diffuse.passes", |s| s.diffuse.passes = 1),
+        ("diffuse.search[0]", |s| s.diffuse.search[0] = 3.0),
+        ("diffuse.search[1]", |s| s.diffuse.search[1] = 2.0),
+        ("diffuse.samples[1]", |s| s.diffuse.samples[1] = 40),
+        ("diffuse.reach", |s| s.diffuse.reach = Reach::Radii(0.3)),
+        ("diffuse.reach in metres", |s| s.diffuse.reach = Reach::Metres(0.2)),
+        ("diffuse.opacity[0]", |s| s.diffuse.opacity[0] = 1.0),
+        ("diffuse.opacity[1]", |s| s.diffuse.opacity[1] = 0.2),
+        ("diffuse.shadow[0]", |s| s.diffuse.shadow[0] = 2.0),
+        ("diffuse.shadow[1]", |s| s.diffuse.shadow[1] = 0.8),
+        ("diffuse.shadow[2]", |s| s.diffuse.shadow[2] = 0.1),
+        ("diffuse.shadow_color", |s| s.diffuse.shadow_color = [0.5; 3]),
+        ("diffuse.albedo", |s| s.diffuse.albedo = [0.5; 3]),
+        ("diffuse.mixing", |s| s.diffuse.mixing = Mixing::Source),
+    ];
+    let falloff: [Change; 3] = [
+        ("diffuse.submerged.most", |s| {
+            s.diffuse.submerged = Submerged::Falloff { most: 0.8, n: 2.0, m: 4.0 };
+        }),
+        ("diffuse.submerged.n", |s| {
+            s.diffuse.submerged = Submerged::Falloff { most: 2.0, n: 1.0, m: 4.0 };
+        }),
+        ("diffuse.submerged.m", |s| {
+            s.diffuse.submerged = Submerged::Falloff { most: 2.0, n: 2.0, m: 1.0 };
+        }),
+    ];
+    // Points by what a sphere holds of pixels: of the source's way alone, as DiffuseLook says.
+    let points: [Change; 2] = [
+        ("diffuse.density", |s| s.diffuse.density = 0.01),
+        ("diffuse.samples[0]", |s| s.diffuse.samples[0] = 300),
+    ];
+    for occlusion in [Occlusion::Fast, Occlusion::Reference] {
+        let diffuse = DiffuseConfig { occlusion, ..DiffuseConfig::new(4096) };
+        let mut rig = Rig::lit(&gpu, &Config { diffuse: Some(diffuse), ..config(SIZE) }, 1);
+        let (mut base, mut draw) = heap_drawer(&mut rig);
+        all_show(&format!("{occlusion:?}"), &base, &changes, &mut draw);
+        match occlusion {
+            Occlusion::Fast => none_show("Fast", &base, &points, &mut draw),
+            Occlusion::Reference => all_show("Reference", &base, &points, &mut draw),
+        }
+        base.diffuse.submerged = FALLOFF;
+        all_show("falloff", &base, &falloff, &mut draw);
+    }
+}
+
+const FALLOFF: Submerged = Submerged::Falloff { most: 2.0, n: 2.0, m: 4.0 };
+
+#[test]
+fn every_setting_of_bubble_foam_shows() {
+    let gpu = Gpu::shared();
+    let size = extent(112, 96);
+    let bubbles = BubbleConfig { templates: 3, bubbles: 28, ..BubbleConfig::new(64) };
+    let mut rig = Rig::lit(&gpu, &Config { bubbles: Some(bubbles), ..config(size) }, 1);
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let mut random = Random(11);
+    let mut blob = |place: [f32; 3], radius: f32, id| {
+        let [x, y, z] = scenes::world(&shot.camera, &[place])[0];
+        let turn = glam::Vec4::from([0; 4].map(|_| random.between(-1.0, 1.0))).normalize();
+        Bubble { ball: [x, y, z, radius], turn: turn.to_array(), id }
+    };
+    let mut blobs: Vec<_> = (0..24_u8)
+        .map(|i| {
+            let [x, y, z] = [i % 6, i / 6, i % 5].map(f32::from);
+            blob([0.5 * (x - 3.0), 0.5 * (y - 2.0), 3.0 + 0.1 * z], 0.5, u32::from(i))
+        })
+        .collect();
+    // Of some three pixels.
+    let small = |i: u8| ([0.1 * f32::from(i) - 0.4, -1.3, 3.0], 0.1, 100 + u32::from(i));
+    blobs.extend((0..8).map(small).map(|(place, radius, id)| blob(place, radius, id)));
+    shot.blobs = blobs;
+    // The sun at the eye.
+    let eye = shot.camera.view.inverse().transform_point3(Vec3::ZERO);
+    let [x, y, z] = scenes::world(&shot.camera, &[[0.0, 0.0, 3.0]])[0];
+    shot.settings.light.direction = (eye - Vec3::new(x, y, z)).normalize().to_array();
+    let base = shot.settings.clone();
+    let changes: [Change; 14] = [
+        ("bubbles.film", |s| s.bubbles.film = 500.0),
+        ("bubbles.variation", |s| s.bubbles.variation = 0.1),
+        ("bubbles.drainage", |s| s.bubbles.drainage = 0.1),
+        ("bubbles.core[0]", |s| s.bubbles.core[0] = 0.4),
+        ("bubbles.core[1]", |s| s.bubbles.core[1] = 1.2),
+        ("bubbles.albedo", |s| s.bubbles.albedo = [0.5; 3]),
+        ("bubbles.pattern", |s| s.bubbles.pattern = 0.2),
+        ("bubbles.distortion", |s| s.bubbles.distortion = 0.5),
+        ("bubbles.roundness", |s| s.bubbles.roundness = 0.9),
+        ("bubbles.reflection", |s| s.bubbles.reflection = 0.5),
+        ("bubbles.shininess", |s| s.bubbles.shininess = 100.0),
+        ("bubbles.walls", |s| s.bubbles.walls = false),
+        ("bubbles.plug", |s| s.bubbles.plug = false),
+        ("bubbles.merge", |s| s.bubbles.merge = 8.0),
+    ];
+    all_show("bubbles", &base, &changes, |settings| {
+        shot.settings = settings.clone();
+        rig.draw(&shot)
+    });
+}
+
+#[test]
+fn every_setting_of_the_hand_over_shows() {
+    let gpu = Gpu::shared();
+    let bubbles =
+        BubbleConfig { templates: 3, bubbles: 28, hand_over: true, ..BubbleConfig::new(600) };
+    let diffuse = Some(DiffuseConfig::new(4096));
+    let mut rig = Rig::lit(&gpu, &Config { bubbles: Some(bubbles), diffuse, ..config(SIZE) }, 1);
+    let (mut base, draw) = heap_drawer(&mut rig);
+    base.bubbles.hand_over = HandOver { near: 4.0, far: 5.0, size: 1.0 };
+    let changes: [Change; 3] = [
+        ("bubbles.hand_over.near", |s| s.bubbles.hand_over.near = 3.0),
+        ("bubbles.hand_over.far", |s| s.bubbles.hand_over.far = 6.0),
+        ("bubbles.hand_over.size", |s| s.bubbles.hand_over.size = 1.5),
+    ];
+    all_show("hand-over", &base, &changes, draw);
+}
