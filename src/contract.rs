@@ -783,8 +783,11 @@ impl Default for Light {
 #[derive(Clone, Copy, Debug)]
 pub struct Layer {
     /// Name as in the EXR files of the tool, `water.depth` for `water.depth.Z`, `motion` for
-    /// `motion.X` and `motion.Y`. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: of
-    /// the front sheet, of the back sheet, of the window between them.
+    /// `motion.X` and `motion.Y`. `water.thickness` has a second channel with [`Config::foam`]: what of it is before the
+    /// frontmost foam. With [`Config::sheets`] of 2 there is `water.thickness.sheets`: of
+    /// the front sheet, of the back sheet, of the window between them. A texel of `water.iterations` is 32 bits: the
+    /// iterations planned for it are the low nine, the size of their steps the other 23, in parts of the largest there
+    /// is.
     pub name: &'static str,
     /// The image; transfer source usage.
     pub image: vk::Image,

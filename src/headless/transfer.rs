@@ -185,8 +185,10 @@ impl Headless {
 
     /// A layer of the last frame by its name; `None` when there is none of that name. Those of the
     /// smoothing come at its configured resolution, each texel of the level that shows there; `water.back` is the smoothed back sheet, and
-    /// `water.thickness.front` and `.back` are channels of `water.thickness.sheets`, and
-    /// `water.foam.front`, what lies right behind the frontmost, of `water.foam.thickness`, and
+    /// `water.thickness.front` and `.back` are what of `water.thickness` lies before and behind the frontmost foam
+    /// (T_wf and T_wb of the thesis; where there is no foam, all of it is before), `water.sheet.front` and `.back` are
+    /// channels of `water.thickness.sheets`, the water of each of two sheets, and
+    /// `water.foam.front`, what lies right behind the frontmost, is one of `water.foam.thickness`, and
     /// `motion.X` and `motion.Y` of `motion`; of diffuse particles there are `foam` (depth), `foam.intensity`,
     /// `foam.thickness`, `foam.submerged` (what of the thickness is behind the water's surface), `foam.normal.X`,
     /// `.Y`, `.Z`, `foam.radius` (of the search), `foam.irradiance.R`, `.G`, `.B` and `foam.shadow`; of bubble foam
@@ -199,9 +201,12 @@ impl Headless {
         if name == "bubbles.layers" {
             return self.bubble_layers();
         }
+        if name == "water.thickness.front" || name == "water.thickness.back" {
+            return self.about_foam(name == "water.thickness.front");
+        }
         let image = match name {
             "water.back" => "water.surface",
-            "water.thickness.front" | "water.thickness.back" => "water.thickness.sheets",
+            "water.sheet.front" | "water.sheet.back" => "water.thickness.sheets",
             "water.foam.front" => "water.foam.thickness",
             "motion.X" | "motion.Y" => "motion",
             "foam.intensity" => "foam",
@@ -221,7 +226,7 @@ impl Headless {
         }
         let area = vk::Rect2D::from(layer.extent);
         let channel = match name {
-            "water.thickness.back" | "water.foam.front" | "motion.Y" => 1,
+            "water.sheet.back" | "water.foam.front" | "motion.Y" => 1,
             "foam.intensity" | "foam.submerged" | "foam.normal.Y" | "foam.irradiance.G" => 1,
             "foam.normal.Z" | "foam.irradiance.B" => 2,
             "foam.radius" | "foam.shadow" => 3,
@@ -249,12 +254,28 @@ impl Headless {
                 self.read(layer.image, layer.format, area, layer.access)?;
             return Ok(Some(both.map(|both| both[channel])));
         }
+        // Of spray, on devices that blend no other.
         if layer.format == vk::Format::R16G16_SFLOAT {
             let half: Picture<[u16; 2]> =
                 self.read(layer.image, layer.format, area, layer.access)?;
             return Ok(Some(half.map(|both| half::f16::from_bits(both[0]).to_f32())));
         }
         self.read(layer.image, layer.format, area, layer.access).map(Some)
+    }
+
+    /// Water before the frontmost foam, or behind it.
+    fn about_foam(&mut self, front: bool) -> Result<Option<Picture<f32>>, Error> {
+        let Some(all) = self.layer("water.thickness")? else { return Ok(None) };
+        let image = self.layers.iter().find(|layer| layer.name == "water.thickness").copied();
+        let foam = image.filter(|layer| layer.format == vk::Format::R32G32_SFLOAT);
+        let Some(layer) = foam else {
+            return Ok(Some(if front { all } else { all.map(|_| 0.0) }));
+        };
+        let area = vk::Rect2D::from(layer.extent);
+        let both: Picture<[f32; 2]> = self.read(layer.image, layer.format, area, layer.access)?;
+        // Both are sums of single precision: the part may be an ulp more than the whole.
+        let part = |both: &[f32; 2]| if front { both[1] } else { (both[0] - both[1]).max(0.0) };
+        Ok(Some(both.map(part)))
     }
 
     /// How many blobs a pixel shows.

@@ -10,7 +10,7 @@ use crate::camera::Lens;
 use crate::failure::{Failure, Outcome};
 
 /// What can be asked for beside the beauty.
-const GROUPS: [&str; 28] = [
+const GROUPS: [&str; 30] = [
     "water.depth",
     "water.surface",
     "water.iterations",
@@ -19,6 +19,8 @@ const GROUPS: [&str; 28] = [
     "water.thickness",
     "water.thickness.front",
     "water.thickness.back",
+    "water.sheet.front",
+    "water.sheet.back",
     "water.foam",
     "water.foam.thickness",
     "water.foam.front",
@@ -153,6 +155,8 @@ pub fn collect(
         ("water.thickness", Merge::Mean),
         ("water.thickness.front", Merge::Mean),
         ("water.thickness.back", Merge::Mean),
+        ("water.sheet.front", Merge::Mean),
+        ("water.sheet.back", Merge::Mean),
         ("water.foam.thickness", Merge::Mean),
         ("water.foam.front", Merge::Mean),
         ("water.spray", Merge::Mean),

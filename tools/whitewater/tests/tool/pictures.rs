@@ -1,5 +1,6 @@
 //! What is in the pictures.
 
+use whitewater::io::particles::Particles;
 use whitewater::io::picture::EMPTY;
 
 use super::support::{FRONT, Folder, SMALL, SPACING, block};
@@ -26,6 +27,8 @@ fn a_block_of_water_has_all_its_layers() {
         "water.normal.X",
         "water.normal.Y",
         "water.normal.Z",
+        "water.sheet.back",
+        "water.sheet.front",
         "water.spray",
         "water.surface.Z",
         "water.thickness",
@@ -44,9 +47,11 @@ fn a_block_of_water_has_all_its_layers() {
     // Eight layers of 0.1.
     let thickness = at("water.thickness", 48, 32);
     assert!((0.5..1.1).contains(&thickness), "{thickness}");
-    // A block stands before no other water.
-    assert_eq!(at("water.thickness.front", 48, 32), thickness);
-    assert_eq!(at("water.thickness.back", 48, 32), 0.0);
+    // A block stands before no other water, and there is no foam for it to be behind.
+    for parts in ["water.sheet", "water.thickness"] {
+        assert_eq!(at(&format!("{parts}.front"), 48, 32), thickness);
+        assert_eq!(at(&format!("{parts}.back"), 48, 32), 0.0);
+    }
     assert_eq!(at("water.back.Z", 48, 32), EMPTY);
     let ground = at("scene.Z", 48, 60);
     assert!(ground > 1.0 && ground < 3.0, "{ground}");
@@ -63,6 +68,38 @@ fn a_block_of_water_has_all_its_layers() {
     assert_ne!(shown[32 * 96 + 48], shown[60 * 96 + 48]);
     assert_ne!(linear[32 * 96 + 48], linear[60 * 96 + 48]);
     assert_eq!(folder.files(), ["a.exr", "a.ply", "a.png"]);
+}
+
+/// Water before and behind the frontmost foam (T_wf and T_wb of the thesis), which are together what there is, and
+/// something else than the two sheets: a block with foam in its middle layers is one sheet.
+#[test]
+fn water_is_told_before_and_behind_foam() {
+    let folder = Folder::new();
+    let mut water = Particles::from_positions(block(8));
+    // Layers from the back to the front: of eight the third and the fourth behind the front are torn.
+    let layer = |p: &[f32; 3]| (p[2] / SPACING + 3.5).round() as usize;
+    let torn = |p| if [4, 5].contains(&layer(p)) { [3.0, 0.0, 0.0] } else { [0.0; 3] };
+    water.velocities = Some(water.positions.iter().map(torn).collect());
+    folder.write("a.vtu", &water);
+    let look = "--foam 1 --spray none --sheets 2 --supersample 1 --thickness-level 0";
+    folder.run(&format!("render a.vtu -o a.exr {SMALL} {FRONT} {look} --validate")).ok();
+    let exr = folder.picture("a.exr");
+    let of = |name: &str| exr.channel(&format!("water.{name}")).unwrap();
+    let (all, foam) = (of("thickness"), of("foam.Z"));
+    let [front, back] = ["thickness.front", "thickness.back"].map(of);
+    let [sheet, behind] = ["sheet.front", "sheet.back"].map(of);
+    let mut before_and_behind = 0;
+    for i in 0..all.len() {
+        assert!((front[i] + back[i] - all[i]).abs() <= 1.0e-6 * all[i], "{i}");
+        assert!(foam[i] < EMPTY || front[i] == all[i], "{i}: no foam, and water behind it");
+        before_and_behind += usize::from(front[i] > 0.1 * all[i] && back[i] > 0.1 * all[i]);
+    }
+    assert!(before_and_behind > 100, "{before_and_behind} pixels with foam in the midst of water");
+    let middle = 32 * 96 + 48;
+    // Two layers before those of foam, four behind them.
+    let share = front[middle] / all[middle];
+    assert!((share - 2.0 / 6.0).abs() < 0.1, "{share} of the water is before the foam");
+    assert!(sheet[middle] == all[middle] && behind[middle] == 0.0, "one sheet");
 }
 
 #[test]
