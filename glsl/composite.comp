@@ -7,6 +7,7 @@
 // Reads: what shade.glsl reads, tile list and arguments. Writes: output.
 
 #include "frame.glsl"
+#include "medium.glsl"
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"

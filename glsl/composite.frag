@@ -4,6 +4,7 @@
 // Reads: what shade.glsl reads. Writes: output.
 
 #include "frame.glsl"
+#include "medium.glsl"
 #include "level.glsl"
 #include "sheets.glsl"
 #include "surface.glsl"

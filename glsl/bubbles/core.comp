@@ -55,5 +55,6 @@ void main() {
         cells *= 2.1;
         part *= 0.6;
     }
-    imageStore(core, texel, vec4(lean, clamp(brightness - 0.1, 0.2, 1.8)));
+    // A fifth is what they add in the mean.
+    imageStore(core, texel, vec4(lean, clamp(brightness - 0.2, 0.2, 1.8)));
 }

@@ -1,10 +1,12 @@
 #version 460
 // Pass `soap`: what the blobs of a pixel look like, its layers front to back (Huszar, Szecsi, Sec. 4.4 and 5): the film
-// before, the wall between two bubbles, the core, the film behind, each over what lies behind it.
-// Reads: blobs, layers, film, core, environment, irradiance, water depth, what blob.glsl and sunlight.glsl read.
+// before, the wall between two bubbles, the core, the film behind, each over what lies behind it. Water before a layer takes
+// of its light, and adds its own to as much as the layer hides: so what is behind all layers is left as it is, water or not.
+// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, what blob.glsl and sunlight.glsl read.
 // Writes: bubbles (RGBA16F), premultiplied.
 
 #include "frame.glsl"
+#include "medium.glsl"
 #include "convolution.glsl"
 #include "intensity.glsl"
 #include "sunlight.glsl"
@@ -28,6 +30,7 @@ layout(set = 0, binding = 6) uniform sampler2D core_map;
 layout(set = 0, binding = 7) uniform samplerCube environment;
 layout(set = 0, binding = 11) uniform sampler2D irradiance;
 layout(set = 0, binding = 12, rgba16f) uniform writeonly image2D bubbles_image;
+layout(set = 0, binding = 14) uniform sampler2D thickness;
 
 // What a film reflects of each colour.
 vec3 film_at(float cosine, float thickness) {
@@ -204,12 +207,21 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     return light;
 }
 
-// What water before it leaves of its light.
-vec3 water_before(float depth, vec2 pixel, float length_) {
-    float surface = texelFetch(water_depth, ivec2(pixel), 0).x;
-    float metres = max(depth - surface, 0.0) * length_;
-    vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
-    return surface < depth ? exp(-extinction * metres) : vec3(1.0);
+// Metres of water along z at a pixel: between the texels about it that have some.
+float water_at(vec2 pixel) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    ivec2 last = ivec2(frame.thick_extent.xy) - 1;
+    vec2 f = fract(h);
+    float sum = 0.0;
+    float wet = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        vec2 part = mix(1.0 - f, f, vec2(side));
+        float there = texelFetch(thickness, clamp(ivec2(floor(h)) + side, ivec2(0), last), 0).x;
+        sum += part.x * part.y * there;
+        wet += there > 0.0 ? part.x * part.y : 0.0;
+    }
+    return wet > 0.0 ? sum / wet : 0.0;
 }
 
 void main() {
@@ -225,7 +237,10 @@ void main() {
     vec3 color = vec3(0.0);
     vec3 left = vec3(1.0);
     vec3 body = vec3(0.0);
-    vec3 water = vec3(1.0);
+    // Where the water begins, and how much there is, without air that may lie between.
+    float surface = texelFetch(water_depth, pixel, 0).x;
+    float room = surface < EMPTY && frame.target.z >= FRONT_WATER ? water_at(vec2(pixel) + 0.5) : 0.0;
+    float metres = 0.0;
     vec3 sun = vec3(1.0);
     vec2 opacities = vec2(0.0);
     float behind = 1.0;
@@ -249,7 +264,7 @@ void main() {
             sun = sunlight(along * depth, vec2(pixel) + 0.5);
         }
         look.sun = sun;
-        water = water_before(depth, vec2(pixel), length_);
+        metres = clamp(depth - surface, 0.0, room) * length_;
         vec3 through;
         vec3 own;
         vec2 opacity;
@@ -257,8 +272,8 @@ void main() {
         opacities = max(opacities, opacity);
         behind *= 1.0 - opacity.x;
         body = i == 0u ? own : mix(body, own, 0.5);
-        color += left * water * light;
-        left *= mix(vec3(1.0), through, water);
+        color += through_medium(left * light, left * (1.0 - through), metres);
+        left *= through;
         ++i;
         // Behind what is opaque nothing is seen.
         bool open = max(left.r, max(left.g, left.b)) > HIDDEN;
@@ -268,7 +283,7 @@ void main() {
     // Holes between the layers are as opaque as anything there is (Sec. 5): of the layers themselves as they turned out, and
     // else what lies farther, where `peel` looks that far. By half precision, where it was blended.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
-    float plug = bubbly.mirror.w > 0.5 ? max(most * dot(water, vec3(1.0 / 3.0)) - covered, 0.0) : 0.0;
-    color += plug * water * body;
+    float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
+    color += through_medium(plug * body, vec3(plug), metres);
     imageStore(bubbles_image, pixel, vec4(min(color, 65000.0), min(covered + plug, 1.0)));
 }

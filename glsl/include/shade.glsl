@@ -5,7 +5,7 @@
 // Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
 // light of diffuse particles, bubble foam, contact foam.
-// Needs frame.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
+// Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
 // shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
@@ -165,16 +165,6 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
     return scene_at(pixel + offset * part);
 }
 
-vec3 through_medium(vec3 background, float path) {
-    // One exponential for both: a CPU runs branches whole.
-    bool source = frame.medium_a.w > 0.5;
-    vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
-    vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);
-    vec3 albedo = frame.medium_b.rgb / max(extinction, vec3(1.0e-9));
-    return source ? mix(frame.medium_a.rgb * kept.rgb, background, kept.a)
-                  : background * kept.rgb + frame.ambient.rgb * albedo * (1.0 - kept.rgb);
-}
-
 // Both powers, and one of them taken: a pipeline each for so little would double their number.
 float fresnel(float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
@@ -241,12 +231,6 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     }
     return sheet;
 }
-
-// Rungs of the ladder: what is above the one that is drawn is left out.
-const float BACK_WATER = 1.0;
-const float FOAM_TOO = 2.0;
-const float FRONT_WATER = 3.0;
-const float WHOLE = 4.0;
 
 // Without what is left out.
 Sheet on_ladder(Sheet sheet) {
@@ -428,8 +412,15 @@ Surface towards(Surface surface, Surface other, float fade) {
     return surface;
 }
 
-// Colour of scene, water and foam at a pixel (its centre, at +0.5), and the depth of the water's surface there.
-vec3 layers_at(vec2 pixel, float front, out float z) {
+// The front surface of the water in a pixel, and the light that it sends to the eye by itself.
+struct Face {
+    float z;      // its depth
+    float mirror; // share of what it mirrors: the rest comes from below
+    vec3 light;   // what it mirrors, that share of it, and the sun's highlight
+};
+
+// Colour of scene, water and foam at a pixel (its centre, at +0.5), and the water's surface there.
+vec3 layers_at(vec2 pixel, float front, out Face face) {
     float threshold = frame.surface.w;
     vec2 slope = ray_slope(pixel, frame.slope);
     float fade = 0.0;
@@ -487,7 +478,7 @@ vec3 layers_at(vec2 pixel, float front, out float z) {
         surface.dz = mix(surface.dz, other.dz, lost);
         surface.found += lost;
     }
-    z = surface.z;
+    face = Face(surface.z, 0.0, vec3(0.0));
 
     // Where there is less than a layer of water it is a drop: it keeps the shape of its sphere.
     float drop = 1.0 - smoothstep(0.6 * frame.particle.y, 0.9 * frame.particle.y, t);
@@ -519,6 +510,8 @@ vec3 layers_at(vec2 pixel, float front, out float z) {
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     sheet = on_ladder(sheet);
     back = on_ladder(back);
+    face.mirror = front < EMPTY ? sheet.mirror : 0.0;
+    face.light = front < EMPTY ? sheet.mirror * sheet.mirrored + sheet.shine : vec3(0.0);
     if (FOAM + DIFFUSE == 0u) {
         sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
         back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
@@ -562,25 +555,29 @@ vec3 layers_at(vec2 pixel, float front, out float z) {
     return dry && foam.depth >= EMPTY ? c : seen;
 }
 
-// Bubble foam over all: what of it is in water knows of that.
-vec3 with_soap(vec3 c, vec2 pixel) {
-    if (SOAP == 0u) {
-        return c;
-    }
-    vec4 over = texelFetch(soap, ivec2(pixel), 0);
-    return frame.target.z >= FOAM_TOO ? c * (1.0 - over.a) + over.rgb : c;
+// Bubble foam over all there is, or in the water: pass `soap` dims what is in it, and gives it the water's own light
+// before it. So of `c` as much is left as no foam covers, and the surface's light is the same before both.
+vec3 with_soap(vec3 c, vec4 over, Face face) {
+    return c * (1.0 - over.a) + over.a * face.light + (1.0 - face.mirror) * over.rgb;
 }
 
-// All layers at a pixel where water, foam or spray is: spray lies over the others.
+// All layers at a pixel where water, foam or spray is: spray lies over the others, but for bubble foam before the water.
 vec3 shade(vec2 pixel, float front) {
-    float z;
-    vec3 c = layers_at(pixel, front, z);
+    Face face;
+    vec3 c = layers_at(pixel, front, face);
+    vec4 over = vec4(0.0);
+    bool sunk = false;
+    if (SOAP == 1u) {
+        over = frame.target.z >= FOAM_TOO ? texelFetch(soap, ivec2(pixel), 0) : vec4(0.0);
+        sunk = texelFetch(soap_depth, ivec2(pixel), 0).x > face.z;
+        c = sunk ? with_soap(c, over, face) : c;
+    }
     if (SHORE == 1u && frame.target.z >= FOAM_TOO) {
         float amount = texelFetch(shore_foam, ivec2(pixel), 0).w;
         // What the texel knows of the sun is the host's surface's, behind.
         float lost = 0.0;
         for (bool go = SHADOW + CAST > 0u && amount > 0.0; go; go = false) {
-            lost = sun_lost(z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
+            lost = sun_lost(face.z * vec3(ray_slope(pixel, frame.slope), -1.0), pixel);
         }
         c = with_contact(c, amount, lost, coat_light());
     }
@@ -588,12 +585,11 @@ vec3 shade(vec2 pixel, float front) {
         float over = intensity_of(texelFetch(diffuse_thickness, ivec2(pixel), 0).x);
         c = mix(c, diffuse_color(texelFetch(diffuse_light, ivec2(pixel), 0)), over);
     }
-    if (SPRAY == 0u) {
-        return with_soap(c, pixel);
+    if (SPRAY == 1u) {
+        vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;
+        float kept = frame.target.z >= WHOLE ? exp(-droplets.x) : 1.0;
+        float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
+        c = c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
     }
-    vec2 droplets = texelFetch(spray, ivec2(pixel), 0).xy;
-    float kept = frame.target.z >= WHOLE ? exp(-droplets.x) : 1.0;
-    float lit = droplets.x > 0.0 ? droplets.y / droplets.x : 1.0;
-    c = c * mix(kept, 1.0, frame.spray_color.w) + under(vec3(lit)) * frame.spray_color.rgb * (1.0 - kept);
-    return with_soap(c, pixel);
+    return SOAP == 1u && !sunk ? c * (1.0 - over.a) + over.rgb : c;
 }

@@ -198,7 +198,7 @@ impl Bubbles {
     ) -> Result<(), Error> {
         let scope = r.begin(c"soap");
         let made = (&self.lists, &self.peel, &*self.templates);
-        self.soap.record(r, made, environment, water.depth)?;
+        self.soap.record(r, made, environment, water)?;
         r.end(scope);
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! Pass `soap`: films, walls and cores of what `peel` has found, and the light on them (Huszár, Szécsi, Sec. 3.1, 4.4, 5).
 //!
-//! Reads: blobs, layers, templates, environment, irradiance, water depth, sunlight. Writes: bubbles, premultiplied.
+//! Reads: blobs, layers, templates, environment, irradiance, water depth, thickness, sunlight. Writes: bubbles,
+//! premultiplied.
 
 use ash::vk;
 
@@ -18,7 +19,7 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
-use crate::water::Recording;
+use crate::water::{Recording, WaterLayers};
 
 /// The pass.
 pub struct Soap {
@@ -61,30 +62,27 @@ impl Soap {
         &self.image
     }
 
-    /// `water`: its depth, which comes and goes as sampled by fragments.
+    /// `water`: its depth and thickness, which come and go as sampled by fragments.
     pub fn record(
         &self,
         r: &Recording<'_>,
         (lists, peel, templates): (&Lists, &Peel, &Templates),
         environment: &Environment,
-        water: &Image,
+        water: &WaterLayers<'_>,
     ) -> Result<(), Error> {
         let (gpu, cmd) = (r.gpu, r.cmd);
         let before = AFTER.and(COPY_READ).discarded();
-        gpu.barriers(
-            cmd,
-            &[
-                access::image(&self.image, before, COMPUTE_WRITE),
-                access::image(water, FRAGMENT_SAMPLED, COMPUTE_SAMPLED),
-            ],
-            &[],
-        );
+        let read = [water.depth, water.thickness];
+        let over = |from, to| read.map(|image| access::image(image, from, to));
+        let [depth, thickness] = over(FRAGMENT_SAMPLED, COMPUTE_SAMPLED);
+        let own = access::image(&self.image, before, COMPUTE_WRITE);
+        gpu.barriers(cmd, &[own, depth, thickness], &[]);
         let linear = |image: &Image| Resource::Sampled(image.view, gpu.samplers.linear);
-        let [shadow, thickness, basis, span, cast, soap] = r.sunlight.resources();
+        let [shadow, light_thickness, basis, span, cast, soap] = r.sunlight.resources();
         let own = [
             (0, r.uniforms),
             (1, r.bubbles),
-            (2, Resource::Sampled(water.view, gpu.samplers.nearest)),
+            (2, Resource::Sampled(water.depth.view, gpu.samplers.nearest)),
             (3, Resource::buffer(lists.buffers()[0])),
             (4, Resource::buffer(peel.layers())),
             (5, linear(&templates.table)),
@@ -92,8 +90,9 @@ impl Soap {
             (7, Resource::Sampled(environment.levels.handle, gpu.samplers.linear)),
             (11, linear(&environment.irradiance)),
             (12, Resource::storage(&self.image)),
+            (14, Resource::Sampled(water.thickness.view, gpu.samplers.nearest)),
             shadow,
-            thickness,
+            light_thickness,
             basis,
             span,
             cast,
@@ -102,12 +101,10 @@ impl Soap {
         let resources = [&own[..], &templates.resources(gpu)].concat();
         r.descriptors.bind(gpu, cmd, &self.pipeline, &resources)?;
         r.dispatch_over(r.extent, self.pipeline.local_size);
+        let [depth, thickness] = over(COMPUTE_SAMPLED, FRAGMENT_SAMPLED);
         gpu.barriers(
             cmd,
-            &[
-                access::image(&self.image, COMPUTE_WRITE, AFTER),
-                access::image(water, COMPUTE_SAMPLED, FRAGMENT_SAMPLED),
-            ],
+            &[access::image(&self.image, COMPUTE_WRITE, AFTER), depth, thickness],
             &[],
         );
         Ok(())

@@ -11,3 +11,4 @@ mod near;
 mod soap;
 mod tear;
 mod wall;
+mod water;

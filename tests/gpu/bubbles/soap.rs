@@ -3,24 +3,30 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use whitewater::Config;
 use whitewater::bubbles::{BubbleConfig, BubbleLook};
 use whitewater::headless::Bubble;
 
 use super::film::bound;
 use super::impostor::{NONE, blob, rays, templates};
-use crate::reference::Image;
-use crate::reference::bubbles::soap::{Look, Pixel, Placed, Table, Template, pixel};
+use crate::reference::bubbles::core::Picture;
+use crate::reference::bubbles::soap::{
+    Look, Medium, Met, Pixel, Placed, Table, Template, Water, pixel,
+};
 use crate::reference::classify::pcg;
+use crate::reference::{Image, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::rig::{Rig, Shot, Soaped, config, extent};
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
 use crate::support::scenes::{Lens, Random};
 use crate::support::tolerance::U;
 
 /// Of the environment; halves hold it and its half.
 const RADIANCE: DVec3 = DVec3::new(1.0, 0.625, 1.75);
+
+/// Edge of the core's picture in texels (src/bubbles/templates.rs).
+const PICTURE_SIZE: usize = 256;
 
 /// How far a ray may be turned by rounding: the eye's and a blob's place are sums of some ten numbers, each as long as
 /// the way from one to the other or a few times that.
@@ -30,12 +36,12 @@ const TURNED: f64 = 64.0 * U;
 const JUMP: f64 = 1.0 / 128.0;
 
 /// One step of half precision.
-fn half_step(value: f64) -> f64 {
+pub fn half_step(value: f64) -> f64 {
     (value.abs() / 1024.0).max(1.0 / f64::from(1 << 24))
 }
 
-/// Nothing of noise or pattern, which the twin does not know.
-fn even(film: f32) -> BubbleLook {
+/// Nothing of noise or pattern.
+pub fn even(film: f32) -> BubbleLook {
     BubbleLook {
         film,
         variation: 0.0,
@@ -49,9 +55,12 @@ fn even(film: f32) -> BubbleLook {
 fn twin(look: &BubbleLook, side: DVec3) -> Look {
     Look {
         film: f64::from(look.film),
+        variation: f64::from(look.variation),
         drainage: f64::from(look.drainage),
         core: look.core.map(f64::from),
         albedo: DVec3::from(look.albedo.map(f64::from)),
+        pattern: f64::from(look.pattern),
+        distortion: f64::from(look.distortion),
         roundness: f64::from(look.roundness),
         reflection: f64::from(look.reflection),
         walls: look.walls,
@@ -62,21 +71,22 @@ fn twin(look: &BubbleLook, side: DVec3) -> Look {
 }
 
 /// A renderer, and what the twin knows of it.
-struct Scene<'g> {
-    rig: Rig<'g>,
+pub struct Scene<'g> {
+    pub rig: Rig<'g>,
     bubbles: BubbleConfig,
     templates: Vec<Template>,
     films: &'static Table,
+    picture: &'static Picture,
     /// Of the environment.
     side: DVec3,
 }
 
 /// A pixel by the twin.
 #[derive(Clone)]
-struct Expected {
-    pixel: Pixel,
+pub struct Expected {
+    pub pixel: Pixel,
     /// How far the picture may be off it.
-    off: [f64; 4],
+    pub off: [f64; 4],
     /// How much it changes where the ray is turned as much as rounding may.
     change: f64,
 }
@@ -84,8 +94,13 @@ struct Expected {
 impl<'g> Scene<'g> {
     /// In an environment that grows towards a side.
     fn new(gpu: &'g Gpu, side: DVec3) -> Self {
-        let bubbles = BubbleConfig { templates: 3, bubbles: 28, ..BubbleConfig::new(64) };
-        let config = Config { bubbles: Some(bubbles), ..config(extent(112, 96)) };
+        Self::of(gpu, side, 3, config(extent(112, 96)))
+    }
+
+    /// The same of so many layers, by a configuration.
+    pub fn of(gpu: &'g Gpu, side: DVec3, layers: u32, config: Config) -> Self {
+        let bubbles = BubbleConfig { templates: 3, bubbles: 28, layers, ..BubbleConfig::new(64) };
+        let config = Config { bubbles: Some(bubbles), ..config };
         let mut rig = Rig::with_slots(gpu, &config, 1);
         let (width, height) = (64, 32);
         let texel = |i: u32| {
@@ -101,12 +116,19 @@ impl<'g> Scene<'g> {
         static FILMS: OnceLock<Table> = OnceLock::new();
         let index = f64::from(bubbles.film.index);
         let films = FILMS.get_or_init(|| Table::new((64, 256), index, bits, bound));
-        Self { rig, bubbles, templates, films, side }
+        static PICTURE: OnceLock<Picture> = OnceLock::new();
+        let picture = PICTURE.get_or_init(|| Picture::new(PICTURE_SIZE, bubbles.seed, bits));
+        Self { rig, bubbles, templates, films, picture, side }
     }
 
     /// Blobs whose bubbles are large enough to be seen, wholly before the camera.
     fn shot(&self, lens: Lens, many: bool) -> Shot {
-        let mut shot = Shot::new(self.rig.config.extent, lens, 0.1, &[]);
+        self.shot_in(lens, many, (0.1, &[]))
+    }
+
+    /// The same with water of particles of a radius.
+    pub fn shot_in(&self, lens: Lens, many: bool, (radius, points): (f32, &[[f32; 3]])) -> Shot {
+        let mut shot = Shot::new(self.rig.config.extent, lens, radius, points);
         let mut random = Random(11);
         shot.blobs = match many {
             false => vec![blob(&shot, [0.0, 0.0, 3.0], 1.4, 3, &mut random)],
@@ -126,13 +148,15 @@ impl<'g> Scene<'g> {
     }
 
     /// What the pixels show by the twin. The layers are the frame's: which they are is the impostors' test.
-    fn expected(&self, shot: &Shot, found: &Soaped) -> Image<Expected> {
+    pub fn expected(&self, shot: &Shot, drawn: &Drawn) -> Image<Expected> {
+        let found = drawn.soap.as_ref().expect("bubble foam");
         let look = twin(&shot.settings.bubbles, self.side);
         let own = |id: u32| &self.templates[(pcg(id) % self.bubbles.templates) as usize];
-        let placed = |b: &Bubble| Placed { ball: b.ball, turn: b.turn, template: own(b.id) };
+        let placed =
+            |b: &Bubble| Placed { ball: b.ball, turn: b.turn, id: b.id, template: own(b.id) };
         let blobs: Vec<_> = shot.blobs.iter().map(placed).collect();
         let (eye, rays) = rays(shot);
-        let (films, layers) = (self.films, self.bubbles.layers as usize);
+        let (made, layers) = ((self.films, self.picture), self.bubbles.layers as usize);
         Image::from_fn(rays.width, rays.height, |x, y| {
             let words = &found.layers[y * rays.width + x];
             let (met, most) = words.split_at(layers);
@@ -142,8 +166,11 @@ impl<'g> Scene<'g> {
                 .map(|word| ((word >> 8) as usize, (word & 0xff) as usize))
                 .collect();
             let most = f64::from(f32::from_bits(most[0]));
+            let met = Met { blobs: &blobs, first: &met, most };
+            let length = rays.at(x, y).length();
+            let water = water(shot, drawn, (x, y), length);
             let shown =
-                |look: &Look, along: DVec3| pixel(look, films, &blobs, (eye, along), &met, most);
+                |look: &Look, along: DVec3| pixel(look, made, (eye, along), &met, (&water, TURNED));
             let along = rays.at(x, y).normalize();
             let pixel = shown(&look, along);
             let aside = along.any_orthonormal_vector();
@@ -166,6 +193,39 @@ impl<'g> Scene<'g> {
             let change = change.into_iter().fold(0.0, f64::max);
             Expected { pixel, off, change }
         })
+    }
+}
+
+/// The water on a pixel's ray, so many metres long on one of depth: from its depth on as much as there is, between the
+/// texels about it that have some.
+pub fn water(shot: &Shot, drawn: &Drawn, (x, y): (usize, usize), length: f64) -> Water {
+    let depth = f64::from(drawn.depth.at(x, y));
+    if !is_surface(depth) {
+        return Water::none();
+    }
+    let edge = (drawn.depth.width as f64 / drawn.thickness.width as f64).round();
+    let at = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) / edge;
+    let (mut sum, mut all) = (0.0, 0.0);
+    for (x, y, weight) in drawn.thickness.bilinear(at) {
+        let there = f64::from(drawn.thickness.clamped(x, y));
+        (sum, all) = if there > 0.0 { (sum + weight * there, all + weight) } else { (sum, all) };
+    }
+    let metres = if all > 0.0 { length * sum / all } else { 0.0 };
+    Water { medium: medium(shot), from: length * depth, metres }
+}
+
+/// As the settings have it.
+fn medium(shot: &Shot) -> Medium {
+    let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+    match shot.settings.water.medium {
+        whitewater::water::Medium::Physical { absorption, scattering } => {
+            let [a, s] = [absorption, scattering].map(vector);
+            let share = s / (a + s).max(DVec3::splat(1.0e-9));
+            Medium::Physical { extinction: a + s, own: vector(shot.settings.light.ambient) * share }
+        }
+        whitewater::water::Medium::Source { base, falloff } => {
+            Medium::Source { base: vector(base), falloff: falloff.map(f64::from) }
+        }
     }
 }
 
@@ -215,7 +275,9 @@ fn films_walls_cores_and_plugs_are_the_twins() {
     let mut scene = Scene::new(&gpu, DVec3::ZERO);
     let drained = BubbleLook { drainage: 0.35, ..even(380.0) };
     let thin = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
-    let cases: [(_, _, _, Seen); 9] = [
+    let varied = BubbleLook { variation: 0.35, ..drained };
+    let cores = BubbleLook { reflection: 0.0, pattern: 0.7, ..even(380.0) };
+    let cases: [(_, _, _, Seen); 14] = [
         ("one", false, drained, [0, 0, 3000, 0]),
         ("one-thick", false, BubbleLook { film: 900.0, ..thin }, [0, 0, 3000, 0]),
         ("one-no-walls", false, BubbleLook { walls: false, ..thin }, [0; 4]),
@@ -225,6 +287,11 @@ fn films_walls_cores_and_plugs_are_the_twins() {
         ("heap-open", true, BubbleLook { film: 900.0, plug: false, ..thin }, [3000, 2000, 5000, 0]),
         ("heap-no-walls", true, BubbleLook { walls: false, ..thin }, [3000, 2000, 0, 0]),
         ("heap-bright", true, BubbleLook { reflection: 2.5, ..thin }, [3000, 2000, 5000, 10]),
+        ("one-varied", false, varied, [0, 0, 3000, 0]),
+        ("heap-varied", true, BubbleLook { variation: 1.0, ..thin }, [3000, 2000, 5000, 10]),
+        ("one-pattern", false, BubbleLook { distortion: 0.6, ..cores }, [0, 0, 3000, 0]),
+        ("heap-pattern", true, BubbleLook { pattern: 1.0, ..cores }, [1000, 400, 5000, 20]),
+        ("heap-default", true, BubbleLook::default(), [1000, 400, 5000, 5]),
     ];
     let shots = [Lens::Standard, Lens::LeftHanded];
     let mut shots = shots.map(|lens| [false, true].map(|many| scene.shot(lens, many)));
@@ -232,8 +299,9 @@ fn films_walls_cores_and_plugs_are_the_twins() {
     for (i, (name, many, look, least)) in cases.into_iter().enumerate() {
         let shot = &mut shots[i % 2][usize::from(many)];
         shot.settings.bubbles = look;
-        let found = scene.rig.draw(shot).soap.expect("bubble foam");
-        let expected = scene.expected(shot, &found);
+        let drawn = scene.rig.draw(shot);
+        let expected = scene.expected(shot, &drawn);
+        let found = drawn.soap.expect("bubble foam");
         let mut own = Errors::default();
         let (mut covered, mut seen) = (0, Seen::default());
         for (color, Expected { pixel, off, change }) in found.color.data.iter().zip(&expected.data)
@@ -276,16 +344,19 @@ fn films_and_cores_show_where_the_light_comes_from() {
     let mut scene = Scene::new(&gpu, DVec3::new(0.3, 0.4, -0.5));
     let films = BubbleLook { albedo: [0.0; 3], core: [0.1, 0.5], ..even(380.0) };
     let cores = BubbleLook { reflection: 0.0, roundness: 0.7, ..even(380.0) };
+    let lean = BubbleLook { pattern: 1.0, roundness: 0.2, ..cores };
     for (name, lens, many, look, part) in [
         ("films", Lens::Standard, false, films, 64.0),
         ("cores", Lens::LeftHanded, false, cores, 400.0),
         ("heap-films", Lens::LeftHanded, true, films, 64.0),
         ("heap-cores", Lens::Standard, true, cores, 400.0),
+        ("leaning cores", Lens::Standard, false, lean, 400.0),
     ] {
         let mut shot = scene.shot(lens, many);
         shot.settings.bubbles = look;
-        let found = scene.rig.draw(&shot).soap.expect("bubble foam");
-        let expected = scene.expected(&shot, &found);
+        let drawn = scene.rig.draw(&shot);
+        let expected = scene.expected(&shot, &drawn);
+        let found = drawn.soap.expect("bubble foam");
         let (mut errors, mut covered, mut light) = (Errors::default(), 0, 0.0);
         for (color, Expected { pixel, off, .. }) in found.color.data.iter().zip(&expected.data) {
             if pixel.layers > 0 {

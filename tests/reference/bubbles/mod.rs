@@ -1,5 +1,6 @@
 //! Bubble foam (Huszár, Szécsi): the film, walls and blobs by their equations and by brute force.
 
+pub mod core;
 pub mod film;
 pub mod heap;
 pub mod impostor;

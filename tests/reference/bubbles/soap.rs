@@ -1,14 +1,20 @@
 //! Pass `soap` ray by ray: light that films, walls and cores of blobs send to the eye where the environment is even or
-//! grows evenly to one side and there is no sun, and what they leave of the light behind.
+//! grows evenly to one side and there is no sun, and what they leave of the light behind. In water from the back to the front, as
+//! light goes.
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::core::Picture;
 use super::film::{Face, spectral};
 use super::impostor::into_blob;
 use super::wall::{Wall, between};
+use crate::reference::classify::pcg;
+use crate::reference::foam::{noise, noise_rounding, noise_slope};
 use crate::reference::{Image, smoothstep};
+use crate::support::tolerance::U;
 
-/// Thickness of the table's last row in nanometres.
+/// Nanometres that a film is thick, least and most: those of the table's last row.
+const THINNEST: f64 = 1.0;
 const THICKEST: f64 = 2000.0;
 
 /// Where less than this is left of the light behind, nothing more is looked at.
@@ -19,9 +25,12 @@ const LEAST: f64 = 1.0 / 256.0;
 pub struct Look {
     /// Nanometres.
     pub film: f64,
+    pub variation: f64,
     pub drainage: f64,
     pub core: [f64; 2],
     pub albedo: DVec3,
+    pub pattern: f64,
+    pub distortion: f64,
     pub roundness: f64,
     pub reflection: f64,
     pub walls: bool,
@@ -35,7 +44,22 @@ pub struct Look {
 impl Look {
     /// More light than any part of a blob sends.
     fn most(&self) -> DVec3 {
-        self.radiance * (1.0 + self.side.length()) * self.reflection.max(1.0)
+        // A seam of the pattern is this much brighter than the rest at most.
+        let seams = 1.0 + 0.8 * self.pattern;
+        self.radiance * (1.0 + self.side.length()) * self.reflection.max(1.0) * seams
+    }
+
+    /// How thick a film is: each bubble's own by its number, uneven by its place, thinner on top (Sec. 3.1); and how far that may
+    /// be off.
+    fn thickness(&self, number: u32, place: DVec3, high: f64) -> (f64, f64) {
+        let part = |n: u32| f64::from(pcg(n) >> 8) / f64::from(1 << 24);
+        let place = place + 64.0 * part(number.wrapping_add(1));
+        let varied = 0.7 * (2.0 * part(number) - 1.0) + 0.6 * noise(place);
+        let drained = 1.0 - self.drainage * high;
+        // A place is a few sums and products of numbers as large.
+        let moved = noise_rounding() + 3.0 * noise_slope() * 8.0 * U * place.abs().max_element();
+        let off = self.film * drained.abs() * (self.variation * 0.6 * moved + 8.0 * U);
+        (self.film * (1.0 + self.variation * varied) * drained, off)
     }
 
     /// What comes from a direction of the world.
@@ -75,17 +99,103 @@ impl Table {
         Self { values, step: 1.0 / f64::from(1 << bits) }
     }
 
-    /// What is sent back, and how far that may be off.
-    pub fn at(&self, cosine: f64, thickness: f64) -> (DVec3, DVec3) {
+    /// What is sent back by a film whose thickness may be so far off, and how far that may be.
+    pub fn at(&self, cosine: f64, (thickness, unsure): (f64, f64)) -> (DVec3, DVec3) {
         let last = DVec2::new((self.values.width - 1) as f64, (self.values.height - 1) as f64);
-        let at = DVec2::new(cosine, thickness / THICKEST).clamp(DVec2::ZERO, DVec2::ONE) * last;
+        let thickness = thickness.clamp(THINNEST, THICKEST);
+        let at = DVec2::new(cosine.clamp(0.0, 1.0), thickness / THICKEST) * last;
         let texels = self.values.bilinear(at + 0.5);
         let four = texels.map(|(x, y, _)| self.values.clamped(x, y));
         let mean: DVec3 = texels.iter().zip(&four).map(|((_, _, w), [v, _])| *w * *v).sum();
         let own = four.iter().fold(DVec3::ZERO, |most, [_, off]| most.max(*off));
         let change = |a: usize, b: usize| (four[a][0] - four[b][0]).abs();
-        let across = change(0, 1).max(change(2, 3)) + change(0, 2).max(change(1, 3));
-        (mean, own + self.step * across)
+        let down = change(0, 2).max(change(1, 3));
+        let across = change(0, 1).max(change(2, 3)) + down;
+        (mean, own + self.step * across + down * unsure / THICKEST * last.y)
+    }
+}
+
+/// What so many metres of water leave of light, and what light they give themselves.
+#[derive(Clone, Copy, Debug)]
+pub enum Medium {
+    /// Of each metre what is lost, by exp(-x); what light comes out of much of it.
+    Physical { extinction: DVec3, own: DVec3 },
+    /// The source's: colour of thin water; falloff of the colour and of what is behind (thesis, Eq. 3.5 to 3.7).
+    Source { base: DVec3, falloff: [f64; 4] },
+}
+
+impl Medium {
+    /// What is left, and what is given.
+    pub fn of(&self, metres: f64) -> (DVec3, DVec3) {
+        match *self {
+            Self::Physical { extinction, own } => {
+                let left = (-extinction * metres).exp();
+                (left, own * (1.0 - left))
+            }
+            Self::Source { base, falloff: [r, g, b, a] } => {
+                let left = (-a * metres).exp();
+                (DVec3::splat(left), base * (-DVec3::new(r, g, b) * metres).exp() * (1.0 - left))
+            }
+        }
+    }
+
+    /// More than is lost in a metre.
+    fn falls(&self) -> f64 {
+        match *self {
+            Self::Physical { extinction, .. } => extinction.max_element(),
+            Self::Source { falloff, .. } => falloff.into_iter().fold(0.0, f64::max),
+        }
+    }
+}
+
+/// The water on a ray: how far away it begins, and how many metres of it there are; behind them is air.
+#[derive(Clone, Copy, Debug)]
+pub struct Water {
+    pub medium: Medium,
+    pub from: f64,
+    pub metres: f64,
+}
+
+impl Water {
+    /// Nowhere.
+    pub fn none() -> Self {
+        let medium = Medium::Physical { extinction: DVec3::ZERO, own: DVec3::ZERO };
+        Self { medium, from: f64::INFINITY, metres: 0.0 }
+    }
+
+    /// How many metres of it are nearer than that.
+    fn before(&self, away: f64) -> f64 {
+        (away - self.from).clamp(0.0, self.metres)
+    }
+
+    /// Light of layers, front to back, and of the water before what they hide: all that comes to the eye where behind them
+    /// is nothing but the rest of the water, less what of that comes through them.
+    fn over(&self, layers: &[Layer]) -> DVec3 {
+        if let Medium::Source { .. } = self.medium {
+            // Two lengths of the source's water are not what both are at once: each layer is seen through the whole.
+            let mut left = DVec3::ONE;
+            let seen = |layer: &Layer| {
+                let (kept, own) = self.medium.of(self.before(layer.away));
+                let light =
+                    left * (layer.gathered.light * kept + (1.0 - layer.gathered.through) * own);
+                left *= layer.gathered.through;
+                light
+            };
+            return layers.iter().map(seen).sum();
+        }
+        let through: DVec3 = layers.iter().map(|layer| layer.gathered.through).product();
+        let mut behind = self.metres;
+        let mut light = DVec3::ZERO;
+        let steps = layers.iter().rev().map(|layer| (self.before(layer.away), Some(layer)));
+        for (metres, layer) in steps.chain([(0.0, None)]) {
+            let (kept, own) = self.medium.of(behind - metres);
+            light = light * kept + own;
+            if let Some(Layer { gathered, .. }) = layer {
+                light = gathered.light + gathered.through * light;
+            }
+            behind = metres;
+        }
+        light - through * self.medium.of(self.metres).1
     }
 }
 
@@ -141,6 +251,7 @@ impl Template {
 pub struct Placed<'a> {
     pub ball: [f32; 4],
     pub turn: [f32; 4],
+    pub id: u32,
     pub template: &'a Template,
 }
 
@@ -191,8 +302,12 @@ impl Gathered {
 
 /// One blob in a pixel.
 struct Layer {
+    /// How far from the eye.
+    away: f64,
     gathered: Gathered,
     core: DVec3,
+    /// How far the core's brightness may be off, of its albedo's.
+    unsure: f64,
     wall: bool,
     /// Opacity of the core behind the bubble that is met first, and where the ray ends.
     told: f64,
@@ -205,7 +320,7 @@ fn mix(a: DVec3, b: DVec3, t: f64) -> DVec3 {
 
 fn layer(
     look: &Look,
-    films: &Table,
+    (films, picture): (&Table, &Picture),
     blob: &Placed<'_>,
     (eye, along): (DVec3, DVec3),
     bubble: usize,
@@ -213,10 +328,6 @@ fn layer(
     let (origin, direction) = into_blob(blob.ball, blob.turn, eye, along);
     let ray = Ray { origin, direction };
     let turn = DQuat::from_array(blob.turn.map(f64::from)).normalize();
-    let film = |normal: DVec3, high: f64| {
-        let thickness = look.film * (1.0 - look.drainage * high);
-        films.at(direction.dot(normal).abs(), thickness)
-    };
     let high = |normal: DVec3| (turn * normal).y;
     let reflected = |normal: DVec3| direction - 2.0 * direction.dot(normal) * normal;
     let (mut middle, radius) = blob.template.bubbles[bubble];
@@ -224,11 +335,20 @@ fn layer(
     let first = ray.at(into);
     let front = (first - middle) / radius;
     let round = first.normalize();
+    let number = pcg(blob.id.wrapping_mul(977).wrapping_add(bubble as u32));
+    let film = |number: u32, normal: DVec3, place: DVec3, high: f64| {
+        let thickness = look.thickness(number, 2.5 * place / radius, high);
+        films.at(direction.dot(normal).abs(), thickness)
+    };
 
     let opacity = |t: f64| 1.0 - smoothstep(look.core[0], look.core[1], ray.at(t).length());
     let crease = 0.72 + 0.28 * smoothstep(0.6, 1.0, ray.at(out).length());
-    let facing = (front * (1.0 - look.roundness) + round * look.roundness).normalize();
-    let core = look.albedo * look.diffuse(turn * facing) * crease;
+    // Of the pattern what lies behind, drawn towards where the normal points into it (Sec. 4.4).
+    let inside = mix(ray.at(out).normalize(), -front, look.distortion).normalize();
+    let (pattern, unsure) = picture.at(inside);
+    let facing = mix(front, round, look.roundness) + look.pattern * pattern.lean;
+    let bright = 1.0 + look.pattern * (pattern.brightness - 1.0);
+    let core = look.albedo * look.diffuse(turn * facing.normalize()) * bright * crease;
     // What is not open to the environment is foam, as bright as this.
     let mirrored = |normal: DVec3, open: f64| {
         look.reflection * mix(core, look.light(turn * reflected(normal)), open)
@@ -236,12 +356,13 @@ fn layer(
 
     let mut gathered = Gathered { light: DVec3::ZERO, through: DVec3::ONE, off: DVec3::ZERO };
     let open = smoothstep(-0.35, 0.45, reflected(front).dot(round));
-    gathered.film(film(front, high(front)), mirrored(front, open));
+    gathered.film(film(number, front, first, high(front)), mirrored(front, open));
 
     let told = opacity(out);
     let wall = look.walls.then(|| blob.template.wall(ray, bubble, (into, out))).flatten();
-    if let Some((_, normal, other)) = wall {
-        gathered.film(film(normal, 0.0), mirrored(normal, 0.4));
+    if let Some((at, normal, other)) = wall {
+        let between = film(number ^ other as u32, normal, ray.at(at), 0.0);
+        gathered.film(between, mirrored(normal, 0.4));
         let (center, radius) = blob.template.bubbles[other];
         let [_, leaves] = ray.touches(center, radius);
         if leaves > out {
@@ -255,8 +376,10 @@ fn layer(
     gathered.through *= 1.0 - opaque;
 
     let back = (last - middle).normalize();
-    gathered.film(film(back, high(back)), mirrored(back, 0.5));
-    Layer { gathered, core, wall: wall.is_some(), told, opaque }
+    gathered.film(film(number, back, last, high(back)), mirrored(back, 0.5));
+    let away = into * f64::from(blob.ball[3]);
+    let unsure = look.pattern * unsure;
+    Layer { away, gathered, core, unsure, wall: wall.is_some(), told, opaque }
 }
 
 /// What a pixel shows.
@@ -269,34 +392,45 @@ pub struct Pixel {
     /// Layers that were looked at, and of how many a wall was crossed.
     pub layers: usize,
     pub walls: usize,
+    /// And how many have water before them.
+    pub wet: usize,
     /// What was plugged.
     pub plugged: f64,
 }
 
-/// A pixel's blobs and the bubbles of them that are met first, front to back, and the most opacity of all that are there.
+/// What of it there is on a ray: blobs and the bubbles of them that are met first, front to back, and the most opacity of all
+/// that are there.
+pub struct Met<'a> {
+    pub blobs: &'a [Placed<'a>],
+    pub first: &'a [(usize, usize)],
+    pub most: f64,
+}
+
+/// A pixel's blobs, in water; `turned`: how far the ray may be turned by rounding.
 pub fn pixel(
     look: &Look,
-    films: &Table,
-    blobs: &[Placed<'_>],
+    made: (&Table, &Picture),
     ray: (DVec3, DVec3),
-    met: &[(usize, usize)],
-    most: f64,
+    met: &Met<'_>,
+    (water, turned): (&Water, f64),
 ) -> Pixel {
-    let (mut color, mut left) = (DVec3::ZERO, DVec3::ONE);
-    let (mut off, mut unsure) = (DVec3::ZERO, 0.0);
+    let mut left = DVec3::ONE;
+    let (mut off, mut unsure, mut dull) = (DVec3::ZERO, 0.0, 0.0_f64);
     let mut body = None;
-    let (mut layers, mut walls) = (0, 0);
+    let mut seen = Vec::new();
     let (mut all_told, mut held, mut behind) = (0.0_f64, 0.0_f64, 1.0);
-    for &(blob, bubble) in met {
-        let Layer { gathered, core, wall, told, opaque } =
-            layer(look, films, &blobs[blob], ray, bubble);
-        (all_told, held) = (all_told.max(told), held.max(opaque));
-        behind *= 1.0 - told;
-        color += left * gathered.light;
-        off += left * gathered.off;
-        left *= gathered.through;
-        body = Some(body.map_or(core, |body: DVec3| (body + core) / 2.0));
-        (layers, walls) = (layers + 1, walls + usize::from(wall));
+    for &(blob, bubble) in met.first {
+        let layer = layer(look, made, &met.blobs[blob], ray, bubble);
+        (all_told, held) = (all_told.max(layer.told), held.max(layer.opaque));
+        behind *= 1.0 - layer.told;
+        off += left * layer.gathered.off;
+        dull = dull.max(layer.unsure);
+        // Of the water before it, whose length is that of the ray.
+        let lost = if water.before(layer.away) > 0.0 { water.medium.falls() } else { 0.0 };
+        off += left * (1.0 - layer.gathered.through) * lost * turned * layer.away;
+        left *= layer.gathered.through;
+        body = Some(body.map_or(layer.core, |body: DVec3| (body + layer.core) / 2.0));
+        seen.push(layer);
         // Rounding may end it here or not.
         if (left.max_element() - LEAST).abs() <= off.max_element() + 1e-6 {
             unsure = 1.0;
@@ -307,18 +441,21 @@ pub fn pixel(
     }
     let covered = 1.0 - left.element_sum() / 3.0;
     // What is drawn is as opaque as it turned out; else it is a blob farther off. Half precision tells no more.
-    let most = if most > all_told + 1.0 / 1024.0 && behind >= LEAST { most } else { held };
+    let most = if met.most > all_told + 1.0 / 1024.0 && behind >= LEAST { met.most } else { held };
     let extra = if look.plug { (most - covered).max(0.0) } else { 0.0 };
-    color += extra * body.unwrap_or(DVec3::ZERO);
+    let last = seen.last().map_or(0.0, |layer| water.before(layer.away));
+    let (kept, own) = water.medium.of(last);
+    let color = water.over(&seen) + extra * (body.unwrap_or(DVec3::ZERO) * kept + own);
     let alpha = (covered + extra).min(1.0);
     let dim = off.element_sum() / 3.0;
     let ended = unsure * (LEAST + extra);
-    let off = (off + dim + ended) * look.most();
+    let off = (off + dim + ended + dull) * look.most();
     Pixel {
         color: color.extend(alpha).to_array(),
         off: off.extend(dim + ended).to_array(),
-        layers,
-        walls,
+        layers: seen.len(),
+        walls: seen.iter().filter(|layer| layer.wall).count(),
+        wet: seen.iter().filter(|layer| water.before(layer.away) > 0.0).count(),
         plugged: extra,
     }
 }

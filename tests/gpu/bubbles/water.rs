@@ -1,0 +1,201 @@
+//! Blobs in the particles' water and before it.
+
+use glam::DVec3;
+use whitewater::Config;
+use whitewater::bubbles::BubbleLook;
+use whitewater::water::{Medium, Shading};
+
+use super::soap::{Expected, Scene, even, water};
+use crate::reference::{Image, is_surface};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Shot, config, extent};
+use crate::support::scenes::{self, Lens};
+use crate::support::tolerance::U;
+
+const RADIUS: f32 = 0.2;
+
+/// Water of much colour, which takes most of the light in a metre, and some that gives much back.
+const CLEAR: Medium = Medium::Physical { absorption: [0.9, 0.4, 0.2], scattering: [0.0, 0.0, 0.0] };
+const TURBID: Medium =
+    Medium::Physical { absorption: [0.7, 0.3, 0.1], scattering: [0.1, 0.4, 0.3] };
+
+/// In the left part of the picture, from so deep on, so many particles deep.
+fn block(depth: f32, deep: usize) -> Vec<[f32; 3]> {
+    scenes::block(3, 0.25, [8, 14, deep], [-1.8, -1.6, depth])
+}
+
+fn small(thickness_level: u32) -> Config {
+    Config { thickness_level, ..config(extent(112, 96)) }
+}
+
+/// Layers before water, in it and behind it: each is seen through as much of it as lies before that layer, whatever the
+/// other layers are, and hides as much of the water's own light as there is behind it.
+#[test]
+fn layers_in_water_are_the_twins() {
+    let gpu = Gpu::shared();
+    let source = Medium::Source { base: [0.3, 0.5, 0.9], falloff: [0.5, 0.4, 0.2, 0.7] };
+    let thin = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
+    for (name, level, layers, medium, look) in [
+        ("turbid", 0, 3, TURBID, thin),
+        ("turbid, coarse", 2, 3, TURBID, even(380.0)),
+        ("turbid, eight", 2, 8, TURBID, thin),
+        ("source's", 0, 3, source, thin),
+        ("source's, open", 2, 3, source, BubbleLook { plug: false, ..thin }),
+    ] {
+        let mut scene = Scene::of(&gpu, DVec3::ZERO, layers, small(level));
+        for (lens, depth, deep) in [(Lens::Standard, 2.6, 4), (Lens::LeftHanded, 1.6, 3)] {
+            let mut shot = scene.shot_in(lens, true, (RADIUS, &block(depth, deep)));
+            shot.settings.water.medium = medium;
+            shot.settings.light.ambient = [0.9, 0.5, 0.7];
+            shot.settings.bubbles = look;
+            let drawn = scene.rig.draw(&shot);
+            let expected = scene.expected(&shot, &drawn);
+            let found = drawn.soap.expect("bubble foam").color;
+            let mut seen = [0; 3];
+            for (color, Expected { pixel, .. }) in found.data.iter().zip(&expected.data) {
+                if pixel.layers == 0 {
+                    assert_eq!(*color, [0.0; 4], "{name}: nothing is there");
+                }
+                let both = (1..pixel.layers).contains(&pixel.wet);
+                let shows = [pixel.layers > 0, pixel.wet > 1, both];
+                seen.iter_mut().zip(shows).for_each(|(n, shows)| *n += u32::from(shows));
+            }
+            let [all, wet, both] = seen;
+            println!(
+                "{name}, {lens:?}: of {all} pixels {wet} show two in water, {both} also one before it"
+            );
+            assert!(wet > 300 && both + wet > 500, "{name}, {lens:?}: {seen:?}");
+            let colors = expected.map(|e| e.pixel.color);
+            let off = |x: usize, y: usize| expected.data[y * expected.width + x].off;
+            compare::close_color(&format!("soap-water-{level}-{layers}"), &found, &colors, off);
+        }
+    }
+}
+
+/// In water that gives no light and lies before all foam each colour is that in air, less what so much water takes of it, and
+/// as much is hidden: also where the water ends long before the foam.
+#[test]
+fn water_before_foam_takes_of_its_colour_alone() {
+    let gpu = Gpu::shared();
+    let mut scene = Scene::of(&gpu, DVec3::ZERO, 3, small(0));
+    for (deep, look) in [(3, even(380.0)), (2, BubbleLook { core: [0.1, 0.5], ..even(500.0) })] {
+        let mut shot = scene.shot_in(Lens::Standard, true, (RADIUS, &block(0.9, deep)));
+        shot.settings.water.medium = CLEAR;
+        shot.settings.bubbles = look;
+        let wet = scene.rig.draw(&shot);
+        shot.positions.clear();
+        let dry = scene.rig.draw(&shot).soap.expect("bubble foam").color;
+        let rays = super::impostor::rays(&shot).1;
+        let mut lost = Vec::new();
+        let left = Image::from_fn(dry.width, dry.height, |x, y| {
+            let own = water(&shot, &wet, (x, y), rays.at(x, y).length());
+            let (left, _) = own.medium.of(own.metres);
+            let [r, g, b, a] = dry.at(x, y).map(f64::from);
+            (DVec3::new(r, g, b) * left).extend(a).to_array()
+        });
+        for (color, dry) in left.data.iter().zip(&dry.data).filter(|(_, dry)| dry[3] > 0.9) {
+            lost.push(color[0] / f64::from(dry[0]));
+        }
+        lost.sort_by(f64::total_cmp);
+        println!("{deep}: least {:.3}, most {:.3} of red", lost[0], lost[lost.len() - 1]);
+        assert!(lost[lost.len() / 4] < 0.7 && lost[lost.len() - 1] == 1.0, "{deep}");
+        // Two roundings to halves, of the one and of the other.
+        let found = wet.soap.expect("bubble foam").color;
+        let off = |x: usize, y: usize| left.at(x, y).map(|v| v * 2.0 / 1024.0 + 1.0e-6);
+        compare::close_color("soap-water-before", &found, &left, off);
+    }
+}
+
+/// More layers than the first opaque one change nothing, in water as little as in air.
+#[test]
+fn opaque_foam_has_one_colour_in_water_however_many_layers() {
+    let gpu = Gpu::shared();
+    // Nothing of a film: of two layers the first is all there is to see.
+    let look = BubbleLook { core: [1.9, 2.0], plug: false, ..even(380.0) };
+    let mut means = Vec::new();
+    for layers in [1, 3, 8] {
+        let mut scene = Scene::of(&gpu, DVec3::ZERO, layers, small(2));
+        let mut shot = scene.shot_in(Lens::Standard, true, (RADIUS, &block(1.2, 6)));
+        shot.settings.water.medium = TURBID;
+        shot.settings.bubbles = look;
+        let found = scene.rig.draw(&shot).soap.expect("bubble foam").color;
+        let sum: DVec3 =
+            found.data.iter().map(|c| DVec3::from([c[0], c[1], c[2]].map(f64::from))).sum();
+        let covered = found.data.iter().filter(|c| c[3] > 0.0);
+        assert!(covered.clone().all(|c| c[3] == 1.0), "{layers}: nothing behind shines through");
+        means.push(sum / covered.count() as f64);
+    }
+    println!("{means:.4?}");
+    assert!(means.iter().all(|mean| *mean == means[0]), "{means:?}");
+}
+
+/// What the composite makes of it: in the water foam hides what lies behind it and no more, so that what the surface mirrors, the
+/// sun's highlight there and the water's own light before the foam are there once; before the water it hides those too.
+#[test]
+fn foam_in_water_hides_what_is_behind_it_alone() {
+    let gpu = Gpu::shared();
+    for (shading, level) in [(Shading::Raster, 0), (Shading::Compute, 2)] {
+        let base = Config { composite: Some(shading), ..small(level) };
+        let mut scene = Scene::of(&gpu, DVec3::new(0.2, 0.5, 0.1), 3, base);
+        for (lens, depth) in [(Lens::Standard, 1.6), (Lens::LeftHanded, 3.2)] {
+            let mut shot = scene.shot_in(lens, true, (RADIUS, &block(depth, 4)));
+            shot.settings.water.medium = TURBID;
+            shot.settings.bubbles = BubbleLook { core: [0.1, 0.5], ..even(380.0) };
+            shot.settings.light.color = [3.0, 2.0, 1.0];
+            shot.settings.light.direction = [0.2, 0.4, 0.9];
+            let whole = scene.rig.draw(&shot);
+            let soap = whole.soap.as_ref().expect("bubble foam");
+            // Of the same water what it shows by itself: its surface alone, and that before white, tell what that mirrors.
+            let mut bare = Shot { blobs: Vec::new(), ..shot.clone() };
+            let water = scene.rig.draw(&bare).output;
+            bare.settings.water.medium =
+                Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
+            let mut of = |scene_color: f32| {
+                bare.color.fill([scene_color, scene_color, scene_color, 1.0]);
+                scene.rig.draw(&bare).output
+            };
+            let (black, white) = (of(0.0), of(1.0));
+            let near = f64::from(shot.falloff());
+            let (mut wet, mut dry) = (0, 0);
+            let mut off = Image::new(water.width, water.height, [0.0; 4]);
+            let expected = Image::from_fn(water.width, water.height, |x, y| {
+                let [r, g, b, alpha] = soap.color.at(x, y).map(f64::from);
+                let soap_light = DVec3::new(r, g, b);
+                let rgb = |image: &Image<[f32; 4]>| {
+                    let [r, g, b, _] = image.at(x, y).map(f64::from);
+                    DVec3::new(r, g, b)
+                };
+                let [all, surface, lit] = [&water, &black, &white].map(rgb);
+                let under = f64::from(soap.depth.at(x, y)) > f64::from(whole.depth.at(x, y));
+                let seen = if under {
+                    // From the back: what is behind, by its share, without the surface; then that over all.
+                    let below = all - surface;
+                    surface + below * (1.0 - alpha) + (lit - surface) * soap_light
+                } else {
+                    all * (1.0 - alpha) + soap_light
+                };
+                seen.extend(f64::from(whole.output.at(x, y)[3])).to_array()
+            });
+            for y in 0..water.height {
+                for x in 0..water.width {
+                    let [foam, front] = [soap.depth.at(x, y), whole.depth.at(x, y)].map(f64::from);
+                    if is_surface(foam) && is_surface(front) {
+                        (wet, dry) = if foam > front { (wet + 1, dry) } else { (wet, dry + 1) };
+                        // The smoothed surface lies this near: rounding, or smoothing, decides which of them is first.
+                        let unsure = (foam - front).abs() <= near;
+                        let most = expected.at(x, y).into_iter().fold(1.0, f64::max);
+                        *off.at_mut(x, y) = [if unsure { 1.0e3 } else { 64.0 * U * most }; 4];
+                    } else {
+                        *off.at_mut(x, y) = [64.0 * U * 4.0; 4];
+                    }
+                }
+            }
+            println!("{shading:?}, {lens:?}: {wet} pixels in water, {dry} before it");
+            assert!(wet.max(dry) > 800, "{shading:?}, {lens:?}: {wet} and {dry}");
+            compare::close_color("soap-water-composite", &whole.output, &expected, |x, y| {
+                off.at(x, y)
+            });
+        }
+    }
+}
