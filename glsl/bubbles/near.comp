@@ -5,11 +5,12 @@
 // Reads: positions, kinds, radii, ages, ids, arguments, hand-over. Writes: numbers; count, balls, turns, blob ids.
 
 #include "frame.glsl"
-#include "frustum.glsl"
 #include "falloff.glsl"
 #include "diffuse.glsl"
 #include "random.glsl"
 #include "hand_over.glsl"
+#include "frustum.glsl"
+#include "near_blob.glsl"
 
 layout(local_size_x = 64) in;
 // 0: how many. 1: which.
@@ -56,7 +57,7 @@ void main() {
     // In both goes the very same.
     precise float distance_ = length(p.centre);
     uint ring = ring_of(distance_);
-    bool near = p.kind == FOAM && p.life > 0.0 && ring < RINGS && in_frustum(p.centre, frame.diffuse_light.w * p.radius);
+    bool near = may_be_blob(p, distance_);
     if (GO == 0u) {
         if (near) {
             atomicAdd(numbers[ring], 1u);

@@ -2,12 +2,14 @@
 // Pass `diffuse`: the thickness of diffuse particles as the sun sees them, and where along its light it lies; as
 // Akinci et al. 2013, Sec. 2.2, for the eye. That they cast shadows is their future work. An invocation a particle,
 // all of a group the large ones.
-// Reads: positions, kinds, radii, ages, ids, front, arguments, packets, list. Writes: words, list.
+// Reads: positions, kinds, radii, ages, ids, hand-over, front, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"
 #include "falloff.glsl"
 #include "diffuse.glsl"
 #include "hand_over.glsl"
+#include "frustum.glsl"
+#include "near_blob.glsl"
 #include "light_diffuse.glsl"
 
 layout(local_size_x = 64) in;
@@ -47,7 +49,7 @@ struct Sprite {
 Sprite sprite_at(uint i) {
     Sprite s;
     vec4 world = diffuse_world(i);
-    s.p = diffuse_at(i, world);
+    s.p = diffuse_whole(i, world);
     vec3 seen = (frame.to_light * vec4(s.p.centre, 1.0)).xyz;
     float texel = frame.light_map.y;
     s.depth = seen.z;
@@ -57,7 +59,12 @@ Sprite sprite_at(uint i) {
     float place = (s.depth + s.p.radius) / texel + 0.5 * frame.light_map.x + 0.5;
     // The sun sees what is behind the eye too.
     bool there = world.w < 1.0 && all(lessThan(abs(s.p.centre), vec3(EMPTY))) && place < frame.light_map.x;
-    s.p.life = there ? life_of(world.w) : 0.0;
+    // What of it is a blob casts as one.
+    float kept = 1.0;
+    for (bool handed = frame.diffuse.z > 0.0 && may_be_blob(s.p, length(s.p.centre)); handed; handed = false) {
+        kept = kept_of(s.p);
+    }
+    s.p.life = there ? kept * life_of(world.w) : 0.0;
     s.place = uint(max(place, 0.0));
     return s;
 }

@@ -86,12 +86,17 @@ impl Cloud {
 
     /// The blobs that they are.
     fn blobs(&self) -> Vec<Bubble> {
+        self.blobs_of(RADIUS)
+    }
+
+    /// Of such a radius.
+    fn blobs_of(&self, radius: f32) -> Vec<Bubble> {
         let size = f64::from(self.shot.settings.bubbles.hand_over.size);
         (0..self.positions.len())
             .filter(|i| self.part(*i) > 0.0)
             .map(|i| {
                 let life = (1.0 - f64::from(self.ages[i].max(0.0)).powi(2)).powf(0.4);
-                let own = f64::from(RADIUS) / f64::from(self.ids[i] % 5 + 1);
+                let own = f64::from(radius) / f64::from(self.ids[i] % 5 + 1);
                 let radius = size * own * life * self.part(i).sqrt();
                 let ball = Vec3::from(self.positions[i]).extend(radius as f32).to_array();
                 Bubble { ball, turn: turn(self.ids[i]), id: self.ids[i] }
@@ -225,6 +230,124 @@ fn where_blobs_have_no_room_sprites_stay() {
     cloud.ages.fill(1.0);
     let none = cloud.draw(&mut rig);
     assert_eq!(none.output.data, cloud.shot.color);
+}
+
+/// A dense patch of foam before a wall, or beside the view, and a sun that throws its shadow into the view.
+fn shading(from: [f32; 3]) -> (Cloud, f64) {
+    const WALL: f64 = 5.0;
+    let mut cloud = Cloud::new(0, |_| 0.0);
+    let mut random = Random(8);
+    let mut eye = Vec::new();
+    while eye.len() < 60 {
+        let [x, y] = [0, 1].map(|_| random.between(-1.0, 1.0));
+        if x * x + y * y < 1.0 {
+            eye.push([from[0] + 0.6 * x, from[1] + 0.6 * y, from[2] + random.between(-0.1, 0.1)]);
+        }
+    }
+    let shot = &mut cloud.shot;
+    shot.scene_depth(|_, _| Some(WALL));
+    let to = [0.9, 0.0, WALL as f32];
+    let [at, there] = [from, to].map(|p| Vec3::from(scenes::world(&shot.camera, &[p])[0]));
+    shot.settings.light.direction = (at - there).normalize().to_array();
+    shot.settings.light.irradiance = [2.0; 3];
+    shot.settings.light.shade = [0.0; 3];
+    shot.settings.diffuse.radius = 0.15;
+    // Thinner than blobs: their shadows differ.
+    shot.settings.diffuse.half *= 2.0;
+    shot.sun.region = Some(Region { center: there.to_array(), radius: 5.0 });
+    cloud.positions = scenes::world(&shot.camera, &eye);
+    cloud.kinds = vec![FOAM; eye.len()];
+    cloud.ages = vec![0.0; eye.len()];
+    // None is smaller than the others.
+    cloud.ids = (0..eye.len() as u32).map(|i| 5 * i).collect();
+    let away = (0..eye.len()).map(|i| cloud.distance(i)).sum::<f64>() / eye.len() as f64;
+    (cloud, away)
+}
+
+/// What of the light is left on the wall where no foam is before it, in the mean of where much of it is lost to any.
+fn left(drawn: &[Drawn], lit: &Drawn) -> Vec<f64> {
+    let share = |drawn: &Drawn, i: usize| {
+        f64::from(drawn.output.data[i][0]) / f64::from(lit.output.data[i][0])
+    };
+    let beside = |i: &usize| {
+        drawn.iter().all(|drawn| {
+            let (soap, foam) = (drawn.soap.as_ref(), drawn.diffuse.as_ref());
+            soap.is_none_or(|soap| soap.color.data[*i][3] == 0.0)
+                && foam.is_none_or(|foam| foam.thickness.data[*i][0] == 0.0)
+        })
+    };
+    let dim = |i: &usize| drawn.iter().any(|drawn| share(drawn, *i) < 0.6);
+    let dark: Vec<_> = (0..lit.output.data.len()).filter(beside).filter(dim).collect();
+    assert!(dark.len() > 60, "{} pixels in the shade", dark.len());
+    let mean = |drawn| dark.iter().map(|i| share(drawn, *i)).sum::<f64>() / dark.len() as f64;
+    drawn.iter().map(mean).collect()
+}
+
+/// Foam that is blobs has the shadow of blobs, and half-way one between that and the sprites': what casts as a blob does not cast as
+/// a sprite too, on the wall or on itself.
+#[test]
+fn foam_that_is_handed_over_casts_one_shadow() {
+    let gpu = Gpu::shared();
+    let (mut cloud, away) = shading([-0.9, 0.0, 3.0]);
+    let config = |hand_over| {
+        let own = with(&cloud, BubbleConfig { hand_over, ..bubbles(256) });
+        Config { cast: Some(128), ..own }
+    };
+    let [mut over_rig, mut rig] =
+        [true, false].map(|hand_over| Rig::lit(&gpu, &config(hand_over), 1));
+    let mut none = cloud.clone();
+    none.ages.fill(1.0);
+    let lit = none.draw(&mut rig);
+    let sprites = cloud.draw(&mut rig);
+    let mut over = |near: f64, far: f64| {
+        let hand_over = HandOver { near: near as f32, far: far as f32, size: 1.0 };
+        cloud.shot.settings.bubbles.hand_over = hand_over;
+        cloud.draw(&mut over_rig)
+    };
+    let handed = over(2.0 * away, 3.0 * away);
+    let half = over(0.5 * away, 1.5 * away);
+    none.shot.settings.bubbles.hand_over =
+        HandOver { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
+    none.shot.blobs = Cloud { ages: vec![0.0; cloud.ages.len()], ..none.clone() }.blobs_of(0.15);
+    let blobs = none.draw(&mut rig);
+    let all = [sprites, blobs, handed, half];
+    let [sprites, blobs, handed, half] = left(&all, &lit)[..] else { unreachable!() };
+    println!("sprites {sprites:.4}, blobs {blobs:.4}, handed over {handed:.4}, half-way {half:.4}");
+    assert!(sprites > blobs + 0.1, "they differ");
+    // Two divisions and a half or two of the map: nothing that one sees.
+    assert!((handed - blobs).abs() < 1.0e-3, "{handed}, of blobs alone {blobs}");
+    assert!((blobs..sprites).contains(&half), "{half} is not between {blobs} and {sprites}");
+    // Nor are the blobs in the shade of their own sprites.
+    let light = |drawn: &Drawn| {
+        let soap = drawn.soap.as_ref().expect("bubble foam");
+        soap.color.data.iter().map(|c| f64::from(c[0])).sum::<f64>()
+    };
+    let [alone, both] = [&all[1], &all[2]].map(light);
+    println!("light of blobs: {alone:.1} alone, {both:.1} handed over");
+    assert!((both - alone).abs() < 0.01 * alone, "{both} and {alone}");
+}
+
+/// Beside the view there are no blobs: what would be one still casts its sprite's shadow into the view.
+#[test]
+fn foam_beside_the_view_casts_the_shadow_of_sprites() {
+    let gpu = Gpu::shared();
+    let (mut cloud, away) = shading([-3.6, 0.0, 2.6]);
+    let [handed, sprites] = [true, false].map(|hand_over| {
+        let own = with(&cloud, BubbleConfig { hand_over, ..bubbles(256) });
+        let mut rig = Rig::lit(&gpu, &Config { cast: Some(128), ..own }, 1);
+        let hand_over = HandOver { near: 2.0 * away as f32, far: 3.0 * away as f32, size: 1.0 };
+        cloud.shot.settings.bubbles.hand_over = hand_over;
+        cloud.draw(&mut rig)
+    });
+    let mut none = cloud.clone();
+    none.ages.fill(1.0);
+    let own = with(&none, bubbles(256));
+    let lit = none.draw(&mut Rig::lit(&gpu, &Config { cast: Some(128), ..own }, 1));
+    assert_eq!(handed.soap.as_ref().expect("bubble foam").range[2], 0, "none is on the screen");
+    let all = [sprites, handed];
+    let shares = left(&all, &lit);
+    println!("sprites {:.4}, handed over {:.4}", shares[0], shares[1]);
+    compare::same_color("near-beside", &all[1].output, &all[0].output);
 }
 
 /// 36 bytes a blob, and some KiB.

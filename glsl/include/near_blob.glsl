@@ -1,0 +1,8 @@
+// Which of the diffuse particles may become blobs of bubble foam. Needs frame.glsl, diffuse.glsl, hand_over.glsl,
+// frustum.glsl.
+
+// Whether one does where there is room: off the screen there are none.
+bool may_be_blob(Diffuse p, float distance_) {
+    return p.kind == FOAM && p.life > 0.0 && ring_of(distance_) < RINGS
+        && in_frustum(p.centre, frame.diffuse_light.w * p.radius);
+}
