@@ -3,13 +3,15 @@
 
 layout(set = 0, binding = 30) uniform sampler2D contact_mask;
 
-// How far the point behind is from the surface's, both of one ray; where it is none, far.
+// How far the point behind is from the surface's, both of one ray; where it is none, far. So it is by heights on a ray that does
+// not go down: what is behind is not below.
 float contact_distance(vec3 ray, float z, float scene) {
     float far = scene > 0.0 ? scene - z : EMPTY;
     if (shore.contact.w == 0.0) {
         return far * length(ray);
     }
-    return shore.contact.w == 1.0 ? far : far * -dot(shore.height.xyz, ray);
+    float down = -dot(shore.height.xyz, ray);
+    return shore.contact.w == 1.0 ? far : down > 0.0 ? far * down : EMPTY;
 }
 
 float eased(float x) {

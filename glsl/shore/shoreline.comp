@@ -28,7 +28,8 @@ layout(constant_id = 1) const uint PARTS = 3;
 #include "shore_light.glsl"
 #include "shore_place.glsl"
 
-// Where the depth alone is known: as far from the shore as the bottom's slope would have it.
+// Where the depth alone is known: as far from the shore as the bottom's slope would have it. What is seen through the surface from
+// below is no bottom: 0, as far out.
 float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     vec3 places[3];
     places[0] = ray * scene;
@@ -50,7 +51,8 @@ float v_by_depth(vec2 pixel, vec3 ray, float scene) {
     float up = abs(dot(shore.height.xyz, normal));
     float level = sqrt(max(dot(normal, normal) - up * up, 0.0));
     float below = -dot(shore.height.xyz, places[0]) - shore.height.w;
-    return v_of(-max(below, 0.0) * up / max(level, 1.0e-3 * up + 1.0e-20));
+    float v = v_of(-max(below, 0.0) * up / max(level, 1.0e-3 * up + 1.0e-20));
+    return dot(shore.height.xyz, ray) < 0.0 ? v : 0.0;
 }
 
 // A place of the surface. As far as the horizon is none of its foam is seen.

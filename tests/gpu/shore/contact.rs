@@ -7,7 +7,7 @@ use whitewater::{Shore, Shoreline};
 
 use super::{Tally, clock, is_shared, measure_of, shared_at, textures, water, with_shore};
 use crate::reference::Image;
-use crate::reference::shore::{Bounded, Contact, U, exact};
+use crate::reference::shore::{Bounded, Contact, U, dot, exact};
 use crate::support::device::Gpu;
 use crate::support::host::Texture;
 use crate::support::rig::{Rig, Shot, extent};
@@ -186,6 +186,7 @@ fn contacts_on_particles_are_the_twin_s() {
         let [_, web] = textures();
         let mut tally = Tally::default();
         let threshold = f64::from(shot.falloff());
+        let mut above = 0;
         for (i, texel) in found.data.iter().enumerate() {
             let (x, y) = (i % found.width, i / found.width);
             assert_eq!(texel[..2], [0, 0], "neither shore nor surface");
@@ -198,14 +199,18 @@ fn contacts_on_particles_are_the_twin_s() {
             let Some(scene) = scene_of(&shot, i) else { continue };
             let point = level.at_depth(level.ray([x as f64 + 0.5, y as f64 + 0.5]), z);
             let up = [level.up[0], level.up[1], level.up[2]];
-            let t = twin.part([z, scene], point.ray, up);
             // Where the smoothed surface lies behind what the scene has it is at it.
+            let behind = scene.rising(|scene| scene.max(z.high()));
+            let t = twin.part([z, behind], point.ray, up).max(0.0);
             let part = twin.masked(web, &point, [0.0; 2]);
-            let near = crate::reference::shore::ease((exact(1.0) - t).clamp(0.0, 1.0) * part);
-            let amount = near * twin.opacity;
+            let amount = twin.amount(t, part);
+            above += u32::from(dot(up, point.ray).low() > 0.0);
             tally.add((x, y), texel[3], amount);
         }
         tally.check(name, if posts { 15 } else { 100 }, 0.05);
+        // The wall stands above the water's surface too, where one looks up to it.
+        println!("{name}: {above} pixels look up");
+        assert!(name != "vertical" || above > 50, "{name}: {above} pixels look up");
         shot.settings.shore.contact.particle_opacity = 0.0;
         let found = rig.draw(&shot).shore.expect("contact foam");
         assert!(found.data.iter().all(|c| *c == [0; 4]), "{name}: of no opacity");

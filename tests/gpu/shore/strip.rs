@@ -165,3 +165,25 @@ fn by_the_depth_alone_a_plane_s_shore_is_as_far_as_it_is() {
         tally.check(&format!("screen-{lens:?}"), 50, 0.2);
     }
 }
+
+/// From under the surface one looks up through it: what is seen beyond lies above the level, and is no shore.
+#[test]
+fn by_the_depth_alone_nothing_above_the_level_is_a_shore() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::new(&gpu, &with_shore(extent(96, 64), Edge::Smooth));
+    let mut shot = Shot::new(extent(96, 64), Lens::Standard, 0.1, &[]);
+    shot.settings.shore = plain();
+    shot.scene_depth(|_, _| Some(20.0));
+    let eye = shot.view(shot.size).view.inverse().w_axis.y as f32;
+    // Seen from above there is foam, so the look has some.
+    for (level, seen) in [(eye - 0.5, true), (eye + 0.5, false)] {
+        let mut shore = Shore { shoreline: Some(Shoreline::Screen), ..Shore::new(level) };
+        shore.bias = 0.0;
+        shot.shore = Some(shore);
+        shot.settings.shore.shoreline.reach = [100.0, 1.0];
+        let found = rig.draw(&shot).shore.expect("shoreline foam");
+        let foam = found.data.iter().filter(|texel| texel[0] > 0).count();
+        println!("level {level}: {foam} pixels with foam");
+        assert_eq!(foam > 0, seen, "level {level}: {foam} pixels with foam");
+    }
+}

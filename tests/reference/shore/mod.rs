@@ -162,7 +162,11 @@ pub enum Measure {
     Vertical,
 }
 
-/// From the surface's depth to the scene's, along a ray whose heights are `up`'s; finite.
+/// Farther than any foam is deep.
+const FAR: f64 = 1.0e9;
+
+/// From the surface's depth to the scene's, along a ray whose heights are `up`'s; finite. By heights what is not below the
+/// surface, as on a ray that does not go down, is far.
 pub fn measure(
     kind: Measure,
     [surface, scene]: [Bounded; 2],
@@ -173,7 +177,18 @@ pub fn measure(
     match kind {
         Measure::Distance => behind * length(ray),
         Measure::View => behind,
-        Measure::Vertical => behind * -dot(up, ray),
+        Measure::Vertical => {
+            let down = -dot(up, ray);
+            if down.low() > 0.0 {
+                behind * down
+            } else if down.high() <= 0.0 {
+                exact(FAR)
+            } else {
+                // Level: rounding may find either.
+                let value = if down.value > 0.0 { (behind * down).value } else { FAR };
+                Bounded::between((behind * down).low().min(0.0), value, FAR)
+            }
+        }
     }
 }
 
