@@ -11,11 +11,16 @@ layout(location = 0) out uvec2 found;
 
 void main() {
     Seen seen = seen_here();
-    float nearer = push.layer > 0u ? uintBitsToFloat(texelFetch(before, ivec2(gl_FragCoord.xy), 0).x) : 0.0;
-    if (seen.depth <= nearer) {
+    uint own = layer_of(blob_index, seen.id);
+    uvec2 last = texelFetch(before, ivec2(gl_FragCoord.xy), 0).xy;
+    // Of those at one depth the one with the lower number comes first, which is drawn first, then the next. Where the layer
+    // before is empty so is this one.
+    float nearer = uintBitsToFloat(last.x);
+    bool behind = last.y != NO_LAYER && (seen.depth > nearer || (seen.depth == nearer && own > last.y));
+    if (push.layer > 0u && !behind) {
         discard;
     }
-    found = uvec2(floatBitsToUint(seen.depth), layer_of(blob_index, seen.id));
+    found = uvec2(floatBitsToUint(seen.depth), own);
     // Of all its digits, below 1.
     gl_FragDepth = seen.depth * exp2(-40.0);
 }

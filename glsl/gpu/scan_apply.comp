@@ -15,14 +15,14 @@ void main() {
         uint last = min(first + SCAN_EACH, end);
         uint own = 0u;
         for (uint i = first; i < last; ++i) {
-            own += values[i];
+            own = plus(own, counted(values[i]));
         }
         uint all;
-        uint before = blocks[block] + sum_before(own, all);
+        uint before = plus(blocks[block], sum_before(own, all));
         for (uint i = first; i < last; ++i) {
             uint value = values[i];
             values[i] = before;
-            before += value;
+            before = plus(before, counted(value));
         }
     }
 }

@@ -15,9 +15,9 @@ void main() {
         uint all;
         uint sum = sum_before(own, all);
         if (block < end) {
-            blocks[block] = before + sum;
+            blocks[block] = plus(before, sum);
         }
-        before += all;
+        before = plus(before, all);
     }
     if (gl_LocalInvocationIndex == 0u) {
         counts[push.total] = before;

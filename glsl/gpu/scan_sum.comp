@@ -14,7 +14,7 @@ void main() {
         uint first = block * SCAN_BLOCK + SCAN_EACH * gl_LocalInvocationIndex;
         uint own = 0u;
         for (uint i = first; i < min(first + SCAN_EACH, end); ++i) {
-            own += values[i];
+            own = plus(own, counted(values[i]));
         }
         uint all;
         sum_before(own, all);

@@ -1,5 +1,6 @@
 // Sums of all that is before each of many numbers, in place: the sums of blocks, of the blocks before
-// each, of the numbers before each (Blelloch 1990).
+// each, of the numbers before each (Blelloch 1990). No sum is more than MOST_SUM: it stays there, where sums that wrap would
+// begin anew and send what is placed by them to wrong places.
 // Reads: counts, blocks. Writes: counts, blocks.
 
 const uint SCAN_GROUP = 256u;
@@ -14,6 +15,18 @@ layout(push_constant, std430) uniform Push {
 } push;
 
 const uint NONE = 0xffffffffu;
+
+// Twice that still fits, and so does that and some millions more.
+const uint MOST_SUM = 0x7fffffffu;
+
+uint plus(uint a, uint b) {
+    return min(a + b, MOST_SUM);
+}
+
+// Of any number.
+uint counted(uint value) {
+    return min(value, MOST_SUM);
+}
 
 layout(set = 0, binding = 1, std430) buffer Counts { uint counts[]; };
 layout(set = 0, binding = 2, std430) buffer Blocks { uint blocks[]; };
@@ -31,11 +44,11 @@ uint sum_before(uint own, out uint all) {
     sums[0][local] = own;
     barrier();
     for (uint reach = 1u; reach < SCAN_GROUP; reach *= 2u) {
-        sums[1u - at][local] = sums[at][local] + (local >= reach ? sums[at][local - reach] : 0u);
+        sums[1u - at][local] = plus(sums[at][local], local >= reach ? sums[at][local - reach] : 0u);
         at = 1u - at;
         barrier();
     }
-    uint before = sums[at][local] - own;
+    uint before = local > 0u ? sums[at][local - 1u] : 0u;
     all = sums[at][SCAN_GROUP - 1u];
     // Before they are written again.
     barrier();

@@ -273,3 +273,28 @@ fn billboards_find_what_the_tiles_do() {
         assert!(all > 1000 && part < 0.002, "{lens:?}: {differ} of {all} layers differ");
     }
 }
+
+/// Of blobs at exactly one depth none is lost, and the one with the lower number comes first; behind them comes another.
+#[test]
+fn blobs_at_one_depth_are_all_layers() {
+    let gpu = Gpu::shared();
+    let mut shot = Shot::new(extent(64, 56), Lens::Standard, 0.1, &[]);
+    let one = blob(&shot, [0.0, 0.0, 4.0], 1.0, 0, &mut Random(5));
+    let behind = blob(&shot, [0.0, 0.0, 7.0], 1.0, 0, &mut Random(6));
+    shot.blobs = vec![one, behind, one, Bubble { id: 9, ..one }];
+    let tiles = BubbleConfig { templates: 1, bubbles: 64, layers: 5, ..BubbleConfig::new(8) };
+    for sort in [BubbleSort::Tiles, BubbleSort::Peel] {
+        let found = draw(&gpu, &shot, BubbleConfig { sort, ..tiles });
+        let order = |words: &Vec<u32>| -> Vec<u32> {
+            words[..5].iter().take_while(|word| **word != NONE).map(|word| word >> 8).collect()
+        };
+        let orders: Vec<_> = found.layers.iter().map(order).collect();
+        let [three, four] = [&[0, 2, 3][..], &[0, 2, 3, 1]]
+            .map(|blobs| orders.iter().filter(|order| order.as_slice() == blobs).count());
+        let others = orders.iter().filter(|order| order.as_slice() == [1]).count();
+        let none = orders.iter().filter(|order| order.is_empty()).count();
+        println!("{sort:?}: {three} pixels show three blobs, {four} four, {others} one");
+        assert_eq!(three + four + others + none, 64 * 56, "{sort:?}: another order");
+        assert!(three > 200 && four > 80, "{sort:?}: {three} and {four}");
+    }
+}
