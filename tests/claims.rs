@@ -8,5 +8,7 @@
 mod bed;
 #[path = "claims/roughness.rs"]
 mod roughness;
+#[path = "support/skipped.rs"]
+mod skipped;
 #[path = "claims/smoothing.rs"]
 mod smoothing;

@@ -18,6 +18,8 @@ mod samples;
 mod scenes;
 #[path = "formats/sequences.rs"]
 mod sequences;
+#[path = "support/skipped.rs"]
+mod skipped;
 #[path = "formats/spacings.rs"]
 mod spacings;
 #[path = "formats/writers.rs"]

@@ -267,6 +267,7 @@ fn a_fixed_count_does_not_keep_it() {
 #[test]
 fn table() {
     if std::env::var_os("WHITEWATER_SLOW").is_none_or(|value| value != "1") {
+        crate::skipped::skipped("the whole table takes long: WHITEWATER_SLOW=1 makes it");
         return;
     }
     use Rule::{ConstantWidth, Fixed, Source};
@@ -351,7 +352,10 @@ fn shaded(surface: &Picture<f32>, camera: &Camera) -> Vec<[u8; 3]> {
 /// below from eight times as far; the rules side by side.
 #[test]
 fn picture() {
-    let Some(path) = std::env::var_os("WHITEWATER_PICTURE") else { return };
+    let Some(path) = std::env::var_os("WHITEWATER_PICTURE") else {
+        crate::skipped::skipped("WHITEWATER_PICTURE names no file for it");
+        return;
+    };
     const GAP: u32 = 8;
     let rules = [Rule::Fixed(40), Rule::Source, Rule::ConstantWidth];
     let times = [1.0, 8.0];

@@ -1,15 +1,85 @@
-//! Published caches, where `WHITEWATER_DATA` names their folder.
+//! Published caches, where `WHITEWATER_DATA` names their folder; and frames of the project's own, always.
 
 use std::path::PathBuf;
 
-use whitewater::io::particles::{Particles, estimate_spacing, read, sequence};
+use whitewater::io::particles::{
+    Extension, Particles, WriteFormat, estimate_spacing, read, read_bytes, sequence, write_to,
+};
+
+use crate::skipped::skipped;
 
 fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("WHITEWATER_DATA").map(PathBuf::from);
     if folder.is_none() {
-        println!("skipped: WHITEWATER_DATA is not set");
+        skipped("WHITEWATER_DATA is not set");
     }
     folder
+}
+
+/// A frame of a scene of the project's own. The published crate is without them.
+fn own(file: &str) -> Option<PathBuf> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("assets").join(file);
+    if !path.exists() {
+        skipped("the assets are not in the published crate");
+        return None;
+    }
+    Some(path)
+}
+
+/// Scenes, particles, spacing, and the error of its estimate in percent, as measured; it may move by a percent.
+const OWN: [(&str, usize, f32, f32); 3] = [
+    ("waterfall/waterfall_0240.bgeo", 29_408, 0.04, 2.6),
+    ("corridor/corridor_0090.bgeo", 27_117, 0.04, 1.3),
+    ("bamboo/bamboo_0115.bgeo", 30_230, 0.02, 5.6),
+];
+
+/// Our frames as each format that we write: the same to the last bit.
+#[test]
+fn our_frames_in_every_format_that_is_written() {
+    for (file, count, spacing, expected) in OWN {
+        let Some(path) = own(file) else { return };
+        let truth = load(&path);
+        assert_eq!(truth.positions.len(), count, "{file}");
+        assert!(truth.velocities.is_some() && truth.densities.is_some() && truth.ids.is_some());
+        assert!(truth.warnings.is_empty(), "{file}: {:?}", truth.warnings);
+        let found = estimate_spacing(&truth.positions).unwrap();
+        let error = 100.0 * (found / spacing - 1.0);
+        assert!((error - expected).abs() < 1.0, "{file}: {error:+.1} %, not {expected:+.1} %");
+        for (name, hint) in [
+            ("a.bgeo", Extension::Bgeo),
+            ("a.bgeo.gz", Extension::Bgeo),
+            ("a.vtu", Extension::Vtu),
+            ("a.ply", Extension::Ply),
+            ("a.npz", Extension::Npz),
+        ] {
+            let format = WriteFormat::from_path(name.as_ref()).unwrap();
+            let mut bytes = std::io::Cursor::new(Vec::new());
+            write_to(&mut bytes, &truth, format).unwrap();
+            let back = read_bytes(&bytes.into_inner(), hint).unwrap();
+            let bits = |of: &Particles| -> Vec<u32> {
+                let vectors = of.positions.iter().chain(of.velocities.iter().flatten());
+                let all = vectors.flatten().chain(of.densities.iter().flatten());
+                all.map(|v| v.to_bits()).collect()
+            };
+            assert!(bits(&truth) == bits(&back), "{file} as {name}");
+            assert_eq!(truth.ids, back.ids, "{file} as {name}");
+        }
+    }
+}
+
+#[test]
+fn a_frame_of_ours_is_a_sequence() {
+    for (file, ..) in OWN {
+        let Some(path) = own(file) else { return };
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        let (name, number) = stem.rsplit_once('_').unwrap();
+        for pattern in ["*", "%04d"] {
+            let input = path.with_file_name(format!("{name}_{pattern}.bgeo"));
+            let frames = sequence::expand(&[input.display().to_string()], None).unwrap();
+            assert_eq!(frames.len(), 1, "{}", input.display());
+            assert_eq!((frames[0].number, &frames[0].path), (number.parse().unwrap(), &path));
+        }
+    }
 }
 
 fn load(path: &std::path::Path) -> Particles {

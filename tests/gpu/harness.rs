@@ -17,6 +17,7 @@ use crate::support::device::{Gpu, validates};
 use crate::support::host::COLOR;
 use crate::support::rig::{Rig, Shot, config, extent};
 use crate::support::scenes::{self, Lens};
+use crate::support::skipped::skipped;
 use crate::support::tolerance;
 use crate::support::watchdog::{self, Watch};
 
@@ -181,7 +182,7 @@ fn mistaken(gpu: &Gpu, before: Access, write: bool, apart: bool) -> Vec<String> 
 
 fn without_validation() -> bool {
     if !validates() {
-        eprintln!("skipped: no validation layer");
+        skipped("no validation layer");
     }
     !validates()
 }
@@ -221,7 +222,7 @@ fn a_missing_barrier_between_submissions_is_reported() {
     let switch = "SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT";
     let on = std::env::var("VK_LAYER_ENABLES").is_ok_and(|v| v.contains(switch));
     if without_validation() || !on {
-        eprintln!("skipped: VK_LAYER_ENABLES is without {switch}");
+        skipped(&format!("VK_LAYER_ENABLES is without {switch}, or there is no validation layer"));
         return;
     }
     let gpu = Gpu::shared();

@@ -9,6 +9,7 @@ pub mod rig;
 pub mod rounded;
 pub mod scenes;
 pub mod shaded;
+pub mod skipped;
 pub mod spy;
 pub mod tolerance;
 pub mod watchdog;

@@ -38,7 +38,7 @@ fn every_kind_of_scene_depth() {
                 | vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT
                 | vk::FormatFeatureFlags::TRANSFER_DST;
             if !gpu.format_features(format).contains(needed) {
-                eprintln!("skipped: {format:?} is not to be had here");
+                crate::support::skipped::skipped(&format!("{format:?} is not to be had here"));
                 continue;
             }
             shot.depth_format = format;

@@ -50,7 +50,7 @@ fn ways(gpu: &Gpu) -> Vec<Splat> {
     if gpu.enabled.buffer_int64_atomics {
         ways.push(Splat::Compute64);
     } else {
-        eprintln!("no 64-bit atomics here: Splat::Compute64 is not drawn");
+        crate::support::skipped::skipped("no 64-bit atomics here: Splat::Compute64 is not drawn");
     }
     ways
 }

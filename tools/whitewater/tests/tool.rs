@@ -22,5 +22,7 @@ mod scenes;
 mod sequences;
 #[path = "tool/shore.rs"]
 mod shore;
+#[path = "../../../tests/support/skipped.rs"]
+mod skipped;
 #[path = "tool/temporal.rs"]
 mod temporal;

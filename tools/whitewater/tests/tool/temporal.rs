@@ -1,10 +1,12 @@
-//! Foam of a simulation from frame to frame, where `WHITEWATER_DATA` names the folder of published caches.
+//! Foam from frame to frame: of water that drifts, and of a simulation where `WHITEWATER_DATA` names the folder of
+//! published caches.
 
 use std::path::PathBuf;
 
 use whitewater::io::picture::{EMPTY, Layers};
 
-use super::support::Folder;
+use super::skipped::skipped;
+use super::support::{Folder, SPACING};
 
 const WIDTH: usize = 320;
 const HEIGHT: usize = 180;
@@ -60,16 +62,39 @@ fn changes(now: &Layers, before: &Layers) -> ([f32; 4], usize) {
 #[test]
 fn foam_of_a_simulation_does_not_flicker() {
     let Some(data) = std::env::var_os("WHITEWATER_DATA").map(PathBuf::from) else {
-        println!("skipped: WHITEWATER_DATA is not set");
+        skipped("WHITEWATER_DATA is not set");
         return;
     };
-    let folder = Folder::new();
     let cache = data.join("double_dam_pillar");
+    does_not_flicker(&Folder::new(), &format!("{}/ParticleData_Fluid_*.bgeo", cache.display()));
+}
+
+/// A slab of water that drifts past at four metres a second, all of it foam: what is seen of it drifts along.
+#[test]
+fn foam_of_water_that_drifts_does_not_flicker() {
+    const VELOCITY: [f32; 3] = [4.0, 0.0, -1.0];
+    let folder = Folder::new();
+    for frame in 48..=57_i16 {
+        let seconds = f32::from(frame - 54) / 50.0;
+        let [vx, vy, vz] = VELOCITY;
+        let mut rows = String::from("x,y,z,vx,vy,vz,id\n");
+        for i in 0..24 * 24 * 4_i16 {
+            let [x, y, z] = [i % 24, i / 576, i / 24 % 24].map(|c| SPACING * f32::from(c));
+            let (x, z) = (x - 1.15 + seconds * vx, z - 1.15 + seconds * vz);
+            rows += &format!("{x},{y},{z},{vx},{vy},{vz},{i}\n");
+        }
+        folder.text(&format!("drifts_{frame}.csv"), &rows);
+    }
+    let view = "--eye 0,2.4,2 --target 0,0.2,0 --radius 0.05 --foam 1 --scene ground";
+    does_not_flicker(&folder, &format!("drifts_*.csv {view}"));
+}
+
+/// Draws frames 52 to 57 at 50 a second of what is rendered.
+fn does_not_flicker(folder: &Folder, what: &str) {
     folder
         .run(&format!(
-            "render {}/ParticleData_Fluid_*.bgeo -o a_%d.exr --size {WIDTH}x{HEIGHT} --fps 50 \
-             --frames 52-57 --layers motion,water.foam,water.foam.thickness",
-            cache.display()
+            "render {what} -o a_%d.exr --size {WIDTH}x{HEIGHT} --fps 50 --frames 52-57 \
+             --layers motion,water.foam,water.foam.thickness"
         ))
         .ok();
     let frames: Vec<_> = (52..=57).map(|n| folder.picture(&format!("a_{n}.exr"))).collect();
