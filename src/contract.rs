@@ -752,6 +752,29 @@ pub struct Settings {
     pub ladder: Ladder,
 }
 
+impl Settings {
+    /// The look of the thesis' demo (Bagar 2010) for particles of a spacing: its composite, colours, unit of the
+    /// thickness, foam, spray and light on foam. With it go [`Rule::Source`](crate::water::Rule) of [`Config::rule`],
+    /// [`Config::sheets`] of 1, [`Config::cast`] of `None` and [`Shadows::Convolution`](crate::water::Shadows).
+    pub fn thesis(spacing: f32) -> Self {
+        Self {
+            water: WaterSettings::thesis(spacing),
+            foam: FoamLook::thesis(spacing),
+            spray: SprayLook::SOURCE,
+            diffuse: DiffuseLook::of_spacing(spacing),
+            light: Light::default().thesis(),
+            ..Self::default()
+        }
+    }
+}
+
+impl Light {
+    /// The same with shade as the thesis has it on foam, 0.6 of the light in the sun (Listing A.20).
+    pub fn thesis(self) -> Self {
+        Self { shade: self.irradiance.map(|c| 0.6 * c), ..self }
+    }
+}
+
 /// The sun, and the light of the sky as the water's scattering sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {

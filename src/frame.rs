@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::foam::settings::{Mixing, Reach, Submerged};
 use crate::gpu::shader;
 use crate::water::settings::{
-    Amplitude, FoamLook, Fresnel, Medium, Rule, SprayLook, WaterSettings,
+    Amplitude, Compositing, FoamLook, Fresnel, Medium, Rule, SprayLook, WaterSettings,
 };
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
@@ -369,7 +369,10 @@ impl FrameUniforms {
             ],
             sun_direction: sun.extend(0.0).to_array(),
             sun_color: light_vector(light.color),
-            ambient: light_vector(light.ambient),
+            ambient: with(
+                light_vector(light.ambient),
+                f32::from(u8::from(water.compositing == Compositing::Source)),
+            ),
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
             foam_noise: [look.noise, look.noise_rate, look.relief, look.veil.max(1.0e-6)],
             foam_pattern: [3.0 * look.pattern, 0.0, 0.0, 0.5 * look.pattern_period],

@@ -272,7 +272,7 @@ void main() {
         opacities = max(opacities, opacity);
         behind *= 1.0 - opacity.x;
         body = i == 0u ? own : mix(body, own, 0.5);
-        color += through_medium(left * light, left * (1.0 - through), metres);
+        color += through_medium(left * light, left * (1.0 - through), metres).rgb;
         left *= through;
         ++i;
         // Behind what is opaque nothing is seen.
@@ -284,6 +284,6 @@ void main() {
     // else what lies farther, where `peel` looks that far. By half precision, where it was blended.
     most = most > opacities.x + 1.0 / 1024.0 && behind >= HIDDEN ? most : opacities.y;
     float plug = bubbly.mirror.w > 0.5 ? max(most - covered, 0.0) : 0.0;
-    color += through_medium(plug * body, vec3(plug), metres);
+    color += through_medium(plug * body, vec3(plug), metres).rgb;
     imageStore(bubbles_image, pixel, vec4(min(color, 65000.0), min(covered + plug, 1.0)));
 }

@@ -28,7 +28,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 surface;       // refraction, specular, shininess, border threshold
     vec4 sun_direction; // eye space
     vec4 sun_color;
-    vec4 ambient;
+    vec4 ambient;       // w: 1 = composed as the source does
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
     vec4 foam_pattern;  // its strength, 0 0; half its period in seconds

@@ -6,18 +6,20 @@ const float FOAM_TOO = 2.0;
 const float FRONT_WATER = 3.0;
 const float WHOLE = 4.0;
 
-// What comes through so many metres of water of a light that covers a share of each colour, premultiplied by it, and the
-// water's own light before that share.
-vec3 through_medium(vec3 light, vec3 share, float path) {
+// Of a light that covers a share of each colour, premultiplied by it: its colour behind so many metres of water, with the
+// water's own light before that share; and what of it comes through, of all channels together, to the source its weight
+// of what is behind.
+vec4 through_medium(vec3 light, vec3 share, float path) {
     // One exponential for both: a CPU runs branches whole.
     bool source = frame.medium_a.w > 0.5;
     vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
     vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);
     vec3 albedo = frame.medium_b.rgb / max(extinction, vec3(1.0e-9));
-    return source ? mix(share * frame.medium_a.rgb * kept.rgb, light, kept.a)
-                  : light * kept.rgb + share * frame.ambient.rgb * albedo * (1.0 - kept.rgb);
+    return source ? vec4(mix(share * frame.medium_a.rgb * kept.rgb, light, kept.a), kept.a)
+                  : vec4(light * kept.rgb + share * frame.ambient.rgb * albedo * (1.0 - kept.rgb),
+                         dot(kept.rgb, vec3(1.0 / 3.0)));
 }
 
-vec3 through_medium(vec3 background, float path) {
+vec4 through_medium(vec3 background, float path) {
     return through_medium(background, vec3(1.0), path);
 }

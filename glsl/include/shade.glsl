@@ -165,6 +165,11 @@ vec3 refracted(vec2 pixel, vec2 offset, float z) {
     return scene_at(pixel + offset * part);
 }
 
+// Mirrored light and highlights are added, weighted, and all foam is at the frontmost (Listing A.20).
+bool by_source() {
+    return frame.ambient.w > 0.5;
+}
+
 // Both powers, and one of them taken: a pipeline each for so little would double their number.
 float fresnel(float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
@@ -212,10 +217,10 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     sheet.offset = -n.xy * sign(frame.projection.xy) * lens / (frame.texel.xy * surface.z);
 
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.
-    float w = smoothstep(0.0, 0.25 * frame.particle.x, t);
+    float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 reflected = mat3(frame.world) * reflect(-v, n);
     // What is mirrored from below the horizon is more water, not the environment's ground.
-    float sky = smoothstep(-0.3, 0.0, reflected.y);
+    float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, reflected.y);
     sheet.mirror = w * sky * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
     vec3 h = normalize(v + frame.sun_direction.xyz);
@@ -240,9 +245,17 @@ Sheet on_ladder(Sheet sheet) {
     return sheet;
 }
 
+// Light with what a surface mirrors, and its highlight; through: of the water before foam, and of the foam.
+vec3 with_mirrored(Sheet sheet, vec3 c, vec2 through) {
+    float weight = clamp(1.0 - through.x + through.y, 0.0, 1.0) * (1.0 - through.x);
+    float kept = by_source() ? 1.0 : 1.0 - sheet.mirror;
+    return c * kept + (sheet.mirrored * sheet.mirror + sheet.shine) * (by_source() ? weight : 1.0);
+}
+
 // Light through a sheet and off it.
 vec3 over(Sheet sheet, vec3 background) {
-    return mix(through_medium(background, sheet.path), sheet.mirrored, sheet.mirror) + sheet.shine;
+    vec4 c = through_medium(background, sheet.path);
+    return with_mirrored(sheet, c.rgb, vec2(c.a, 1.0));
 }
 
 // The back sheet where the front one covers it. Near its edge, and where it is no other sheet for
@@ -328,7 +341,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     foam.t = t.x;
     foam.depth = texels.depth;
     // To the source all is at the frontmost.
-    float far = frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
+    float far = by_source() || frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     // A spacing more for what is far: where that becomes the frontmost nothing changes. What hides what is behind
@@ -375,21 +388,24 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
     // Diffuse particles before it lie over all.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
+    first = by_source() ? 1.0 : first;
     // No water before its surface; but that a pixel shows no sphere of a drop says nothing of less than its width.
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
-    vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0));
+    vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0)).rgb;
     c = mix(c, sheet.mirrored, sheet.mirror * (1.0 - first)) + sheet.shine * (1.0 - first);
     c = mix(foam.color, c, foam.kept);
-    c = through_medium(c, sheet.path * (frame.target.z >= FRONT_WATER ? share : 0.0));
-    return mix(c, sheet.mirrored, sheet.mirror * first) + sheet.shine * first;
+    vec4 all = through_medium(c, sheet.path * (frame.target.z >= FRONT_WATER ? share : 0.0));
+    sheet.mirror *= first;
+    sheet.shine *= first;
+    return with_mirrored(sheet, all.rgb, vec2(all.a, foam.kept));
 }
 
 // Water among foam, which has the less of a surface the more of it is foam: what is left of a particle that
 // turns into foam is no drop, and would glint and bend in single pixels that come and go.
 Sheet among(Foam foam, float t, Sheet sheet) {
-    float whole = smoothstep(0.5, 1.0, t / max(t + foam.t, 1.0e-9));
+    float whole = by_source() ? 1.0 : smoothstep(0.5, 1.0, t / max(t + foam.t, 1.0e-9));
     sheet.offset *= whole;
     sheet.mirror *= whole;
     sheet.shine *= whole;
@@ -510,7 +526,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     sheet = on_ladder(sheet);
     back = on_ladder(back);
-    face.mirror = front < EMPTY ? sheet.mirror : 0.0;
+    face.mirror = front < EMPTY && !by_source() ? sheet.mirror : 0.0;
     face.light = front < EMPTY ? sheet.mirror * sheet.mirrored + sheet.shine : vec3(0.0);
     if (FOAM + DIFFUSE == 0u) {
         sheet.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;

@@ -75,6 +75,19 @@ pub struct Counts {
     pub spray: u32,
 }
 
+/// What is done once a step of a simulation, before the frames that show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stepped {
+    /// What of the water is foam ([`Headless::step`]).
+    Foam,
+    /// Diffuse particles that are made ([`Headless::generate`]).
+    Generate,
+    /// Blobs that move ([`Headless::heap_step`]).
+    Heap,
+    /// How far the shore is ([`Headless::shore_map_step`]).
+    ShoreMap,
+}
+
 /// A renderer with everything a host would have, one frame at a time.
 pub struct Headless {
     gpu: Arc<Gpu>,
@@ -240,7 +253,19 @@ impl Headless {
         self.run_parts(|this, cmd| record(this, cmd).map(|()| cmd))
     }
 
-    /// Times of the last frame, pass by pass.
+    /// Times of the last step of a kind, pass by pass; none before there is one.
+    pub fn step_timings(&mut self, which: Stepped) -> Vec<Timing> {
+        let slot = Slot(0);
+        let times = match which {
+            Stepped::Foam => self.foam.as_mut().map(|own| own.state.timings(slot)),
+            Stepped::Generate => self.generating.as_mut().map(|own| own.generator.timings(slot)),
+            Stepped::Heap => self.heap.as_mut().map(|own| own.timings(slot)),
+            Stepped::ShoreMap => self.shores.map_timings(slot),
+        };
+        times.unwrap_or_default().to_vec()
+    }
+
+    /// Times of the last frame, pass by pass, without those of [steps](Self::step_timings) before it.
     pub fn timings(&mut self) -> Vec<Timing> {
         self.renderer.timings(Slot(0)).to_vec()
     }

@@ -13,6 +13,7 @@ use crate::gpu::Gpu;
 use crate::gpu::access::{COMPUTE_SAMPLED, NOTHING};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::image::{Image, ImageDesc};
+use crate::gpu::timing::Timing;
 use crate::shore::{Area, Heights, MapMesh, ShoreMap, ShoreMapConfig, ShoreMapStep};
 
 /// Triangles of a mesh: vertices, three of which each triangle has.
@@ -60,6 +61,11 @@ pub(super) struct Shores {
 }
 
 impl Shores {
+    /// Times of the last step of the map.
+    pub fn map_timings(&mut self, slot: Slot) -> Option<&[Timing]> {
+        self.map.as_mut().map(|(map, _)| map.timings(slot))
+    }
+
     /// As a frame takes it.
     pub fn shore(&self) -> Option<Shore> {
         let strip = self.strip.as_ref().map(|(mesh, v)| {

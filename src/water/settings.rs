@@ -141,6 +141,8 @@ pub struct WaterSettings {
     pub medium: Medium,
     /// Fresnel reflectance.
     pub fresnel: Fresnel,
+    /// How what the surface mirrors and its highlight come to what is behind. Default [`Compositing::Mixed`].
+    pub compositing: Compositing,
     /// Strength of the refraction's displacement, [0, ∞), default 0.25; it tends to a sixteenth of
     /// the picture's height.
     pub refraction: f32,
@@ -162,6 +164,7 @@ impl Default for WaterSettings {
             amplitude: Amplitude::Volume,
             medium: Medium::POOL,
             fresnel: Fresnel::Schlick { f0: 0.02 },
+            compositing: Compositing::Mixed,
             refraction: 0.25,
             specular: 1.0,
             shininess: 1500.0,
@@ -170,10 +173,46 @@ impl Default for WaterSettings {
 }
 
 impl WaterSettings {
+    /// The water of the thesis' demo for particles of a spacing: its unit of the thickness, colours, reflectance, highlight
+    /// and composite.
+    pub fn thesis(spacing: f32) -> Self {
+        let Medium::Source { base, falloff } = Medium::source(spacing) else {
+            return Self::default();
+        };
+        Self {
+            spacing,
+            amplitude: Amplitude::Source,
+            // Of a thickness that is so many times the volume's.
+            medium: Medium::Source { base, falloff: falloff.map(|k| k / SOURCE_VOLUMES) },
+            fresnel: Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 },
+            compositing: Compositing::Source,
+            shininess: 80.0,
+            ..Self::default()
+        }
+    }
+
     /// Drawn radius of a particle, scene units.
     pub fn radius(&self) -> f32 {
         RADIUS_PER_SPACING * self.spacing
     }
+}
+
+/// Particle volumes that a thickness sprite of [`Amplitude::Source`] holds: `0.8·2a·π·J·a²` over spacing³, of a half-axis
+/// a of twice the drawn radius and the kernel's integral J = 0.34.
+const SOURCE_VOLUMES: f32 = 3.86;
+
+/// How what the surface mirrors and the sun's highlight come to what is behind them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Compositing {
+    /// What is mirrored takes the place of as much of the light from behind; the highlight is added. Less of both where
+    /// water is thinner than a quarter of the drawn radius. The surface is that of the water before the frontmost foam,
+    /// where there is any, else of that behind; foam lies where its middle is.
+    Mixed,
+    /// The source's (thesis, Listing A.20): both are added to all the light from behind, weighted by
+    /// `sat(1 − a_wf + a_f)·(1 − a_wf)`, where `a_wf` and `a_f` are what comes through the water before the frontmost
+    /// foam (by [`Medium::Source`]'s last falloff; of a physical medium the mean of the channels) and through the foam.
+    /// All foam is at the frontmost, and rays that are mirrored down see the environment's ground.
+    Source,
 }
 
 /// Height of a particle's thickness sprite `√(1 − ρ²)·exp(−2ρ²)` at its centre.
@@ -381,6 +420,26 @@ impl FoamLook {
             shadow: 0.25 / spacing,
             back_color: [0.65; 3],
             front_color: [0.9; 3],
+        }
+    }
+
+    /// The thesis' foam for particles of a spacing: a noise of each sprite's own, opaque and without relief. Its numbers
+    /// are per unit of its own thickness and length (1.43 of them are a spacing); a sprite of it holds about 33 particle
+    /// volumes.
+    pub fn thesis(spacing: f32) -> Self {
+        let unit = 1.43 * 33.0 / spacing;
+        Self {
+            extinction: 0.5 * unit,
+            front_extinction: unit / 3.0,
+            front_depth: 7.0 * spacing,
+            noise: 1.0,
+            pattern: 0.0,
+            veil: 0.0,
+            relief: 0.0,
+            shadow: 0.0,
+            back_color: [0.25; 3],
+            front_color: [1.0; 3],
+            ..Self::of_spacing(spacing)
         }
     }
 

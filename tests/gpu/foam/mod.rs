@@ -1,6 +1,7 @@
 //! Pass `foam`: sprites against the twin, and what is foam is no water.
 
 mod picture;
+mod source;
 
 use glam::DVec3;
 use whitewater::water::{Shading, Splat};

@@ -12,7 +12,7 @@ use crate::support::scenes::{self, Lens};
 use crate::support::tolerance::U;
 
 /// All at full resolution, and a picture of floats.
-fn whole(size: ash::vk::Extent2D, shading: Shading) -> Config {
+pub(super) fn whole(size: ash::vk::Extent2D, shading: Shading) -> Config {
     Config {
         composite: Some(shading),
         output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
@@ -106,7 +106,7 @@ fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f
 }
 
 /// A pool that faces the eye, foam deep in it, and a veil of another foam that floats before a part of it.
-fn veiled(size: ash::vk::Extent2D) -> Foamy {
+pub(super) fn veiled(size: ash::vk::Extent2D) -> Foamy {
     let mut case = Foamy::new(size, Lens::Standard, 0.0);
     let mut points = scenes::block(3, 0.2, [22, 16, 14], [-2.1, -1.5, 2.6]);
     let pool = points.len();

@@ -8,6 +8,7 @@
 //! ```
 
 mod sheets;
+pub mod source;
 #[cfg(test)]
 mod tests;
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
 use crate::pattern::Source;
+use crate::settings::LookWord;
 use crate::shore::Which as Shore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::water::settings::{Rule, Splat};
@@ -168,6 +169,11 @@ pub struct DrawArgs {
     /// scene units a second, y up) and seed = 0 (of its times)
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
+    /// How all looks where nothing else is said: 'default', or 'thesis', as the source of the layered water has it (Bagar
+    /// 2010): its composite, colours, foam and spray, its iterations (--rule source), one sheet, and the scene's shadows by
+    /// its filter, without those of water and foam. The same as look = 'thesis' at the head of --settings
+    #[arg(long, value_enum)]
+    pub look: Option<LookWord>,
     /// What the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
     #[arg(long, value_name = "FILE|sky", default_value = "sky")]
     pub environment: String,
@@ -189,9 +195,10 @@ pub struct DrawArgs {
     /// Resolution of the thickness: 0 full, 1 half, 2 quarter, 3 eighth
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=3))]
     pub thickness_level: u32,
-    /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=2))]
-    pub sheets: u32,
+    /// Sheets of water told apart where one stands before another, as a drop before a pool: 1 or 2 [default: 2; of
+    /// --look thesis 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
+    pub sheets: Option<u32>,
     /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
     /// most, where there are velocities), none, or the Weber number from which on it does. In a sequence
     /// with ids foam comes and goes in time; frames before those that are drawn are read for it [default: auto;
@@ -207,16 +214,18 @@ pub struct DrawArgs {
     #[arg(long, value_enum, default_value_t = NoiseArg::None)]
     pub noise: NoiseArg,
     /// What the sunlight does: shadows of the scene on foam and spray, shadows of water and foam, caustics
-    /// (all), those of the scene alone (scene), or none
-    #[arg(long, value_enum, default_value_t = ShadowArg::All)]
-    pub shadows: ShadowArg,
+    /// (all), those of the scene alone (scene), or none [default: all; of --look thesis scene]
+    #[arg(long, value_enum)]
+    pub shadows: Option<ShadowArg>,
     /// How particles become pixels [default: the faster on the device]
     #[arg(long, value_enum)]
     pub splat: Option<SplatArg>,
-    /// Iterations of the smoothing: source, constant-width, or fixed:N
-    #[arg(long, default_value = "constant-width", value_parser = rule)]
-    pub rule: Rule,
-    /// Write the time of each pass to a .csv or .json; at Ctrl-C, of the frames until then
+    /// Iterations of the smoothing: source, constant-width, or fixed:N [default: constant-width; of --look thesis source]
+    #[arg(long, value_parser = rule)]
+    pub rule: Option<Rule>,
+    /// Write the time of each pass to a .csv or .json; at Ctrl-C, of the frames until then. What is done once a step before
+    /// a frame (classify: which water is foam; the passes that make diffuse particles or move blobs) stands before its
+    /// passes, the last step's, once however often the frame is drawn
     #[arg(long, value_name = "FILE")]
     pub timings: Option<PathBuf>,
     /// Draws each frame so many times, all of which go to --timings

@@ -373,8 +373,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     };
     let frames: Vec<u64> = (first..=last).step_by(args.every.get()).collect();
     let checked = session::check(&args.draw, frames.len() > 1)?;
-    let file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
-    let file = file.unwrap_or_default();
+    let file = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, Some([-0.55, 0.6, 0.45]))?;
     let camera = CameraFile::from_args(&args.camera)?.unwrap_or_else(|| CameraFile {
         eye: Some(eye),

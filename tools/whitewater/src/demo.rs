@@ -1,9 +1,8 @@
 //! `whitewater demo`: the built-in scene.
 
+use whitewater::Region;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
-use whitewater::water::FoamLook;
-use whitewater::{Region, Settings};
 
 use crate::args::{DemoArgs, Foaming, SprayArg};
 use crate::bounds::Bounds;
@@ -41,16 +40,13 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     for target in &checked.0 {
         output::probe(&target.path(0))?;
     }
-    let settings_file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
+    let file = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, Some(SUN))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
     let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
     scene.sun = environment.sun_light();
-    let mut settings = Settings { light: environment.light(), ..Settings::default() };
-    settings.water.spacing = SPACING;
-    settings.foam = FoamLook::of_spacing(SPACING);
+    let mut settings = file.look(SPACING, environment.light());
     settings.noise = session::noise(&args.draw);
-    let file = settings_file.unwrap_or_default();
     file.apply(&mut settings);
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,

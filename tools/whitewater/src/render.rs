@@ -2,10 +2,8 @@
 
 use glam::Vec3;
 use whitewater::Settings;
-use whitewater::foam::DiffuseLook;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
-use whitewater::water::FoamLook;
 
 use crate::args::{Foaming, RenderArgs, SprayArg, Whitewater};
 use crate::bounds::{self, Bounds};
@@ -65,7 +63,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         let why = format!("--write-whitewater: {} is read; name another", file.path.display());
         return Err(Failure::usage(why));
     }
-    let settings = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
+    let settings = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
     if let Some(camera) = &camera {
@@ -105,7 +103,6 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
             "velocities are not in the files: found by where particles are from frame to frame",
         );
     }
-    let settings = settings.unwrap_or_default();
     let settings_of_bubbles = settings.bubbles.config();
     let shores = Shores::of_particles(&settings)?;
     if settings_of_bubbles.hand_over && (foam.is_some() || args.whitewater.is_empty()) {
@@ -330,7 +327,6 @@ fn look(
     environment: Environment,
     progress: &Progress,
 ) -> Outcome<Look> {
-    let mut settings = Settings { light: environment.light(), ..Settings::default() };
     let spacing = match (args.radius, file.water.spacing) {
         (Some(radius), _) => 2.0 * radius,
         (None, Some(spacing)) => spacing,
@@ -341,7 +337,7 @@ fn look(
                 spacing
             }
             None => {
-                let spacing = settings.water.spacing;
+                let spacing = Settings::default().water.spacing;
                 progress.say(&format!(
                     "radius {} (too few particles to estimate it; --radius sets it)",
                     0.5 * spacing
@@ -350,7 +346,7 @@ fn look(
             }
         },
     };
-    settings.water.spacing = spacing;
+    let mut settings = file.look(spacing, environment.light());
     if let Some(density) = probes.rest_density() {
         if density != settings.water.rest_density && file.water.rest_density.is_none() {
             progress
@@ -358,8 +354,6 @@ fn look(
         }
         settings.water.rest_density = density;
     }
-    settings.foam = FoamLook::of_spacing(spacing);
-    settings.diffuse = DiffuseLook::of_spacing(spacing);
     settings.noise = session::noise(&args.draw);
     if probes.frames.iter().all(|frame| frame.densities.is_none()) {
         settings.spray.densities = GUESSED_DENSITIES;
@@ -393,7 +387,7 @@ fn look(
                     // A sun from the side, that its walls don't keep out.
                     let sun = stage::side_light(eye - bounds.center());
                     environment = session::environment(&args.draw, Some(sun))?;
-                    settings.light = environment.light();
+                    settings.light = file.in_light(environment.light());
                     file.apply(&mut settings);
                     settings.water.spacing = spacing;
                     basin

@@ -6,10 +6,10 @@ use whitewater::ash::vk;
 use whitewater::bubbles::BubbleConfig;
 use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
-use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless};
+use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Layers};
-use whitewater::water::{FoamSettings, NoiseLook, WaterSettings};
+use whitewater::water::{FoamSettings, NoiseLook, Rule, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
@@ -235,6 +235,12 @@ impl<'a> Session<'a> {
         self.make_room_with(count, 0)
     }
 
+    /// What the sunlight does.
+    fn shadows(&self) -> ShadowArg {
+        let scene = self.look.file.is_thesis();
+        self.args.shadows.unwrap_or(if scene { ShadowArg::Scene } else { ShadowArg::All })
+    }
+
     fn make_room_with(&mut self, count: usize, diffuse: usize) -> Outcome<()> {
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
@@ -270,7 +276,8 @@ impl<'a> Session<'a> {
         config.max_stride = 12;
         config.smoothing_level = args.smoothing_level;
         config.thickness_level = args.thickness_level;
-        config.sheets = args.sheets;
+        let thesis = self.look.file.is_thesis();
+        config.sheets = args.sheets.unwrap_or(if thesis { 1 } else { 2 });
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
         config.diffuse = self.look.diffuse.as_ref().map(|source| {
@@ -291,12 +298,14 @@ impl<'a> Session<'a> {
         config.shore = self.look.shores.as_ref().map(|shores| shores.config);
         // Half the resolution of the picture, as it is drawn for one sample a pixel.
         config.noise = (args.noise != NoiseArg::None).then_some(1);
-        config.shadow = (args.shadows != ShadowArg::None).then(|| self.look.file.shadows());
-        config.cast = (args.shadows == ShadowArg::All).then(|| light_texels(width));
+        let shadows = self.shadows();
+        config.shadow = (shadows != ShadowArg::None).then(|| self.look.file.shadows());
+        config.cast = (shadows == ShadowArg::All).then(|| light_texels(width));
         config.motion = self.motion;
         config.depth_splat = args.splat.map(Into::into);
         config.thickness_splat = args.splat.map(Into::into);
-        config.rule = args.rule;
+        let rule = if thesis { Rule::Source } else { Rule::ConstantWidth };
+        config.rule = args.rule.unwrap_or(rule);
         let mut headless = times
             .step("set up", number, || Headless::new(device, &config))
             .map_err(|error| too_large(error, args.supersample))?;
@@ -312,7 +321,7 @@ impl<'a> Session<'a> {
             }
         })?;
         times.step("scene", number, || headless.scene(&self.look.scene, args.supersample == 1))?;
-        if args.shadows == ShadowArg::All {
+        if shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
         if let Some((blobs, _)) = self.look.bubbles.as_ref().filter(|(_, own)| !own.hand_over) {
@@ -481,6 +490,9 @@ impl<'a> Session<'a> {
                 }
             })?;
             self.memory.stepped = Some(number);
+            if drawn {
+                times.passes(number, headless.step_timings(Stepped::Foam));
+            }
         }
         if let (Some((settings, most)), Some(_)) = (&self.making, &particles.velocities) {
             times.step("generate", number, || match (self.look.fps, self.memory.made) {
@@ -499,6 +511,9 @@ impl<'a> Session<'a> {
                 }
             })?;
             self.memory.made = Some(number);
+            if drawn {
+                times.passes(number, headless.step_timings(Stepped::Generate));
+            }
         } else {
             // Without velocities none are made, and those of the frame before are not this one's.
             headless.hide_generated();
@@ -509,6 +524,9 @@ impl<'a> Session<'a> {
                 (self.memory.heaped..number)
                     .try_for_each(|_| headless.heap_step(dt, &motion.settings, &motion.solids))
             })?;
+            if drawn && self.memory.heaped < number {
+                times.passes(number, headless.step_timings(Stepped::Heap));
+            }
             self.memory.heaped = self.memory.heaped.max(number);
         }
         self.memory.passed = Some(number);
@@ -526,6 +544,7 @@ impl<'a> Session<'a> {
                 times.step("shore", number, || {
                     shores.moved(headless, &self.look.scene, self.staged)
                 })?;
+                times.passes(number, headless.step_timings(Stepped::ShoreMap));
             }
             self.staged = number;
         }

@@ -73,8 +73,11 @@ impl Times {
         self.record().began.elapsed().as_secs_f64() * 1.0e6
     }
 
-    /// The passes of a frame, whose drawing was the step noted last.
+    /// The passes of a frame, or of a step of what it shows, which was the step noted last.
     pub fn passes(&self, frame: u64, passes: Vec<Timing>) {
+        if passes.is_empty() {
+            return;
+        }
         let mut record = self.record();
         let start = record.steps.last().map_or(0.0, |s| s.start);
         record.frames.push((frame, start, passes));

@@ -10,11 +10,12 @@ mod water;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use whitewater::Settings;
-use whitewater::foam::GenerateSettings;
-use whitewater::water::FoamSettings;
+use whitewater::foam::{DiffuseLook, GenerateSettings};
 use whitewater::water::settings::Shadows;
+use whitewater::water::{FoamLook, FoamSettings};
+use whitewater::{Light, Settings};
 
+use crate::args::DrawArgs;
 use crate::failure::{Failure, Outcome};
 
 pub use water::FoamTable;
@@ -25,6 +26,8 @@ pub use water::Weber;
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SettingsFile {
+    /// Over what all the tables are laid.
+    pub look: Option<LookWord>,
     pub water: water::WaterTable,
     pub foam: water::FoamTable,
     pub spray: water::SprayTable,
@@ -37,6 +40,16 @@ pub struct SettingsFile {
     pub shadow: water::ShadowTable,
     pub noise: water::NoiseTable,
     pub light: water::LightTable,
+}
+
+/// How all looks where nothing else is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum LookWord {
+    /// The tool's own.
+    Default,
+    /// That of the thesis' demo.
+    Thesis,
 }
 
 /// What was found for a run beside its settings.
@@ -64,9 +77,38 @@ impl SettingsFile {
         })
     }
 
+    /// The file that `--settings` names and `--look` begins.
+    pub fn of_args(args: &DrawArgs) -> Outcome<Self> {
+        let file = args.settings.as_deref().map(Self::read).transpose()?.unwrap_or_default();
+        Ok(Self { look: args.look.or(file.look), ..file })
+    }
+
+    /// Whether all looks as in the thesis.
+    pub fn is_thesis(&self) -> bool {
+        self.look == Some(LookWord::Thesis)
+    }
+
+    /// What the tables are laid over, for particles of a spacing in a light.
+    pub fn look(&self, spacing: f32, light: Light) -> Settings {
+        let light = self.in_light(light);
+        if self.is_thesis() {
+            return Settings { light, ..Settings::thesis(spacing) };
+        }
+        let mut settings = Settings { light, ..Settings::default() };
+        settings.water.spacing = spacing;
+        settings.foam = FoamLook::of_spacing(spacing);
+        settings.diffuse = DiffuseLook::of_spacing(spacing);
+        settings
+    }
+
+    /// A light as the look has it.
+    pub fn in_light(&self, light: Light) -> Light {
+        if self.is_thesis() { light.thesis() } else { light }
+    }
+
     /// How the scene's shadow map is filtered.
     pub fn shadows(&self) -> Shadows {
-        self.shadow.passes()
+        self.shadow.passes(self.is_thesis())
     }
 
     /// Puts what the file says over settings.
@@ -100,6 +142,7 @@ impl SettingsFile {
             ladder: _,
         } = settings;
         Self {
+            look: self.look,
             water: water::WaterTable::all(water),
             foam: self.foam.all(foam, found.foam),
             spray: water::SprayTable::of(spray),
@@ -112,7 +155,7 @@ impl SettingsFile {
             shore: self.shore.all(shore),
             shoreline: shore::ShorelineTable::of(&shore.shoreline),
             contact: shore::ContactTable::of(&shore.contact),
-            shadow: self.shadow.all(shadow),
+            shadow: self.shadow.all(shadow, self.is_thesis()),
             noise: water::NoiseTable::of(noise),
             light: water::LightTable::of(light),
         }

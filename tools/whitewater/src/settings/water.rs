@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use whitewater::Light;
 use whitewater::water::settings::{
-    Amplitude, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
+    Amplitude, Compositing, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
 };
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
 
@@ -21,6 +21,7 @@ table! {
         depth_falloff: f32,
         amplitude: AmplitudeWord,
         fresnel: FresnelTable,
+        compositing: CompositingWord,
         refraction: f32,
         specular: f32,
         shininess: f32,
@@ -31,6 +32,7 @@ table! {
 }
 
 words!(AmplitudeWord of Amplitude { Volume, Source });
+words!(CompositingWord of Compositing { Mixed, Source });
 
 /// A medium by name or by its numbers.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -266,12 +268,17 @@ pub enum FilterWord {
 }
 
 impl ShadowTable {
-    /// How the scene's shadow map is filtered.
-    pub fn passes(&self) -> Shadows {
-        match self.filter {
-            Some(FilterWord::Convolution) => Shadows::Convolution(self.convolution()),
-            Some(FilterWord::Pcf) | None => Shadows::Map,
+    /// How the scene's shadow map is filtered, in the thesis' look or ours.
+    pub fn passes(&self, thesis: bool) -> Shadows {
+        match self.filtered(thesis) {
+            FilterWord::Convolution => Shadows::Convolution(self.convolution()),
+            FilterWord::Pcf => Shadows::Map,
         }
+    }
+
+    fn filtered(&self, thesis: bool) -> FilterWord {
+        let standard = if thesis { FilterWord::Convolution } else { FilterWord::Pcf };
+        self.filter.unwrap_or(standard)
     }
 
     fn convolution(&self) -> Convolution {
@@ -284,10 +291,10 @@ impl ShadowTable {
     }
 
     /// The table that says all of a filter, and of the passes as this table does.
-    pub fn all(&self, filter: &ShadowFilter) -> Self {
+    pub fn all(&self, filter: &ShadowFilter, thesis: bool) -> Self {
         let Convolution { terms, texels, bits } = self.convolution();
         Self {
-            filter: Some(self.filter.unwrap_or(FilterWord::Pcf)),
+            filter: Some(self.filtered(thesis)),
             terms: Some(terms),
             texels: Some(texels),
             bits: Some(bits),

@@ -241,8 +241,7 @@ fn own(path: &Path, level: f32) -> Outcome<ShoreScene> {
 /// `render --shore`.
 pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let file = args.draw.settings.as_deref().map(SettingsFile::read).transpose()?;
-    let mut file = file.unwrap_or_default();
+    let mut file = SettingsFile::of_args(&args.draw)?;
     let mut settings = Settings::default();
     let (shown, by) = scene_of(which, args.level, &mut settings)?;
     let (first, last) = range.map_or((1, 1), |range| (*range.start(), *range.end()));

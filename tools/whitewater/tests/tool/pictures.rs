@@ -295,6 +295,56 @@ fn times_and_traces_are_written() {
     folder.run("render a.ply -o a.png --timings t.txt").fails(2, &[".csv or .json"]);
 }
 
+/// Which water is foam is found once a frame, before it is drawn, however often that is.
+#[test]
+fn what_forms_foam_is_timed() {
+    let folder = Folder::new();
+    folder.text("a.csv", &rows());
+    let more = format!("{SMALL} --foam 1 --timings t.csv --repeat 3");
+    folder.run(&format!("render a.csv -o a.png {more}")).ok();
+    let csv = std::fs::read_to_string(folder.path("t.csv")).unwrap();
+    let count = |pass: &str| csv.lines().filter(|l| l.contains(&format!(",{pass},"))).count();
+    assert_eq!((count("classify"), count("composite")), (1, 3), "{csv}");
+}
+
+/// Fast water, as CSV.
+fn rows() -> String {
+    let row = |(i, [x, y, z]): (usize, [f32; 3])| format!("{x},{y},{z},9,0,0,{i}\n");
+    let rows: String = block(5).into_iter().enumerate().map(row).collect();
+    format!("x,y,z,vx,vy,vz,id\n{rows}")
+}
+
+/// The settings that stand in a picture draw it again, whatever they were.
+#[test]
+fn a_pictures_settings_draw_it_again() {
+    let folder = Folder::new();
+    folder.text("a.csv", &rows());
+    folder.text(
+        "own.toml",
+        "look = 'thesis'\n[water]\nshininess = 200\n[foam]\nweber = 'full'\nthreshold = 20\nair = [1, 0, 0]\n\
+         [contact]\nparticle_opacity = 1.0\nmeasure = 'view'\n[bubbles]\nfilm = 500.0",
+    );
+    folder.run(&format!("render a.csv -o a.exr {SMALL} --settings own.toml")).ok();
+    let settings = |name: &str| {
+        let picture = folder.picture(name);
+        let found = picture.attributes.iter().find(|(key, _)| key == "settings");
+        found.unwrap().1.clone()
+    };
+    let said = settings("a.exr");
+    for part in
+        ["look = \"thesis\"", "compositing = \"source\"", "film = 500.0", "measure = \"view\""]
+    {
+        assert!(said.contains(part), "no {part} in\n{said}");
+    }
+    folder.text("again.toml", &said);
+    folder.run(&format!("render a.csv -o b.exr {SMALL} --settings again.toml")).ok();
+    assert_eq!(settings("b.exr"), said);
+    folder.run("compare a.exr b.exr --tolerance 0").ok();
+    // It is another look than without.
+    folder.run(&format!("render a.csv -o c.exr {SMALL}")).ok();
+    folder.run("compare a.exr c.exr --tolerance 0.001").fails(1, &["RMSE"]);
+}
+
 #[test]
 fn the_demo_is_drawn() {
     let folder = Folder::new();
