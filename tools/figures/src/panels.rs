@@ -60,6 +60,95 @@ pub fn iterations(layers: &Layers) -> Outcome<RgbImage> {
     }))
 }
 
+/// The size of a layer and the vertical field of view it was drawn with, as world sizes of a pixel a metre away.
+fn pixel_sizes(layers: &Layers) -> Outcome<[f32; 2]> {
+    let camera = layers.attributes.iter().find(|(name, _)| name == "camera");
+    let camera = camera.ok_or("the frame has no camera")?;
+    let camera: serde_json::Value =
+        serde_json::from_str(&camera.1).map_err(|error| error.to_string())?;
+    let degrees = camera["fov_y_degrees"].as_f64().unwrap_or(40.0);
+    let size = 2.0 * (0.5 * degrees.to_radians()).tan() / layers.height as f64;
+    Ok([size as f32; 2])
+}
+
+/// Mean curvature times a radius, of a depth: red where it bulges to the eye, blue where it is hollow, white where it is
+/// flat; black at silhouettes, where neighbours are farther than five radii apart. And its mean magnitude.
+///
+/// `2H = (C_y E_x + C_x E_y) / D^(3/2)`, `D = C_y² z_x² + C_x² z_y² + C_x² C_y² z²`, `E_x = z_x D_x / 2 - z_xx D` (van der
+/// Laan et al. 2009), by central differences.
+pub fn curvature(layers: &Layers, name: &str, radius: f32) -> Outcome<(RgbImage, f32)> {
+    let z = channel(layers, name)?;
+    let [c_x, c_y] = pixel_sizes(layers)?;
+    let (width, height) = (layers.width, layers.height);
+    let at = |x: isize, y: isize| {
+        let inside = (0..width as isize).contains(&x) && (0..height as isize).contains(&y);
+        if inside { z[y as usize * width + x as usize] } else { f32::INFINITY }
+    };
+    let curved = |i: usize| -> Option<f32> {
+        let (x, y) = ((i % width) as isize, (i / width) as isize);
+        let middle = at(x, y);
+        let around = |dx: isize, dy: isize| {
+            let found = at(x + dx, y + dy);
+            ((found - middle).abs() < 5.0 * radius).then_some(found)
+        };
+        let ([left, right], [up, down]) =
+            ([around(-1, 0)?, around(1, 0)?], [around(0, -1)?, around(0, 1)?]);
+        let corners = [around(-1, -1)?, around(1, -1)?, around(-1, 1)?, around(1, 1)?];
+        let (z_x, z_y) = (0.5 * (right - left), 0.5 * (down - up));
+        let (z_xx, z_yy) = (left + right - 2.0 * middle, up + down - 2.0 * middle);
+        let z_xy = 0.25 * (corners[3] - corners[2] - corners[1] + corners[0]);
+        let [x2, y2] = [c_x * c_x, c_y * c_y];
+        let d = y2 * z_x * z_x + x2 * z_y * z_y + x2 * y2 * middle * middle;
+        let d_x = 2.0 * (y2 * z_x * z_xx + x2 * z_y * z_xy + x2 * y2 * middle * z_x);
+        let d_y = 2.0 * (y2 * z_x * z_xy + x2 * z_y * z_yy + x2 * y2 * middle * z_y);
+        let (e_x, e_y) = (0.5 * z_x * d_x - z_xx * d, 0.5 * z_y * d_y - z_yy * d);
+        Some(0.5 * (c_y * e_x + c_x * e_y) / d.powf(1.5) * radius)
+    };
+    let all: Vec<Option<f32>> =
+        (0..z.len()).map(|i| if z[i] < 1.0e9 { curved(i) } else { None }).collect();
+    let there = || all.iter().flatten();
+    let mean = there().map(|h| h.abs()).sum::<f32>() / there().count().max(1) as f32;
+    let image = picture(layers, |i| match all[i] {
+        Some(h) => {
+            let much = 1.0 - (-h.abs()).exp();
+            if h < 0.0 { [1.0, 1.0 - much, 1.0 - much] } else { [1.0 - much, 1.0 - much, 1.0] }
+        }
+        None => [0.0; 3],
+    });
+    Ok((image, mean))
+}
+
+/// Where a depth is at a border, red, and inside, yellow: there a second difference along an axis or an edge of the block
+/// of nine is over a threshold.
+pub fn borders(layers: &Layers, name: &str, threshold: f32) -> Outcome<RgbImage> {
+    let z = channel(layers, name)?;
+    let (width, height) = (layers.width, layers.height);
+    let at = |x: usize, y: usize, d: [isize; 2]| {
+        let x = x.saturating_add_signed(d[0]).min(width - 1);
+        let y = y.saturating_add_signed(d[1]).min(height - 1);
+        z[y * width + x]
+    };
+    const LINES: [[[isize; 2]; 3]; 6] = [
+        [[-1, 0], [0, 0], [1, 0]],
+        [[0, -1], [0, 0], [0, 1]],
+        [[-1, -1], [0, -1], [1, -1]],
+        [[-1, 1], [0, 1], [1, 1]],
+        [[-1, -1], [-1, 0], [-1, 1]],
+        [[1, -1], [1, 0], [1, 1]],
+    ];
+    Ok(picture(layers, |i| {
+        if z[i] >= 1.0e9 {
+            return [0.0; 3];
+        }
+        let (x, y) = (i % width, i / width);
+        let bends = |line: &[[isize; 2]; 3]| {
+            let [a, b, c] = line.map(|d| at(x, y, d));
+            (a - 2.0 * b + c).abs() > threshold
+        };
+        if LINES.iter().any(bends) { [0.9, 0.1, 0.05] } else { [1.0, 0.85, 0.1] }
+    }))
+}
+
 /// The least and the most of a channel's values over 0.
 pub fn range_of(layers: &Layers, name: &str) -> Outcome<(f32, f32)> {
     let all = channel(layers, name)?;

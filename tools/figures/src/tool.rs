@@ -35,8 +35,30 @@ pub struct Frame {
 /// How many times a frame is drawn whose passes are timed.
 const REPEATS: u32 = 8;
 
-/// Milliseconds of a frame's passes, in their order.
+/// Milliseconds of the passes of a draw, or of a step before it, in their order.
 pub type Times = Vec<(String, f64)>;
+
+/// What a frame took.
+#[derive(Clone, Default)]
+pub struct Timed {
+    /// What is done once a step, before the frame is drawn: each time.
+    pub steps: Vec<Times>,
+    /// Each time that it was drawn.
+    pub draws: Vec<Times>,
+}
+
+impl Timed {
+    /// Milliseconds of the frame: the median of its draws, each the sum of its passes, and that of its steps.
+    pub fn median(&self) -> f64 {
+        [&self.steps, &self.draws].map(|all| median(all.iter().map(total).collect())).iter().sum()
+    }
+}
+
+/// The middle one; of none 0.
+fn median(mut all: Vec<f64>) -> f64 {
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
 
 impl Tool {
     /// The program, by default that beside this one.
@@ -232,14 +254,33 @@ impl Tool {
         picture::read(&self.temporary("one.exr")).map_err(|error| error.to_string())
     }
 
-    /// Times of a scene's frames from a moving camera, of each pass the least. `frames` are those files and which of them.
+    /// A frame of particles of our own, `x,y,z...` as CSV. `more` are further arguments.
+    pub fn particles(&self, csv: &str, more: &str) -> Outcome<Layers> {
+        let [from, exr] = ["own.csv", "own.exr"].map(|name| self.temporary(name));
+        std::fs::write(&from, csv).map_err(|error| format!("{}: {error}", from.display()))?;
+        let mut arguments = vec![
+            "render".to_owned(),
+            from.display().to_string(),
+            "--scene=ground".to_owned(),
+            "--supersample=1".to_owned(),
+            "--thickness-level=0".to_owned(),
+            format!("--size={}x{}", SIZE.1, SIZE.1),
+            format!("--output={}", exr.display()),
+            "--overwrite".to_owned(),
+        ];
+        arguments.extend(more.split_whitespace().map(str::to_owned));
+        self.run(&arguments)?;
+        picture::read(&exr).map_err(|error| error.to_string())
+    }
+
+    /// Times of a scene's frames from a moving camera. `frames` are those files and which of them.
     pub fn times(
         &self,
         scene: &str,
         frames: &[String],
         camera: &Path,
         more: &str,
-    ) -> Outcome<Vec<Times>> {
+    ) -> Outcome<Vec<Timed>> {
         let csv = self.temporary("times.csv");
         let mut arguments = vec!["render".to_owned()];
         arguments.extend_from_slice(frames);
@@ -278,42 +319,71 @@ pub fn linear(byte: u8) -> f32 {
     picture::srgb_decode(f32::from(byte) / 255.0)
 }
 
-/// Of two runs over the same frames the quicker of each frame's passes.
-pub fn quicker(best: &[Times], run: &[Times]) -> Vec<Times> {
-    let pass = |(a, b): (&(String, f64), &(String, f64))| (a.0.clone(), a.1.min(b.1));
-    best.iter().zip(run).map(|(a, b)| a.iter().zip(b).map(pass).collect()).collect()
-}
-
 /// All files of a scene.
 pub fn sequence(folder: &Path, scene: &str) -> String {
     folder.join(format!("{scene}_%04d.bgeo")).display().to_string()
 }
 
 /// Milliseconds of all passes.
-pub fn total(times: &Times) -> f64 {
+fn total(times: &Times) -> f64 {
     times.iter().map(|(_, ms)| ms).sum()
 }
 
-/// The rows of `--timings`: frame, pass, start, nanoseconds; of each pass of a frame the least.
-fn read_times(csv: &Path) -> Outcome<Vec<Times>> {
+/// The rows of `--timings`: frame, pass, start, nanoseconds. What is submitted together begins with a start of 0.
+fn read_times(csv: &Path) -> Outcome<Vec<Timed>> {
     let text =
         std::fs::read_to_string(csv).map_err(|error| format!("{}: {error}", csv.display()))?;
-    let mut frames: Vec<(String, Times)> = Vec::new();
+    let mut frames: Vec<(&str, Vec<Times>)> = Vec::new();
     for line in text.lines().skip(1) {
         let cells: Vec<&str> = line.split(',').collect();
-        let [frame, pass, _, nanoseconds] = cells[..] else {
+        let [frame, pass, start, nanoseconds] = cells[..] else {
             return Err(format!("expected four columns, found {line:?}"));
         };
-        let ms = nanoseconds.parse::<f64>().map_err(|_| format!("no number in {line:?}"))? * 1.0e-6;
-        match frames.last_mut() {
-            Some((last, times)) if last == frame => {
-                match times.iter_mut().find(|(name, _)| name == pass) {
-                    Some((_, least)) => *least = least.min(ms),
-                    None => times.push((pass.to_owned(), ms)),
-                }
+        let number = |text: &str| text.parse::<f64>().map_err(|_| format!("no number in {line:?}"));
+        let (start, ms) = (number(start)?, number(nanoseconds)? * 1.0e-6);
+        if frames.last().is_none_or(|(last, _)| *last != frame) {
+            frames.push((frame, Vec::new()));
+        }
+        if let Some((_, submitted)) = frames.last_mut() {
+            if start == 0.0 || submitted.is_empty() {
+                submitted.push(Vec::new());
             }
-            _ => frames.push((frame.to_owned(), vec![(pass.to_owned(), ms)])),
+            submitted.last_mut().into_iter().for_each(|times| times.push((pass.to_owned(), ms)));
         }
     }
-    Ok(frames.into_iter().map(|(_, times)| times).collect())
+    let is_draw = |times: &Times| times.iter().any(|(pass, _)| pass == "composite");
+    let timed = |(_, submitted): (_, Vec<Times>)| {
+        let (draws, steps) = submitted.into_iter().partition(is_draw);
+        Timed { steps, draws }
+    };
+    Ok(frames.into_iter().map(timed).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two frames, of a step and three draws each: medians of what is drawn, not of the best of each pass.
+    #[test]
+    fn a_frame_takes_the_median_of_its_draws() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let csv = folder.path().join("t.csv");
+        let mut text = String::from("frame,pass,start,nanoseconds\n");
+        for frame in [1, 2] {
+            text += &format!("{frame},classify,0,500000\n");
+            for (depth, composite) in [(9, 1), (4, 3), (1, 8)] {
+                text += &format!(
+                    "{frame},depth,0,{depth}000000\n{frame},composite,7,{composite}000000\n"
+                );
+            }
+        }
+        std::fs::write(&csv, text).expect("written");
+        let frames = read_times(&csv).expect("read");
+        assert_eq!(frames.len(), 2);
+        for frame in frames {
+            assert_eq!((frame.steps.len(), frame.draws.len()), (1, 3));
+            // Of 10, 7 and 9; the best of each pass are 2.
+            assert_eq!(frame.median(), 9.0 + 0.5);
+        }
+    }
 }
