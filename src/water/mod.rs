@@ -39,7 +39,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Scope, Timer};
 use crate::light::{Light, Sunlight};
 
-pub(crate) use classify::{Classify, ROW};
+pub(crate) use classify::Classify;
 pub(crate) use cull::{
     CAST, SphereList, Window, buffers_of, capacity, chunk_unit, chunks, each_once,
 };
