@@ -58,6 +58,8 @@ pub(super) struct Shores {
     shore: Option<Shore>,
     strip: Option<(Meshed, Buffer)>,
     map: Option<(ShoreMap, Vec<Meshed>)>,
+    /// In place of theirs.
+    mask: Option<Image>,
 }
 
 impl Shores {
@@ -75,7 +77,12 @@ impl Shores {
             Shoreline::Strip(strip)
         });
         let map = self.map.as_ref().and_then(|(map, _)| map.coast()).map(Shoreline::Map);
-        self.shore.map(|shore| Shore { shoreline: strip.or(map).or(shore.shoreline), ..shore })
+        let mask = self.mask.as_ref().map(|mask| super::draw::host_image(mask, COMPUTE_SAMPLED));
+        self.shore.map(|shore| Shore {
+            shoreline: strip.or(map).or(shore.shoreline),
+            mask: mask.or(shore.mask),
+            ..shore
+        })
     }
 }
 
@@ -162,17 +169,8 @@ impl Headless {
     ///
     /// # Errors
     /// Of other numbers of texels; no [`Config::shore`](crate::Config::shore), no memory, what Vulkan reports.
-    pub fn shore_web(&mut self, [width, height]: [u32; 2], texels: &[f32]) -> Result<(), Error> {
-        if width == 0 || height == 0 || texels.len() as u64 != u64::from(width) * u64::from(height)
-        {
-            let why = format!("{} texels of {width}x{height}", texels.len());
-            return Err(Error::bad("web", why));
-        }
-        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
-        let extent = vk::Extent2D { width, height };
-        let desc = ImageDesc::new("headless/web", extent, vk::Format::R32_SFLOAT, usage);
-        let image = Image::new(&self.gpu, &desc)?;
-        let staged = super::transfer::staging(&self.gpu, bytemuck::cast_slice(texels))?;
+    pub fn shore_web(&mut self, size: [u32; 2], texels: &[f32]) -> Result<(), Error> {
+        let (image, staged) = self.values("web", size, texels)?;
         self.renderer.collect(Slot(0));
         self.run(|this, cmd| {
             this.upload(cmd, &staged, &image, NOTHING, COMPUTE_SAMPLED);
@@ -180,6 +178,42 @@ impl Headless {
             // SAFETY: submitted at once, and waited for.
             unsafe { this.renderer.record_web(cmd, Slot(0), &host) }
         })
+    }
+
+    /// The mask of the next frames' contact foam, of so many texels over the view: 0 takes all of it away, 1 nothing; in place
+    /// of what there was.
+    ///
+    /// # Errors
+    /// Of other numbers of texels; no memory, what Vulkan reports.
+    pub fn shore_mask(&mut self, size: [u32; 2], texels: &[f32]) -> Result<(), Error> {
+        self.shores.mask = None;
+        self.gpu.bury();
+        let (image, staged) = self.values("mask", size, texels)?;
+        self.run(|this, cmd| {
+            this.upload(cmd, &staged, &image, NOTHING, COMPUTE_SAMPLED);
+            Ok(())
+        })?;
+        self.shores.mask = Some(image);
+        Ok(())
+    }
+
+    /// An image of one channel, and what is to be put into it.
+    fn values(
+        &self,
+        field: &'static str,
+        [width, height]: [u32; 2],
+        texels: &[f32],
+    ) -> Result<(Image, Buffer), Error> {
+        if width == 0 || height == 0 || texels.len() as u64 != u64::from(width) * u64::from(height)
+        {
+            let why = format!("{} texels of {width}x{height}", texels.len());
+            return Err(Error::bad(field, why));
+        }
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let extent = vk::Extent2D { width, height };
+        let desc = ImageDesc::new("headless/shore", extent, vk::Format::R32_SFLOAT, usage);
+        let image = Image::new(&self.gpu, &desc)?;
+        Ok((image, super::transfer::staging(&self.gpu, bytemuck::cast_slice(texels))?))
     }
 
     pub(super) fn drop_shores(&mut self) {

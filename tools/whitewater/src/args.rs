@@ -84,8 +84,10 @@ pub struct RenderArgs {
     pub bubbles: Option<Bubbles>,
     /// Shoreline and contact foam on a sea: 'archipelago' (islands, of which one drifts), 'pool' (objects in it), 'lava' (a
     /// river of it), or a scene of your own (.glb, .gltf, .obj, .json) in the sea, without particles; frames from 1 on, which
-    /// come round in ten seconds. Tables [shore], [shoreline] and [contact] of --settings say how it looks; [contact]
-    /// particle_opacity = 1 puts contact foam on particles' water
+    /// come round in ten seconds. A mesh of it that is named 'strip', or the file that [shore] strip names, is a strip of
+    /// foam round the land: its second texture coordinate is 0 at the sea's edge, 1 at the shore line, 2 on the land. Tables
+    /// [shore], [shoreline] and [contact] of --settings say how it looks; [contact] particle_opacity = 1 puts contact foam
+    /// on particles' water
     #[arg(long, value_name = "archipelago|pool|lava|FILE", value_parser = crate::shore::named, conflicts_with_all = ["inputs", "bubbles", "whitewater", "scene"])]
     pub shore: Option<Shore>,
     /// Height of the sea in a scene of your own

@@ -154,7 +154,7 @@ impl SettingsFile {
             ),
             shore: self.shore.all(shore),
             shoreline: shore::ShorelineTable::of(&shore.shoreline),
-            contact: shore::ContactTable::of(&shore.contact),
+            contact: self.contact.all(&shore.contact),
             shadow: self.shadow.all(shadow, self.is_thesis()),
             noise: water::NoiseTable::of(noise),
             light: water::LightTable::of(light),

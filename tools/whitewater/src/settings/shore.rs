@@ -22,6 +22,8 @@ table! {
         seed: u32,
         /// A picture in place of the built-in web.
         web: PathBuf,
+        /// A mesh whose second texture coordinate is v, for `by = "strip"`, which it makes the default.
+        strip: PathBuf,
         /// What tells how far the shore is.
         by: By,
         /// Texels of the map each way.
@@ -72,6 +74,7 @@ impl ShoreTable {
             web_size: Some(web_size),
             seed: Some(seed),
             web: self.web.clone(),
+            strip: self.strip.clone(),
             by: self.by,
             map: self.map,
             ..Self::of(look)
@@ -201,12 +204,20 @@ table! {
     }
     optional { particle_depth: f32 }
     not {}
-    beside {}
+    beside {
+        /// A picture over the view in place of the web: where it is black the mask takes foam away.
+        mask_picture: PathBuf,
+    }
 }
 
 words!(MeasureWord of Measure { Distance, View, Vertical });
 
 impl ContactTable {
+    /// The table that says all of a look, and of its picture as this table does.
+    pub fn all(&self, look: &ContactLook) -> Self {
+        Self { mask_picture: self.mask_picture.clone(), ..Self::of(look) }
+    }
+
     /// Whether there is some on the particles' water.
     pub fn on_particles(&self) -> bool {
         self.particle_opacity.is_some_and(|opacity| opacity > 0.0)

@@ -9,6 +9,7 @@ use whitewater::io::particles::sequence;
 use whitewater::shore::{Area, ShoreConfig};
 use whitewater::{Error, Region, Settings, Shore, Shoreline};
 
+use super::own;
 use super::scenes::{self, ShoreScene};
 use super::strip::Strip;
 use crate::args::RenderArgs;
@@ -51,8 +52,9 @@ pub struct Shores {
     pub config: ShoreConfig,
     shore: Shore,
     land: Land,
-    /// Texels of a web of the user's.
+    /// Texels of a web of the user's, and of a mask over the view.
     web: Option<([u32; 2], Vec<f32>)>,
+    mask: Option<([u32; 2], Vec<f32>)>,
 }
 
 /// What tells how far the shore is.
@@ -76,7 +78,7 @@ impl Shores {
     pub fn on_particles(file: &SettingsFile) -> Outcome<Self> {
         let shore = Shore { surface: None, ..Shore::new(0.0) };
         let config = file.shore.config();
-        Ok(Self { config, shore, land: Land::None, web: web(file)? })
+        Ok(Self { config, shore, land: Land::None, web: web(file)?, mask: mask(file)? })
     }
 
     /// On the sea of a scene.
@@ -88,6 +90,10 @@ impl Shores {
         (reach, by): ([f32; 2], By),
     ) -> Outcome<Self> {
         let mut shore = Shore::new(level);
+        let (strip, by) = match &file.shore.strip {
+            Some(path) => (Some(own::read(path)?), By::Strip),
+            None => (strip, by),
+        };
         let land = match file.shore.by.unwrap_or(by) {
             By::None => Land::None,
             By::Screen => {
@@ -95,7 +101,8 @@ impl Shores {
                 Land::None
             }
             By::Strip => Land::Strip(strip.ok_or_else(|| {
-                let why = "the scene has none: by = \"map\" finds the shore without";
+                let why = "no mesh of the scene is named strip, and shore.strip names no file of one: by = \"map\" \
+                           finds the shore without";
                 Failure::input(format!("shore.by = \"strip\": {why}"))
             })?),
             By::Map => {
@@ -108,13 +115,16 @@ impl Shores {
                 Land::Map { size: file.shore.map.unwrap_or(MAP), area }
             }
         };
-        Ok(Self { config: file.shore.config(), shore, land, web: web(file)? })
+        Ok(Self { config: file.shore.config(), shore, land, web: web(file)?, mask: mask(file)? })
     }
 
     /// Hands over what is the same in all frames.
     pub fn set_up(&self, headless: &mut Headless, scene: &Scene) -> Result<(), Error> {
         if let Some((size, texels)) = &self.web {
             headless.shore_web(*size, texels)?;
+        }
+        if let Some((size, texels)) = &self.mask {
+            headless.shore_mask(*size, texels)?;
         }
         match &self.land {
             Land::None => {}
@@ -161,6 +171,11 @@ fn web(file: &SettingsFile) -> Outcome<Option<([u32; 2], Vec<f32>)>> {
     file.shore.web.as_deref().map(pattern::values).transpose()
 }
 
+/// The user's mask of contact foam.
+fn mask(file: &SettingsFile) -> Outcome<Option<([u32; 2], Vec<f32>)>> {
+    file.contact.mask_picture.as_deref().map(pattern::values).transpose()
+}
+
 /// Where each mesh is in a frame.
 pub fn transforms(scene: &Scene, frame: u64) -> Vec<Mat4> {
     let pose = |index: usize| {
@@ -202,13 +217,18 @@ pub fn scene_of(which: &Which, level: f32, settings: &mut Settings) -> Outcome<(
             contact.mask_speed = [0.02, 0.3];
             (scenes::lava(), By::None)
         }
-        Which::File(path) => (own(path, level)?, By::Map),
+        Which::File(path) => {
+            let own = file(path, level)?;
+            let by = if own.strip.is_some() { By::Strip } else { By::Map };
+            (own, by)
+        }
     })
 }
 
 /// A scene of the user's in a sea.
-fn own(path: &Path, level: f32) -> Outcome<ShoreScene> {
+fn file(path: &Path, level: f32) -> Outcome<ShoreScene> {
     let mut scene = stage::read(path)?;
+    let strip = own::taken(path, &mut scene)?;
     let (low, high) = scene.bounds();
     if !(low.y..=high.y).contains(&level) {
         let why = format!("it goes from {} to {} in height", low.y, high.y);
@@ -233,7 +253,7 @@ fn own(path: &Path, level: f32) -> Outcome<ShoreScene> {
         level,
         frames: 240,
         fps: 24.0,
-        strip: None,
+        strip,
         scene,
     })
 }

@@ -1,6 +1,7 @@
 //! Shores: scenes with a sea, what goes round their islands, and the foam on it.
 
 mod draw;
+mod own;
 mod scenes;
 pub mod strip;
 pub mod terrain;

@@ -1,5 +1,7 @@
 //! Shoreline and contact foam.
 
+use whitewater::io::picture::{Layers, write_png_values};
+
 use super::support::{FRONT, Folder, SMALL, block};
 
 /// A hill that stands in the sea.
@@ -39,6 +41,61 @@ fn foam_goes_round_a_hill_of_ones_own() {
     assert!(!folder.exists("none.png"));
 }
 
+/// A ring about a hill whose shore is a circle of radius 4, from 7 out in the sea to 3 on the land, in an OBJ.
+fn ring(with_v: bool) -> String {
+    let mut text = String::new();
+    let corner = |i: usize, radius: f32| {
+        let (sin, cos) = (i as f32 * std::f32::consts::TAU / 24.0).sin_cos();
+        [radius * cos, radius * sin]
+    };
+    for i in 0..24 {
+        for (radius, v) in [(7.0, 0.0), (4.0, 1.0), (3.0, 2.0)] {
+            let [x, z] = corner(i, radius);
+            text += &format!("v {x} 0.02 {z}\n");
+            if with_v {
+                text += &format!("vt 0 {v}\n");
+            }
+        }
+    }
+    for i in 0..24 {
+        for k in 1..3 {
+            let [a, b] = [i, (i + 1) % 24].map(|i| 3 * i + k);
+            let face = [a, b, b + 1, a + 1];
+            let face = face.map(|n| if with_v { format!("{n}/{n}") } else { n.to_string() });
+            text += &format!("f {}\n", face.join(" "));
+        }
+    }
+    text
+}
+
+/// A strip of the user's, from a file of its own: foam where it lies, and as v says.
+#[test]
+fn a_strip_of_ones_own() {
+    let folder = Folder::new();
+    folder.text("hill.json", HILL);
+    folder.text("ring.obj", &ring(true));
+    let rest = "[shoreline]\nreach = [3.0, 1.0]\n[contact]\nopacity = 0.0\n";
+    let view = "--eye 0,14,4 --target 0,0,0 --fov 50 --supersample 1 --layers shore.amount";
+    let draw = |name: &str, shore: &str| {
+        folder.text("s.toml", &format!("[shore]\n{shore}\n{rest}"));
+        folder.run(&format!("render --shore hill.json {view} {SMALL} --settings s.toml -o {name}"))
+    };
+    draw("strip.exr", "strip = \"ring.obj\"").ok();
+    draw("map.exr", "map = 256").ok();
+    let [strip, map] = ["strip.exr", "map.exr"].map(|name| folder.picture(name));
+    let [strip, map] = [&strip, &map].map(|picture| picture.channel("shore.amount").unwrap());
+    // Both know the same v, the one from the ring's corners, the other from the hill.
+    let off = strip.iter().zip(map).map(|(a, b)| (a - b).abs()).sum::<f32>();
+    let all = map.iter().sum::<f32>();
+    assert!(all > 100.0 && off < 0.25 * all, "{off} of {all}");
+    folder.text("ring.obj", &ring(false));
+    draw("n.exr", "strip = \"ring.obj\"")
+        .fails(3, &["ring.obj", "v of 0 everywhere", "second", "vt of OBJ"]);
+    folder.text("s.toml", "[shore]\nstrip = \"hill.json\"\n");
+    let json = format!("render --shore hill.json {view} {SMALL} --settings s.toml -o n.exr");
+    folder.run(&json).fails(3, &["hill.json", "'hill'", "TEXCOORD_0"]);
+}
+
 /// A web of the user's is what is seen.
 #[test]
 fn a_web_of_ones_own() {
@@ -58,6 +115,29 @@ fn a_web_of_ones_own() {
     folder.text("s.toml", "[shore]\nweb = \"gone.png\"\n");
     let gone = format!("render --shore hill.json {view} {SMALL} --settings s.toml -o n.png");
     folder.run(&gone).fails(3, &["gone.png"]);
+}
+
+/// A mask of the user's lies over the view: where it is black there is no contact foam.
+#[test]
+fn a_mask_of_ones_own() {
+    let folder = Folder::new();
+    let mut half = Layers::new(8, 6);
+    let values: Vec<f32> = (0..48).map(|i| f32::from(i % 8 >= 4)).collect();
+    half.push("Y", 8, 6, values).unwrap();
+    let file = std::fs::File::create(folder.path("half.png")).unwrap();
+    write_png_values(&half, file).unwrap();
+    folder.text("s.toml", "[contact]\nmask = 1.0\nmask_picture = \"half.png\"\n");
+    let pool = format!("render --shore pool {SMALL} --supersample 1 --settings s.toml");
+    folder.run(&format!("{pool} --layers contact.amount -o half.exr --validate")).ok();
+    let picture = folder.picture("half.exr");
+    let foam = picture.channel("contact.amount").unwrap();
+    let part = |right: bool| {
+        let own = foam.iter().enumerate().filter(|(i, _)| (i % 96 >= 48) == right);
+        own.map(|(_, v)| v).sum::<f32>()
+    };
+    assert!(part(false) == 0.0 && part(true) > 5.0, "{} and {}", part(false), part(true));
+    folder.text("s.toml", "[contact]\nmask_picture = \"gone.png\"\n");
+    folder.run(&format!("{pool} -o n.png")).fails(3, &["gone.png"]);
 }
 
 /// Foam where particles' water meets what stands in it.
