@@ -123,7 +123,8 @@ impl Renderer {
     /// the first `record`; again where `reconfigure` says so.
     ///
     /// # Safety
-    /// `cmd` is recording outside a render pass and is submitted before any `record`.
+    /// `cmd` is recording outside a render pass and is submitted before any `record`. It is no slot's: until a frame
+    /// that was recorded after it has come back, its work is complete before `resize` and `reconfigure`.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         self.environment.record_setup(&self.gpu, cmd);
         if let Some(bubbles) = &self.bubbles {
@@ -396,9 +397,12 @@ impl Renderer {
         }
     }
 
-    /// Says that the slot has come back (its work is complete): frees what `resize` and
-    /// `reconfigure` retired and no frame in flight uses any more.
-    pub fn collect(&mut self, slot: Slot) {
+    /// Says that the slot has come back: frees what `resize` and `reconfigure` retired and no frame in flight uses any
+    /// more.
+    ///
+    /// # Safety
+    /// All GPU work that was recorded with the slot is complete, or will never be submitted.
+    pub unsafe fn collect(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.has_environment = false;
         }
@@ -407,11 +411,16 @@ impl Renderer {
     }
 
     /// Says that the command buffer recorded last with this slot was thrown away.
-    pub fn abandon(&mut self, slot: Slot) {
+    ///
+    /// # Safety
+    /// As [`collect`](Self::collect): that command buffer will never be submitted, and what was recorded with the slot
+    /// before it is complete.
+    pub unsafe fn abandon(&mut self, slot: Slot) {
         if let Some(state) = self.slots.get_mut(slot.0 as usize) {
             state.timer.abandon();
         }
-        self.collect(slot);
+        // SAFETY: the caller's promises, passed on.
+        unsafe { self.collect(slot) };
     }
 
     /// Retired objects that still wait for their slots.

@@ -99,7 +99,8 @@ impl Headless {
         for picture in pictures.into_iter().flatten() {
             picture.destroy(&self.gpu);
         }
-        self.renderer.collect(Slot(0));
+        // SAFETY: every run waits for its end.
+        unsafe { self.renderer.collect(Slot(0)) };
         self.gpu.bury();
         if result.is_err() {
             self.forget_scene();

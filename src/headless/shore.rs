@@ -171,7 +171,8 @@ impl Headless {
     /// Of other numbers of texels; no [`Config::shore`](crate::Config::shore), no memory, what Vulkan reports.
     pub fn shore_web(&mut self, size: [u32; 2], texels: &[f32]) -> Result<(), Error> {
         let (image, staged) = self.values("web", size, texels)?;
-        self.renderer.collect(Slot(0));
+        // SAFETY: every run waits for its end.
+        unsafe { self.renderer.collect(Slot(0)) };
         self.run(|this, cmd| {
             this.upload(cmd, &staged, &image, NOTHING, COMPUTE_SAMPLED);
             let host = super::draw::host_image(&image, COMPUTE_SAMPLED);

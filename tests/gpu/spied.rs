@@ -61,7 +61,7 @@ fn watched(name: &str, rig: &mut Rig<'_>, shot: &Shot, particles: Particles) {
         assert_eq!(spy::barriers_of(color.image), 2 + inner, "{name}");
         rig.stub.end(0);
         rig.stub.wait(0);
-        rig.renderer().collect(Slot(0));
+        rig.collect(Slot(0));
     }
 }
 
@@ -171,7 +171,7 @@ fn memory_is_steady() {
             ..shot.frame(color.host_image(), depth.host_image(), cloud.particles())
         };
         let cmd = rig.stub.begin(slot);
-        rig.renderer().collect(Slot(slot));
+        rig.collect(Slot(slot));
         // SAFETY: cmd is recording; the slot was waited for.
         unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
         rig.stub.end(slot);
@@ -424,7 +424,7 @@ fn a_failed_record_can_be_repeated() {
                 Ok(_) => panic!("{:?} call {k}: no error", function.name),
             }
             // Discarded: begin resets it.
-            rig.renderer().abandon(Slot(0));
+            rig.abandon(Slot(0));
         }
     }
     let cmd = rig.stub.begin(0);

@@ -306,7 +306,7 @@ fn bad_frames_are_errors_before_any_command() {
                 let found = other.map(|_| "no error");
                 wrong.push(format!("{name}: {found:?} with {commands} commands"));
                 rig.stub.throw_away(1);
-                rig.renderer().abandon(Slot(1));
+                rig.abandon(Slot(1));
                 cmd = rig.stub.begin(1);
             }
             Err(_) => wrong.push(format!("{name}: a panic")),

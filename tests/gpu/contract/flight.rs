@@ -67,7 +67,7 @@ fn in_flight(composite: Shading) {
         let slot = frame % 3;
         if let Some(flight) = flights[slot].take() {
             rig.stub.wait(slot as u32);
-            rig.renderer().collect(Slot(slot as u32));
+            rig.collect(Slot(slot as u32));
             let found = output_of(&rig, &flight);
             compare::same_color(&format!("flight-{frame}"), &found, &flight.expected.output);
         }
@@ -84,7 +84,7 @@ fn in_flight(composite: Shading) {
     }
     for (slot, flight) in flights.iter_mut().enumerate() {
         rig.stub.wait(slot as u32);
-        rig.renderer().collect(Slot(slot as u32));
+        rig.collect(Slot(slot as u32));
         if let Some(flight) = flight.take() {
             compare::same_color("flight-last", &output_of(&rig, &flight), &flight.expected.output);
         }
@@ -125,7 +125,7 @@ fn filtered_shadows_of_two_slots_in_flight() {
         });
         for (slot, flight) in (0..).zip(&flights) {
             rig.stub.wait(slot);
-            rig.renderer().collect(Slot(slot));
+            rig.collect(Slot(slot));
             let name = format!("filtered-{round}-{slot}");
             compare::same_color(&name, &output_of(&rig, flight), &flight.expected.output);
         }
@@ -143,7 +143,7 @@ fn layers_are_read_between_records() {
         let expected = Rig::new(&gpu, &config(size)).draw(&shot);
         let flight = launch(&mut rig, slot, &shot, expected);
         rig.stub.wait(slot);
-        rig.renderer().collect(Slot(slot));
+        rig.collect(Slot(slot));
         let found = rig.read(&flight.color.host_image(), &flight.recorded);
         compare::same("layers-surface", &found.surface, &flight.expected.surface);
         compare::same("layers-thickness", &found.thickness, &flight.expected.thickness);

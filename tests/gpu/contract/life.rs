@@ -102,10 +102,10 @@ fn reconfigure_gives_what_a_new_renderer_gives() {
         rig.stub.wait(i as u32 % 2);
         compare::same_color(&name, &output_of(&rig, &now), &now.expected.output);
         drop(flight.replace(now));
-        rig.renderer().collect(Slot((i as u32 + 1) % 2));
+        rig.collect(Slot((i as u32 + 1) % 2));
     }
-    rig.renderer().collect(Slot(0));
-    rig.renderer().collect(Slot(1));
+    rig.collect(Slot(0));
+    rig.collect(Slot(1));
     assert_eq!(rig.renderer().retired(), 0);
     let bad = Config { max_particles: 0, ..base };
     assert!(matches!(rig.renderer().reconfigure(&bad), Err(Error::BadInput { .. })));
@@ -132,7 +132,7 @@ fn an_abandoned_frame_does_no_harm() {
         rig.stub.throw_away(slot);
         rig.renderer().resize(size).expect("resize");
         assert!(rig.renderer().retired() > 0);
-        rig.renderer().abandon(Slot(slot));
+        rig.abandon(Slot(slot));
         assert_eq!(rig.renderer().retired(), 0);
         assert!(rig.renderer().timings(Slot(slot)).len() < 64, "and its timings do not wait");
         compare::same_color("abandoned", &rig.draw(&shot).output, &expected.output);

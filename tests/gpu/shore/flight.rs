@@ -68,7 +68,7 @@ fn drawn(gpu: &Gpu, steps: u32, wait: bool) -> Vec<Image<[f32; 4]>> {
     for (frame, shot) in (0..FRAMES).zip(&mut shots) {
         let slot = frame % SLOTS;
         rig.stub.wait(slot);
-        rig.renderer().collect(Slot(slot));
+        rig.collect(Slot(slot));
         let cmd = rig.stub.begin(slot);
         let meshes;
         let (heights, changed) = match &lands[frame as usize] {

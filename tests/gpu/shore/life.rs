@@ -137,7 +137,7 @@ fn a_web_of_the_host_s_is_what_is_seen() {
     unsafe { rig.renderer().record_web(cmd, Slot(0), &image) }.expect("record_web");
     rig.stub.end(0);
     rig.stub.wait(0);
-    rig.renderer().collect(Slot(0));
+    rig.collect(Slot(0));
     let found = rig.draw(&shot).shore.expect("foam");
     assert_ne!(found.data, first.data);
     let web = Levels::web(n, &texels);

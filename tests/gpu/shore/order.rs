@@ -169,7 +169,7 @@ fn recorded(rig: &mut Rig<'_>, shot: &Shot) -> Vec<Event> {
     }
     let events = spy::take_events();
     rig.stub.throw_away(0);
-    (0..2).for_each(|slot| rig.renderer().abandon(Slot(slot)));
+    (0..2).for_each(|slot| rig.abandon(Slot(slot)));
     events
 }
 

@@ -79,6 +79,18 @@ impl<'g> Rig<'g> {
         self.renderer.as_mut().expect("only drop takes it")
     }
 
+    /// The slot has come back.
+    pub fn collect(&mut self, slot: Slot) {
+        // SAFETY: tests wait for a slot before they say so.
+        unsafe { self.renderer().collect(slot) };
+    }
+
+    /// What was recorded with the slot was thrown away.
+    pub fn abandon(&mut self, slot: Slot) {
+        // SAFETY: tests never submit what they throw away, and wait for what was recorded before it.
+        unsafe { self.renderer().abandon(slot) };
+    }
+
     /// Records the set-up again: after a reconfigure that made the environment anew.
     pub fn set_up(&mut self) {
         let renderer = self.renderer.as_mut().expect("only drop takes it");
@@ -163,7 +175,7 @@ impl<'g> Rig<'g> {
         let result =
             self.stub.run(|cmd| unsafe { renderer.record_environment(cmd, Slot(0), source) });
         result.expect("record_environment");
-        renderer.collect(Slot(0));
+        self.collect(Slot(0));
     }
 
     /// Usage of outputs: as between the host's own passes, and what the composite's way needs.
@@ -271,7 +283,7 @@ impl<'g> Rig<'g> {
         self.stub.end(0);
         self.stub.wait(0);
         let drawn = recorded.map(|recorded| self.read(&output, &recorded));
-        self.renderer().collect(Slot(0));
+        self.collect(Slot(0));
         drawn
     }
 }

@@ -127,14 +127,14 @@ pub fn draw(
     for number in 0..FRAMES {
         let slot = Slot(number % FRAMES_IN_FLIGHT);
         let (pool, cmd, fence) = slots[slot.0 as usize];
-        // SAFETY: after the fence nothing uses the slot's pool.
+        // SAFETY: after the fence nothing uses the slot, nor its pool.
         unsafe {
             device.wait_for_fences(&[fence], true, u64::MAX)?;
             device.reset_fences(&[fence])?;
             device.reset_command_pool(pool, vk::CommandPoolResetFlags::empty())?;
             device.begin_command_buffer(cmd, &vk::CommandBufferBeginInfo::default())?;
+            water.collect(slot);
         }
-        water.collect(slot);
 
         let time = number as f32 / 30.0;
         let wave = wave(time);
