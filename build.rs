@@ -59,6 +59,7 @@ fn compile_all(glsl: &Path, compiler: &Compiler, out: &Path) {
     find_shaders(glsl, &mut sources);
     sources.sort();
     let mut generated = String::new();
+    let mut all = String::from("/// All there are.\npub const ALL: &[Shader] = &[\n");
     for path in &sources {
         println!("cargo:rerun-if-changed={}", path.display());
         let name = relative_name(glsl, path);
@@ -69,7 +70,10 @@ fn compile_all(glsl: &Path, compiler: &Compiler, out: &Path) {
         // The optimiser drops the names: the interface is read from a second, plain compilation.
         let module = Module::parse(&compiler.compile(path, &name, false));
         write_shader(&mut generated, &name, &file, &module);
+        writeln!(all, "    {},", constant(&name)).expect("String");
     }
+    all.push_str("];\n");
+    generated.push_str(&all);
     for include in fs::read_dir(glsl.join("include")).expect("glsl/include").flatten() {
         println!("cargo:rerun-if-changed={}", include.path().display());
     }
@@ -205,6 +209,7 @@ struct Module {
     images: BTreeMap<u32, u32>,
     sampled_images: Vec<u32>,
     variables: Vec<(u32, u32, u32)>,
+    locations: BTreeMap<u32, u32>,
     local_size: [u32; 3],
 }
 
@@ -229,15 +234,23 @@ impl Module {
                 }
                 25 => drop(module.images.insert(a[0], a[6])),
                 27 => module.sampled_images.push(a[0]),
-                43 => drop(constants.insert(a[1], a[2])),
+                20 => drop(module.type_sizes.insert(a[0], 4)),
+                // Specialised ones by their defaults: none is the length of a shared array.
+                43 | 50 => drop(constants.insert(a[1], a[2])),
                 28 => {
                     let count = constants.get(&a[2]).copied().unwrap_or(0);
                     let size = module.type_sizes.get(&a[1]).copied().unwrap_or(0) * count;
                     module.type_sizes.insert(a[0], size);
                 }
-                30 => drop(module.structs.insert(a[0], a[1..].to_vec())),
+                30 => {
+                    let size = |member| module.type_sizes.get(member).copied().unwrap_or(0);
+                    let size = a[1..].iter().map(size).sum();
+                    module.type_sizes.insert(a[0], size);
+                    module.structs.insert(a[0], a[1..].to_vec());
+                }
                 32 => drop(module.pointers.insert(a[0], (a[1], a[2]))),
                 59 => module.variables.push((a[0], a[1], a[2])),
+                71 if a[1] == 30 => drop(module.locations.insert(a[0], a[2])),
                 71 if a[1] == 33 => drop(module.bindings.insert(a[0], a[2])),
                 71 if a[1] == 34 => drop(module.sets.insert(a[0], a[2])),
                 72 if a[2] == 35 => drop(module.member_offsets.insert((a[0], a[1]), a[3])),
@@ -270,6 +283,19 @@ impl Module {
         found
     }
 
+    /// Bytes that a workgroup shares.
+    fn shared(&self) -> u32 {
+        let shared = self.variables.iter().filter(|(_, _, storage)| *storage == 4);
+        shared.map(|(pointer, ..)| self.type_sizes[&self.pointers[pointer].1]).sum()
+    }
+
+    /// Places of a stage's results: of a fragment shader its attachments.
+    fn outputs(&self) -> u32 {
+        let written =
+            |(_, id, storage): &&(u32, u32, u32)| *storage == 3 && self.locations.contains_key(id);
+        self.variables.iter().filter(written).count() as u32
+    }
+
     /// Push-constant block: its type, and its size in bytes.
     fn push(&self) -> Option<(u32, u32)> {
         let (pointer, _, _) = self.variables.iter().find(|v| v.2 == 9)?;
@@ -288,8 +314,12 @@ fn text(words: &[u32]) -> String {
     String::from_utf8_lossy(&bytes[..end]).into_owned()
 }
 
+fn constant(name: &str) -> String {
+    name.replace(['/', '.'], "_").to_uppercase()
+}
+
 fn write_shader(out: &mut String, name: &str, file: &str, module: &Module) {
-    let constant = name.replace(['/', '.'], "_").to_uppercase();
+    let constant = constant(name);
     let push_size = module.push().map_or(0, |(_, size)| size);
     writeln!(out, "/// `{name}`").expect("String");
     writeln!(out, "pub const {constant}: Shader = Shader {{").expect("String");
@@ -301,6 +331,8 @@ fn write_shader(out: &mut String, name: &str, file: &str, module: &Module) {
     .expect("String");
     writeln!(out, "    push_size: {push_size},").expect("String");
     writeln!(out, "    local_size: {:?},", module.local_size).expect("String");
+    writeln!(out, "    shared: {},", module.shared()).expect("String");
+    writeln!(out, "    outputs: {},", module.outputs()).expect("String");
     out.push_str("    bindings: &[");
     for (binding, kind) in module.descriptors() {
         write!(out, "({binding}, vk::DescriptorType::{kind}), ").expect("String");

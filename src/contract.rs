@@ -69,8 +69,14 @@ pub struct Enabled {
 /// [`reconfigure`](crate::Renderer::reconfigure).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Largest size of the output's part in pixels, 1 to the device's 2D image limit. Images are
-    /// made for it; a frame may be smaller ([`HostImage::rect`]).
+    /// Largest size of the output's part in pixels, 1 to the device's limit of 2D images, framebuffers and viewports.
+    /// Images are made for it; a frame may be smaller ([`HostImage::rect`]). Some sizes are too much for a device
+    /// all the same, which [`Offer::check`](crate::Offer::check) says: at a [`smoothing_level`](Self::smoothing_level)
+    /// of 0 all levels of the smoothing have to find room in one image, beside or below each other (of a square, up to
+    /// two thirds of the limit; of a narrow one, any length), and what is bound at once has to be within the device's
+    /// storage-buffer range: with [`diffuse`](Self::diffuse) 32 bytes a pixel, with [`bubbles`](Self::bubbles) 4 for
+    /// each layer and one besides, and a texel of thickness 8, 16 with [`foam`](Self::foam), with two
+    /// [`sheets`](Self::sheets) 16 more.
     pub extent: vk::Extent2D,
     /// Format of the output: a colour attachment, or a storage image as
     /// [`composite`](Self::composite) says.

@@ -270,7 +270,7 @@ pub mod water;
 pub use contract::*;
 pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;
-pub use gpu::requirements::{Need, Offer, Requirements, requirements};
+pub use gpu::requirements::{Limit, Need, Offer, Requirements, requirements};
 pub use gpu::timing::Timing;
 pub use renderer::Renderer;
 pub use state::{State, StateConfig};

@@ -224,7 +224,8 @@ impl Renderer {
         self.retired.recorded(frame.slot.0);
         let uniforms = FrameUniforms::new(&lens, frame, &self.config);
         let extent = frame.output.rect.extent;
-        let levels = SmoothingLevels::new(&self.config, &lens, extent, &frame.settings.water);
+        let levels =
+            self.water.smoothing_levels(&self.config, &lens, extent, &frame.settings.water);
         let mapped = slot.uniforms.mapped_mut();
         mapped[..size_of::<FrameUniforms>()].copy_from_slice(bytemuck::bytes_of(&uniforms));
         mapped[LEVELS..][..size_of::<SmoothingLevels>()]

@@ -27,6 +27,15 @@ impl Buffer {
         usage: vk::BufferUsageFlags,
         location: MemoryLocation,
     ) -> Result<Self, Error> {
+        if size > gpu.max_buffer_size {
+            return Err(Error::Missing {
+                what: format!("a buffer of {size} bytes, for {name}"),
+                why: format!(
+                    "the device makes them of {} at most: fewer particles, or a smaller extent",
+                    gpu.max_buffer_size
+                ),
+            });
+        }
         let info = vk::BufferCreateInfo::default().size(size.max(4)).usage(usage);
         // SAFETY: valid create info.
         let handle = unsafe { gpu.device.create_buffer(&info, None) }

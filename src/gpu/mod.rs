@@ -6,6 +6,8 @@ pub mod buffer;
 pub mod descriptors;
 pub mod graveyard;
 pub mod image;
+pub mod limits;
+mod loaded;
 pub mod pass;
 pub mod pipeline;
 pub mod requirements;
@@ -35,6 +37,8 @@ pub struct Gpu {
     pub slots: u32,
     /// Limits of the physical device.
     pub limits: vk::PhysicalDeviceLimits,
+    /// Bytes of a buffer at most.
+    pub max_buffer_size: u64,
     /// What kind of device it is: the defaults of the paths depend on it.
     pub kind: vk::PhysicalDeviceType,
     /// Timestamps that the queue family writes; 0 for none.
@@ -66,6 +70,7 @@ pub struct Samplers {
 impl Gpu {
     /// Takes over what the host hands in.
     pub fn new(host: &Host<'_>) -> Result<Arc<Self>, Error> {
+        loaded::check(host)?;
         // SAFETY: the host guarantees that its handles are alive and belong together.
         let (properties, families, pairs) = unsafe {
             let (instance, physical) = (host.instance, host.physical_device);
@@ -77,6 +82,12 @@ impl Gpu {
             )
         };
         let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
+        let mut maintenance = vk::PhysicalDeviceMaintenance4Properties::default();
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut maintenance);
+        // SAFETY: as above; the chain is well formed.
+        unsafe {
+            host.instance.get_physical_device_properties2(host.physical_device, &mut chain);
+        }
         let family = families.get(host.queue_family as usize).ok_or_else(|| {
             Error::bad(
                 "Host.queue_family",
@@ -101,6 +112,7 @@ impl Gpu {
             enabled: host.enabled,
             slots: host.frames_in_flight,
             limits: properties.limits,
+            max_buffer_size: maintenance.max_buffer_size,
             kind: properties.device_type,
             timestamp_bits: family.timestamp_valid_bits,
             blends_pairs: pairs.optimal_tiling_features.contains(blended),

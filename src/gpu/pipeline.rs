@@ -6,6 +6,7 @@ use ash::vk;
 
 use super::Gpu;
 use super::graveyard::{Grave, Graveyard};
+use super::limits;
 use super::shader::Shader;
 use crate::error::{Error, VkContext};
 
@@ -210,6 +211,7 @@ impl Pipeline {
         let mut bindings = BTreeMap::new();
         let mut visible: BTreeMap<u32, vk::ShaderStageFlags> = BTreeMap::new();
         for (shader, stage) in shaders {
+            limits::check(shader, &gpu.limits)?;
             for &(binding, kind) in shader.bindings {
                 let earlier = *bindings.entry(binding).or_insert(kind);
                 debug_assert_eq!(earlier, kind, "{} binding {binding}", shader.name);

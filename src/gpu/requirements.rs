@@ -9,8 +9,12 @@ use crate::contract::Enabled;
 use crate::error::Error;
 use crate::foam;
 use crate::foam::splat::word_bytes;
+use crate::gpu::{limits, loaded};
+use crate::shore::bytes_bound as shore_bytes;
 use crate::water::settings::{Gate, Shading, Smoothing, Splat};
-use crate::water::{DEFAULT_SPLAT, foam_bytes, thickness_bytes};
+use crate::water::{DEFAULT_SPLAT, foam_bytes, smoothing_extent, thickness_bytes, water_bytes};
+
+pub use limits::Limit;
 
 /// One thing the host must or may enable, and why.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +38,8 @@ pub struct Requirements {
     pub optional_extensions: &'static [&'static CStr],
 }
 
-/// What the library needs. Ask it before making the device.
+/// What the library needs. Ask it before making the device; what a configuration needs of the device's limits
+/// [`Offer::limits`] says.
 pub fn requirements() -> Requirements {
     Requirements {
         api_version: vk::API_VERSION_1_3,
@@ -69,7 +74,7 @@ pub fn requirements() -> Requirements {
 /// What a device offers, so that it can be mocked in tests.
 #[derive(Clone, Copy, Debug)]
 pub struct Offer {
-    /// Its Vulkan version.
+    /// Its Vulkan version; 1.0 where the instance is of 1.0, which cannot be asked for more.
     pub api_version: u32,
     /// `synchronization2` is supported.
     pub synchronization2: bool,
@@ -101,6 +106,11 @@ impl Offer {
         physical: vk::PhysicalDevice,
         output_format: vk::Format,
     ) -> Self {
+        if !loaded::of_instance(instance) {
+            // SAFETY: the handles are alive and belong together.
+            let properties = unsafe { instance.get_physical_device_properties(physical) };
+            return Self::bare(properties.limits);
+        }
         let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
         let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
         let mut conditional = vk::PhysicalDeviceConditionalRenderingFeaturesEXT::default();
@@ -155,13 +165,34 @@ impl Offer {
         }
     }
 
+    /// Vulkan 1.0 without anything.
+    fn bare(limits: vk::PhysicalDeviceLimits) -> Self {
+        Self {
+            api_version: vk::API_VERSION_1_0,
+            synchronization2: false,
+            blend_floats: false,
+            foam_floats: false,
+            basis: [false; 2],
+            motion_floats: false,
+            output_attachment: false,
+            output_storage: false,
+            optional: Enabled::default(),
+            limits,
+        }
+    }
+
+    /// What a configuration needs of the device's limits: of descriptors, workgroups, attachments and push constants.
+    pub fn limits(&self, config: &crate::contract::Config) -> Vec<Limit> {
+        limits::of(config, self.optional.buffer_int64_atomics)
+    }
+
     /// What is missing for a configuration, as an error that says what to do.
     pub fn check(&self, config: &crate::contract::Config) -> Result<(), Error> {
         let missing = |what: String, why: &str| Err(Error::Missing { what, why: why.into() });
         if self.api_version < vk::API_VERSION_1_3 {
             return missing(
                 format!(
-                    "Vulkan 1.3 (the device has {}.{})",
+                    "Vulkan 1.3 (the device, or the instance, has {}.{})",
                     vk::api_version_major(self.api_version),
                     vk::api_version_minor(self.api_version)
                 ),
@@ -171,6 +202,7 @@ impl Offer {
         if !self.synchronization2 {
             return missing("synchronization2".into(), "every barrier needs it");
         }
+        limits::check_config(config, self.optional.buffer_int64_atomics, &self.limits)?;
         match crate::composite::way(config) {
             Shading::Raster if !self.output_attachment => {
                 return missing(
@@ -285,14 +317,38 @@ impl Offer {
                 return Err(Error::bad(field, why));
             }
         }
-        let most = self.limits.max_image_dimension2_d;
-        if config.extent.width > most || config.extent.height > most {
-            return Err(Error::bad(
-                "Config.extent",
-                format!("{} is larger than the device's images ({most})", named(config.extent)),
-            ));
+        let most = self.largest();
+        let over = |extent: vk::Extent2D| extent.width > most.width || extent.height > most.height;
+        if over(config.extent) {
+            let why = format!(
+                "{} is larger than the device's images ({})",
+                named(config.extent),
+                named(most)
+            );
+            return Err(Error::bad("Config.extent", why));
+        }
+        let levels = smoothing_extent(config, &self.limits);
+        if over(levels) {
+            let why = format!(
+                "{} takes an image of {} for the levels of its smoothing, larger than the device's ({}): a smaller \
+                 extent, a higher Config.smoothing_level, or a coarsening of 0 and one sheet",
+                named(config.extent),
+                named(levels),
+                named(most)
+            );
+            return Err(Error::bad("Config.extent", why));
         }
         Ok(())
+    }
+
+    /// The largest image that can be drawn into.
+    fn largest(&self) -> vk::Extent2D {
+        let limits = &self.limits;
+        let (image, view) = (limits.max_image_dimension2_d, limits.max_viewport_dimensions);
+        vk::Extent2D {
+            width: image.min(limits.max_framebuffer_width).min(view[0]),
+            height: image.min(limits.max_framebuffer_height).min(view[1]),
+        }
     }
 }
 
@@ -300,7 +356,8 @@ fn named(extent: vk::Extent2D) -> String {
     format!("{}x{}", extent.width, extent.height)
 }
 
-/// What grows with the extent by more than a few bytes a pixel and is bound whole: the field, the bytes, and what to do.
+/// What grows with the extent and is bound whole: the field, the bytes, and what to do. Left out are lists of tiles, a
+/// word each, which no image is large enough for.
 fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'static str)> {
     let fewer = "a smaller extent, or a higher Config.thickness_level";
     let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)
@@ -308,6 +365,9 @@ fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'st
     let words = sums.filter(|_| config.foam).map(|_| ("Config.extent", foam_bytes(config), fewer));
     let diffuse =
         config.diffuse.map(|_| ("Config.diffuse", word_bytes(config.extent), "a smaller extent"));
+    let water = [("Config.extent", water_bytes(config), fewer)];
+    let shore =
+        config.shore.map(|_| ("Config.shore", shore_bytes(config.extent), "a smaller extent"));
     let bubbles = config.bubbles.iter().flat_map(|bubbles| {
         let (layers, lists) = bubble_bytes(config.extent, bubbles);
         [
@@ -315,5 +375,5 @@ fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'st
             ("Config.bubbles.max_blobs", lists, "fewer blobs, or a smaller extent"),
         ]
     });
-    sums.into_iter().chain(words).chain(diffuse).chain(bubbles).collect()
+    sums.into_iter().chain(words).chain(diffuse).chain(water).chain(shore).chain(bubbles).collect()
 }

@@ -13,6 +13,10 @@ pub struct Shader {
     pub push_size: u32,
     /// Workgroup size (compute).
     pub local_size: [u32; 3],
+    /// Bytes that a workgroup shares (compute).
+    pub shared: u32,
+    /// Results (of a fragment shader its attachments).
+    pub outputs: u32,
     /// Bindings of set 0.
     pub bindings: &'static [(u32, vk::DescriptorType)],
     /// (block, member, byte offset) of every block member.

@@ -34,6 +34,7 @@ pub use settings::{
 };
 use textures::Textures;
 pub(crate) use tiles::COAT_DISPATCH;
+pub(crate) use tiles::list_bytes as bytes_bound;
 
 /// The block `ShoreFrame` of `glsl/include/shore.glsl`; its comments say what each member holds.
 #[repr(C)]

@@ -54,12 +54,18 @@ pub fn extent_in_tiles(extent: vk::Extent2D) -> vk::Extent2D {
     reduced(extent, LEVEL)
 }
 
+/// Bytes of the lists of an extent.
+pub fn list_bytes(extent: vk::Extent2D) -> u64 {
+    let vk::Extent2D { width, height } = extent_in_tiles(extent);
+    4 * u64::from(LISTS) * u64::from(width) * u64::from(height)
+}
+
 impl Lists {
     fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let vk::Extent2D { width: x, height: y } = extent_in_tiles(config.extent);
         let words = |name, each: u32| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-            let bytes = 4 * u64::from(each * x * y);
+            let bytes = 4 * u64::from(each) * u64::from(x) * u64::from(y);
             Buffer::new(gpu, name, bytes, usage, MemoryLocation::GpuOnly)
         };
         Ok(Self { most: x * y, marks: words("shore/marks", 1)?, list: words("shore/list", LISTS)? })

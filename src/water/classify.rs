@@ -149,7 +149,8 @@ impl Classify {
     pub fn new(gpu: &Gpu, max_particles: u32, max_stride: u32) -> Result<Self, Error> {
         let range = gpu.limits.max_storage_buffer_range;
         let parts = Parts::new(max_particles, range).ok_or_else(|| {
-            let why = format!("{max_particles}: more than a table has rows for, 2.8 thousand millions");
+            let why =
+                format!("{max_particles}: more than a table has rows for, 2.8 thousand millions");
             Error::bad("StateConfig.max_particles", why)
         })?;
         type Usage = vk::BufferUsageFlags;

@@ -127,7 +127,8 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
     };
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     let unit = chunk_unit(config);
-    let wanted = config.max_particles.max(1).next_multiple_of(unit);
+    // More than fit is not asked for, nor rounded up beyond what is a number.
+    let wanted = config.max_particles.clamp(1, fits.max(1)).next_multiple_of(unit);
     let size = wanted.min(fits - fits % unit).max(unit);
     (size, config.max_particles.max(1).div_ceil(size))
 }
@@ -573,5 +574,34 @@ impl Window {
             }
         }
         Some((bound, windows))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Chunks of whole units that hold all particles there may be, as few as the device binds.
+    #[test]
+    fn any_number_of_particles_has_its_chunks() {
+        let range = 1 << 27;
+        let limits =
+            vk::PhysicalDeviceLimits { max_storage_buffer_range: range, ..Default::default() };
+        let extent = vk::Extent2D { width: 8, height: 8 };
+        for max_particles in [1, 63, 64, 65, 1 << 20, 10_000_000, u32::MAX - 63, u32::MAX] {
+            for (foam, spray) in [(false, false), (true, false), (true, true)] {
+                let format = vk::Format::R16G16B16A16_SFLOAT;
+                let config = Config { foam, spray, ..Config::new(extent, format, max_particles) };
+                let (size, count) = chunks(&limits, &config);
+                let name = format!("{max_particles}: {count} of {size}");
+                assert!(size.is_multiple_of(chunk_unit(&config)), "{name}");
+                assert!(u64::from(size) * u64::from(count) >= u64::from(max_particles), "{name}");
+                assert!(
+                    u64::from(size) * (u64::from(count) - 1) < u64::from(max_particles),
+                    "{name}"
+                );
+                assert!(size <= MOST_CHUNK && size * 16 <= range, "{name}");
+            }
+        }
     }
 }

@@ -33,6 +33,11 @@ struct Push {
     rows: i32,
 }
 
+/// Bytes of the cells of a size.
+pub fn cell_bytes(extent: vk::Extent2D) -> u64 {
+    4 * u64::from(extent.width.div_ceil(CELL)) * u64::from(extent.height.div_ceil(CELL))
+}
+
 /// The pass.
 pub struct Front {
     cover: Pipeline,
@@ -63,7 +68,7 @@ impl Front {
         let buffer = Buffer::new(
             gpu,
             "water/front/cells",
-            4 * u64::from(columns) * u64::from(rows),
+            cell_bytes(config.extent),
             vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             MemoryLocation::GpuOnly,
         )?;

@@ -76,6 +76,13 @@ fn blocks(extent: vk::Extent2D) -> vk::Extent2D {
     vk::Extent2D { width: extent.width.div_ceil(BLOCK), height: extent.height.div_ceil(BLOCK) }
 }
 
+/// Bytes of the longest of what is bound whole.
+pub fn bytes_bound(config: &Config) -> u64 {
+    let thick = reduced(config.extent, config.thickness_level);
+    let boundaries = 4 * u64::from(thick.width) * u64::from(thick.height);
+    boundaries.max(8 * Push::new(config.extent).cells())
+}
+
 impl Push {
     fn new(extent: vk::Extent2D) -> Self {
         Self { columns: extent.width.div_ceil(CELL), rows: extent.height.div_ceil(CELL) }

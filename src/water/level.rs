@@ -59,6 +59,49 @@ fn levels(config: &Config) -> impl Iterator<Item = (usize, u32)> {
     })
 }
 
+/// First texel of each level, and the size of an image that holds all.
+type Placed = ([u32; 2], [[u32; 2]; 7]);
+
+fn in_rows(sizes: &[(usize, vk::Extent2D)]) -> Placed {
+    let (_, first) = sizes[0];
+    let (mut extent, mut origins) = ([first.width, first.height], [[0; 2]; 7]);
+    let (mut x, mut row) = (first.width, [0, first.height]);
+    for &(i, size) in &sizes[1..] {
+        if x + size.width > first.width {
+            (x, row) = (0, [row[1].next_multiple_of(TILE); 2]);
+        }
+        origins[i] = [x, row[0]];
+        row[1] = row[1].max(row[0] + size.height);
+        extent = [extent[0].max(x + size.width), extent[1].max(row[1])];
+        x = (x + size.width).next_multiple_of(TILE);
+    }
+    (extent, origins)
+}
+
+/// Each, the largest first, where the image grows the least, right of one that is there or at the left edge, and below
+/// one or at the top. None where one has no room in an image of so many texels.
+fn anywhere(sizes: &[(usize, vk::Extent2D)], most: u32) -> Option<Placed> {
+    let (mut extent, mut origins) = ([0; 2], [[0; 2]; 7]);
+    let mut taken: Vec<[[u32; 2]; 2]> = Vec::new();
+    for &(i, size) in sizes {
+        let size = [size.width, size.height];
+        let ends = |axis: usize| std::iter::once(0).chain(taken.iter().map(move |r| r[1][axis]));
+        let places = ends(0).flat_map(|x| ends(1).map(move |y| [x, y]));
+        let grown = |at: [u32; 2]| [0, 1].map(|k| extent[k].max(at[k] + size[k]));
+        let free = |at: [u32; 2]| {
+            let over = |[low, high]: &[[u32; 2]; 2]| {
+                (0..2).all(|k| at[k] < high[k] && low[k] < at[k] + size[k])
+            };
+            grown(at).iter().all(|edge| *edge <= most) && !taken.iter().any(over)
+        };
+        let area = |at: [u32; 2]| grown(at).map(u64::from).iter().product::<u64>();
+        let at = places.filter(|at| free(*at)).min_by_key(|at| area(*at))?;
+        (extent, origins[i]) = (grown(at), at);
+        taken.push([at, [0, 1].map(|k| (at[k] + size[k]).next_multiple_of(TILE))]);
+    }
+    Some((extent, origins))
+}
+
 /// How the levels lie in the smoothing images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Atlas {
@@ -68,32 +111,39 @@ pub struct Atlas {
     pub columns: u32,
     /// Rows of tiles.
     pub rows: u32,
-    /// Tiles of the first level, all columns of them.
+    /// Tiles of the first level.
     pub first: u32,
     /// First texel of each level, multiples of the tile's edge.
     origins: [[u32; 2]; 7],
 }
 
 impl Atlas {
-    /// In rows: the first level in one, the others beside each other as far as it is wide.
-    pub fn new(config: &Config) -> Self {
+    /// In rows: the first level in one, the others beside each other as far as it is wide. Where that is more than the
+    /// device's images are high, wherever there is room in what they may be; larger than that where there is none.
+    pub fn new(config: &Config, most: u32) -> Self {
         let first = reduced(config.extent, config.smoothing_level);
-        let (mut extent, mut origins) = (first, [[0; 2]; 7]);
-        let (mut x, mut row) = (first.width, [0, first.height]);
-        for (i, coarser) in levels(config).skip(1) {
-            let size = reduced(config.extent, config.smoothing_level + coarser);
-            if x + size.width > first.width {
-                (x, row) = (0, [row[1].next_multiple_of(TILE); 2]);
-            }
-            origins[i] = [x, row[0]];
-            row[1] = row[1].max(row[0] + size.height);
-            extent.width = extent.width.max(x + size.width);
-            extent.height = extent.height.max(row[1]);
-            x = (x + size.width).next_multiple_of(TILE);
-        }
-        let (columns, rows) = (extent.width.div_ceil(TILE), extent.height.div_ceil(TILE));
-        let first = columns * first.height.div_ceil(TILE);
-        Self { extent, columns, rows, first, origins }
+        let sizes: Vec<_> = levels(config)
+            .map(|(i, coarser)| (i, reduced(config.extent, config.smoothing_level + coarser)))
+            .collect();
+        let rows = in_rows(&sizes);
+        let fits = |(extent, _): &([u32; 2], _)| extent.iter().all(|edge| *edge <= most);
+        let ([width, height], origins) =
+            Some(rows).filter(fits).or_else(|| anywhere(&sizes, most)).unwrap_or(rows);
+        let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
+        let first = first.width.div_ceil(TILE) * first.height.div_ceil(TILE);
+        Self { extent: vk::Extent2D { width, height }, columns, rows, first, origins }
+    }
+
+    /// On a device.
+    pub fn of(gpu: &Gpu, config: &Config) -> Self {
+        Self::within(config, &gpu.limits)
+    }
+
+    /// Where a device has such limits: the levels are drawn into.
+    pub fn within(config: &Config, limits: &vk::PhysicalDeviceLimits) -> Self {
+        let drawn = limits.max_framebuffer_width.min(limits.max_framebuffer_height);
+        let [x, y] = limits.max_viewport_dimensions;
+        Self::new(config, limits.max_image_dimension2_d.min(drawn).min(x).min(y))
     }
 
     /// Number of tiles.
@@ -109,8 +159,8 @@ impl SmoothingLevels {
         lens: &Lens,
         full: vk::Extent2D,
         water: &WaterSettings,
+        atlas: &Atlas,
     ) -> Self {
-        let atlas = Atlas::new(config);
         let pixel = lens.pixel(full);
         let mut level = [SmoothingLevel::default(); 7];
         for (i, coarser) in levels(config) {
@@ -256,5 +306,74 @@ impl Level {
 
     pub fn memory(&self) -> u64 {
         self.marked.size
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Apart by whole tiles, the first at the corner, none over the edge of what the device has.
+    fn assert_placed(config: &Config, most: u32) {
+        let atlas = Atlas::new(config, most);
+        let name = format!("{:?} of {most}: {atlas:?}", config.extent);
+        let vk::Extent2D { width, height } = atlas.extent;
+        assert!(width <= most && height <= most, "{name}");
+        let rects: Vec<_> = levels(config)
+            .map(|(i, coarser)| {
+                let size = reduced(config.extent, config.smoothing_level + coarser);
+                let [x, y] = atlas.origins[i];
+                assert!(x + size.width <= width && y + size.height <= height, "{i}, {name}");
+                assert!(x % TILE == 0 && y % TILE == 0, "{i}, {name}");
+                let tiles = |from: u32, texels: u32| from / TILE..(from + texels).div_ceil(TILE);
+                (tiles(x, size.width), tiles(y, size.height))
+            })
+            .collect();
+        assert_eq!(rects[0], (0..rects[0].0.end, 0..rects[0].1.end), "{name}");
+        assert_eq!(atlas.first, rects[0].0.end * rects[0].1.end);
+        for (i, a) in rects.iter().enumerate() {
+            for b in &rects[..i] {
+                let apart = |a: &std::ops::Range<u32>, b: &std::ops::Range<u32>| {
+                    a.end <= b.start || b.end <= a.start
+                };
+                assert!(apart(&a.0, &b.0) || apart(&a.1, &b.1), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_levels_fit_the_devices_images() {
+        let edges = [1, 2, 15, 16, 17, 100, 1080, 2336, 2720, 4095, 4096];
+        for (width, height) in edges.iter().flat_map(|w| edges.map(|h| (*w, h))) {
+            for (sheets, coarsening) in [(1, 0), (2, 0), (2, 1), (2, 2), (1, 3), (2, 3)] {
+                let extent = vk::Extent2D { width, height };
+                let of = |smoothing_level| Config {
+                    smoothing_level,
+                    sheets,
+                    coarsening,
+                    ..Config::new(extent, vk::Format::R16G16B16A16_SFLOAT, 1)
+                };
+                // Tiles that are begun may take one more in each row and column.
+                let most = 4096;
+                for level in [1, 2] {
+                    assert_placed(&of(level), most);
+                }
+                if width.min(height) <= 2720
+                    && (width.max(height) <= 2720 || width.min(height) < 1300)
+                {
+                    assert_placed(&of(0), most);
+                }
+            }
+        }
+    }
+
+    /// Where the rows fit nothing is moved.
+    #[test]
+    fn levels_lie_in_rows_where_these_fit() {
+        let extent = vk::Extent2D { width: 1920, height: 1080 };
+        let config = Config::new(extent, vk::Format::R16G16B16A16_SFLOAT, 1);
+        let [small, large] = [4096, 16384].map(|most| Atlas::new(&config, most));
+        assert_eq!(small, large);
+        assert_eq!(small.extent.width, 960);
     }
 }

@@ -25,11 +25,11 @@ use ash::vk;
 
 use crate::bubbles::Bubbles;
 use crate::contract::{
-    Blobs, Config, DiffuseParticles, Layer, MemoryUse, ParticleCounts, Particles,
+    Blobs, Config, DiffuseParticles, Layer, MemoryUse, ParticleCounts, Particles, SmoothingLevels,
 };
 use crate::error::Error;
 use crate::foam::Foam;
-use crate::frame::reduced;
+use crate::frame::{Lens, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{Access, COMPUTE_READ};
 use crate::gpu::buffer::Buffer;
@@ -51,6 +51,17 @@ pub use settings::{
     NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
 };
 pub(crate) use thickness::sum_bytes as thickness_bytes;
+
+/// Size of the image that holds all levels of the smoothing.
+pub(crate) fn smoothing_extent(config: &Config, limits: &vk::PhysicalDeviceLimits) -> vk::Extent2D {
+    level::Atlas::within(config, limits).extent
+}
+
+/// Bytes of the longest of what is bound whole beside the sums of thickness and the words of foam.
+pub(crate) fn water_bytes(config: &Config) -> u64 {
+    let gaps = if config.sheets > 1 { gaps::bytes_bound(config) } else { 0 };
+    gaps.max(front::cell_bytes(config.extent)).max(split::list_bytes(config))
+}
 
 /// What every pass records with.
 pub(crate) struct Recording<'a> {
@@ -295,6 +306,17 @@ impl Water {
             noise.record(r, particles, &self.cull.list, &self.depth.image)?;
         }
         Ok(())
+    }
+
+    /// Where the smoothing of a frame of a size is in its images.
+    pub fn smoothing_levels(
+        &self,
+        config: &Config,
+        lens: &Lens,
+        frame: vk::Extent2D,
+        settings: &WaterSettings,
+    ) -> SmoothingLevels {
+        SmoothingLevels::new(config, lens, frame, settings, &self.tiles.atlas)
     }
 
     /// What `composite` reads.

@@ -101,7 +101,7 @@ impl Reduce {
             gpu,
             &ImageDesc::new(
                 "water/reduce/plan",
-                Atlas::new(config).extent,
+                Atlas::of(gpu, config).extent,
                 vk::Format::R32_UINT,
                 vk::ImageUsageFlags::STORAGE
                     | vk::ImageUsageFlags::SAMPLED

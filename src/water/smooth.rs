@@ -109,7 +109,7 @@ impl Smooth {
                 gpu,
                 &ImageDesc::new(
                     name,
-                    Atlas::new(config).extent,
+                    Atlas::of(gpu, config).extent,
                     vk::Format::R32_SFLOAT,
                     vk::ImageUsageFlags::STORAGE
                         | vk::ImageUsageFlags::SAMPLED

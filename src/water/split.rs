@@ -13,9 +13,10 @@ use super::Recording;
 use super::foam::Foam;
 use super::gaps::{Gaps, sheets_constant};
 use super::level::Atlas;
-use super::tiles::{ALL_TILES, Tiles};
+use super::tiles::{ALL_TILES, TILE, Tiles};
 use crate::contract::Config;
 use crate::error::Error;
+use crate::frame::reduced;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_WRITE, FRAGMENT_READ, INDIRECT,
@@ -47,6 +48,13 @@ pub struct Split {
     pub most: u32,
 }
 
+/// Bytes of all lists.
+pub fn list_bytes(config: &Config) -> u64 {
+    let first = reduced(config.extent, config.smoothing_level);
+    let tiles = u64::from(first.width.div_ceil(TILE)) * u64::from(first.height.div_ceil(TILE));
+    4 * u64::from(KINDS) * tiles
+}
+
 impl Split {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         type Usage = vk::BufferUsageFlags;
@@ -64,12 +72,12 @@ impl Split {
             lists: Self::lists(gpu, config)?,
             lengths: make("water/split/lengths", 4 * u64::from(KINDS), Usage::TRANSFER_DST)?,
             arguments: make("water/split/arguments", 2 * DISPATCHES, Usage::INDIRECT_BUFFER)?,
-            most: Atlas::new(config).first,
+            most: Atlas::of(gpu, config).first,
         })
     }
 
     fn lists(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
-        let size = 4 * u64::from(KINDS) * u64::from(Atlas::new(config).first);
+        let size = list_bytes(config);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
         Buffer::new(gpu, "water/split/lists", size, usage, MemoryLocation::GpuOnly)
     }
@@ -81,7 +89,7 @@ impl Split {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let lists = Self::lists(gpu, config)?;
-        self.most = Atlas::new(config).first;
+        self.most = Atlas::of(gpu, config).first;
         retired.replace(&mut self.lists, lists);
         Ok(())
     }

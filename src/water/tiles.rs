@@ -53,7 +53,7 @@ pub struct Tiles {
 
 impl Tiles {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
-        let atlas = Atlas::new(config);
+        let atlas = Atlas::of(gpu, config);
         let (work, list) = Self::sized(gpu, &atlas)?;
         Ok(Self {
             pipeline: Pipeline::compute(gpu, shader::WATER_TILES_COMP, &[])?,
@@ -86,7 +86,7 @@ impl Tiles {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let atlas = Atlas::new(config);
+        let atlas = Atlas::of(gpu, config);
         let (work, list) = Self::sized(gpu, &atlas)?;
         retired.replace(&mut self.work, work);
         retired.replace(&mut self.list, list);

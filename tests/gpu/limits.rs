@@ -3,9 +3,10 @@
 
 use ash::vk;
 use whitewater::bubbles::{BubbleConfig, DistanceField, Heap, HeapConfig};
-use whitewater::foam::DiffuseConfig;
-use whitewater::water::Splat;
-use whitewater::{Config, Count, Error, Packets, Particles, Slot};
+use whitewater::foam::{self, DiffuseConfig, GenerateConfig, Generator};
+use whitewater::shore::ShoreConfig;
+use whitewater::water::{Gate, Shading, Smoothing, Splat};
+use whitewater::{Config, Count, Error, Packets, Particles, Renderer, Slot, State, StateConfig};
 
 use crate::invariants::{exact, packet_bytes, same_drawn, water};
 use crate::support::device::Gpu;
@@ -221,7 +222,15 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
     let of = |own| Config { bubbles: Some(own), ..base };
     drop(Rig::new(&gpu, &of(BubbleConfig { layers: 1, ..bubbles })));
     let many = BubbleConfig { layers: 1, max_blobs: 10_000, ..bubbles };
+    // Blended, two sheets still have a depth a texel between them: of 200x200, 160 000 bytes.
+    let blended = Config {
+        thickness_level: 0,
+        thickness_splat: Some(Splat::Raster),
+        ..config(extent(200, 200))
+    };
+    drop(Rig::new(&gpu, &Config { sheets: 1, ..blended }));
     for (field, bad) in [
+        ("Config.extent", Config { sheets: 2, ..blended }),
         ("Config.extent", Config { sheets: 2, ..base }),
         ("Config.extent", foam),
         ("Config.diffuse", Config { diffuse: Some(DiffuseConfig::new(64)), ..base }),
@@ -249,5 +258,157 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
             assert!(why.contains("131072"), "{why}");
         }
         other => panic!("{other:?}"),
+    }
+}
+
+/// Sets a limit by its name.
+fn set(limits: &mut vk::PhysicalDeviceLimits, name: &str, value: u32) {
+    let [x, y, z] = &mut limits.max_compute_work_group_size;
+    *match name {
+        "maxPerStageDescriptorSamplers" => &mut limits.max_per_stage_descriptor_samplers,
+        "maxPerStageDescriptorSampledImages" => &mut limits.max_per_stage_descriptor_sampled_images,
+        "maxPerStageDescriptorStorageBuffers" => {
+            &mut limits.max_per_stage_descriptor_storage_buffers
+        }
+        "maxPerStageDescriptorUniformBuffers" => {
+            &mut limits.max_per_stage_descriptor_uniform_buffers
+        }
+        "maxPerStageDescriptorStorageImages" => &mut limits.max_per_stage_descriptor_storage_images,
+        "maxPerStageResources" => &mut limits.max_per_stage_resources,
+        "maxFragmentOutputAttachments" => &mut limits.max_fragment_output_attachments,
+        "maxFragmentCombinedOutputResources" => &mut limits.max_fragment_combined_output_resources,
+        "maxPushConstantsSize" => &mut limits.max_push_constants_size,
+        "maxComputeWorkGroupInvocations" => &mut limits.max_compute_work_group_invocations,
+        "maxComputeWorkGroupSize[0]" => x,
+        "maxComputeWorkGroupSize[1]" => y,
+        "maxComputeWorkGroupSize[2]" => z,
+        "maxComputeSharedMemorySize" => &mut limits.max_compute_shared_memory_size,
+        other => panic!("what is {other}?"),
+    } = value;
+}
+
+/// A device that has just what a configuration needs makes all its pipelines; with one step less of anything it is
+/// told what.
+#[test]
+fn limits_are_what_the_shaders_use() {
+    let mut gpu = Gpu::spied();
+    let all = gpu.limits();
+    let base = config(extent(64, 48));
+    let diffuse = Some(DiffuseConfig::new(64));
+    let bubbles =
+        Some(BubbleConfig { templates: 1, bubbles: 8, hand_over: true, ..BubbleConfig::new(8) });
+    let own = |splat| Some(DiffuseConfig { splat: Some(splat), ..DiffuseConfig::new(64) });
+    let fluid = Config { foam: true, spray: true, motion: true, noise: Some(1), sheets: 2, ..base };
+    let configs = [
+        base,
+        Config { composite: Some(Shading::Compute), smoothing: Some(Smoothing::Fused), ..base },
+        Config { depth_splat: Some(Splat::Raster), thickness_splat: Some(Splat::Raster), ..fluid },
+        Config { cast: Some(32), diffuse, ..fluid },
+        Config { diffuse: own(foam::Splat::Compute), ..base },
+        Config { diffuse: own(foam::Splat::Raster), ..base },
+        Config { diffuse, bubbles, shore: Some(ShoreConfig::default()), ..base },
+    ];
+    for config in &configs {
+        let offer = whitewater::Offer::of(&gpu.instance, gpu.physical, config.output_format);
+        let needed = offer.limits(config);
+        let mut exact = all;
+        for limit in &needed {
+            set(&mut exact, limit.name, limit.needed);
+        }
+        claim(&mut gpu, Claims { limits: Some(exact), ..Claims::default() });
+        drop(Rig::new(&gpu, config));
+        for limit in needed.iter().filter(|limit| limit.needed > 0) {
+            assert!(limit.of(&all) >= limit.needed, "{limit:?}");
+            let mut less = exact;
+            set(&mut less, limit.name, limit.needed - 1);
+            let offer = whitewater::Offer { limits: less, ..offer };
+            match offer.check(config) {
+                Err(Error::Missing { what, why }) => {
+                    let said = format!(
+                        "{} of {} (the device has {})",
+                        limit.name,
+                        limit.needed,
+                        limit.needed - 1
+                    );
+                    assert!(what == said && why.contains(limit.shader), "{said}: {what}, {why}");
+                }
+                other => panic!("{limit:?}: {other:?}"),
+            }
+        }
+        gpu.claims = None;
+    }
+    // As few as Vulkan guarantees: for objects that no configuration of a renderer speaks of.
+    let mut least = all;
+    least.max_per_stage_descriptor_storage_buffers = 4;
+    claim(&mut gpu, Claims { limits: Some(least), ..Claims::default() });
+    let host = gpu.host(1);
+    // SAFETY: the device outlives them; none is made.
+    let made = unsafe {
+        [
+            State::new(&host, &StateConfig::new(8)).map(|_| ()),
+            Heap::new(&host, &HeapConfig::new(8), None).map(|_| ()),
+            Generator::new(&host, &GenerateConfig::new(8, 8)).map(|_| ()),
+            Renderer::new(&host, &base).map(|_| ()),
+        ]
+    };
+    for result in made {
+        match result {
+            Err(Error::Missing { what, .. }) => {
+                assert!(what.starts_with("maxPerStageDescriptorStorageBuffers of "), "{what}");
+                assert!(what.ends_with("(the device has 4)"), "{what}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+/// Where the levels of the smoothing find no room below each other they lie elsewhere, and nothing of it shows.
+#[test]
+fn levels_beside_each_other_smooth_the_same() {
+    let mut gpu = Gpu::spied();
+    let all = gpu.limits();
+    for smoothing in [Smoothing::Fused, Smoothing::Tiles, Smoothing::Query(Gate::VertexCull)] {
+        let config = Config {
+            smoothing_level: 0,
+            sheets: 2,
+            coarsening: 3,
+            max_iterations: 8,
+            smoothing: Some(smoothing),
+            ..exact(extent(64, 64))
+        };
+        let shot = water(extent(64, 64));
+        gpu.claims = None;
+        let expected = Rig::new(&gpu, &config).draw(&shot);
+        let narrow = vk::PhysicalDeviceLimits { max_image_dimension2_d: 96, ..all };
+        claim(&mut gpu, Claims { limits: Some(narrow), ..Claims::default() });
+        same_drawn(&format!("{smoothing:?}"), &Rig::new(&gpu, &config).draw(&shot), &expected);
+    }
+    // What finds no room at all is refused by a name, and drawn at half the resolution.
+    let wide = Config { smoothing_level: 0, sheets: 2, coarsening: 3, ..config(extent(80, 80)) };
+    match Rig::try_new(&gpu, &wide, 1) {
+        Err(Error::BadInput { field: "Config.extent", why }) => {
+            assert!(why.contains("smoothing") && why.contains("96x96"), "{why}");
+        }
+        other => panic!("{:?}", other.map(|_| "no error")),
+    }
+    drop(Rig::new(&gpu, &Config { smoothing_level: 1, ..wide }));
+    for larger in [extent(97, 8), extent(8, 97)] {
+        let made = Rig::try_new(&gpu, &config(larger), 1);
+        assert!(matches!(made, Err(Error::BadInput { field: "Config.extent", .. })));
+    }
+}
+
+/// The longest and narrowest images that the device has, silent under validation.
+#[test]
+fn the_longest_images_are_drawn() {
+    let gpu = Gpu::shared();
+    let most = gpu.limits().max_image_dimension2_d;
+    for size in [extent(16, most), extent(most, 16)] {
+        for smoothing_level in [0, 1] {
+            let config = Config { smoothing_level, sheets: 2, ..config(size) };
+            let mut rig = Rig::new(&gpu, &config);
+            // A part of it: all would take long.
+            rig.draw(&water(extent(16, 16)));
+        }
     }
 }

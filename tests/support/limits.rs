@@ -18,6 +18,8 @@ pub struct Claims {
     pub timestamp_period: Option<f32>,
     /// It is no blended colour attachment.
     pub unblended: Option<vk::Format>,
+    /// All that the others do not say.
+    pub limits: Option<vk::PhysicalDeviceLimits>,
 }
 
 type Properties = unsafe extern "system" fn(vk::PhysicalDevice, *mut vk::PhysicalDeviceProperties);
@@ -36,6 +38,7 @@ static CLAIMED: Mutex<(Claims, Option<Real>)> = Mutex::new((
         timestamp_valid_bits: None,
         timestamp_period: None,
         unblended: None,
+        limits: None,
     },
     None,
 ));
@@ -55,6 +58,7 @@ unsafe extern "system" fn properties(
         real(physical, found);
         &mut (*found).limits
     };
+    *limits = claims.limits.unwrap_or(*limits);
     // Never less strict than the truth.
     let alignment = claims.offset_alignment.unwrap_or(1);
     let (storage, uniform) =

@@ -1,9 +1,11 @@
 //! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
 
 use ash::vk;
-use whitewater::bubbles::{BubbleConfig, BubbleSort};
+use whitewater::bubbles::{BubbleConfig, BubbleSort, Heap, HeapConfig};
+use whitewater::foam::{GenerateConfig, Generator};
+use whitewater::shore::{ShoreMap, ShoreMapConfig};
 use whitewater::water::{Gate, Shading, Smoothing};
-use whitewater::{Config, Enabled, Error, Renderer, Slot};
+use whitewater::{Config, Enabled, Error, Host, Renderer, Slot, State, StateConfig};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, config, extent};
@@ -98,12 +100,117 @@ fn what_a_device_lacks_is_named() {
     unstored.check(&drawn).expect("nothing is stored to the output");
 }
 
+/// A device made by an instance of an older Vulkan: what its driver could do is not there, and what ash puts in the
+/// place of a function that is not panics.
+#[test]
+fn an_instance_of_an_older_vulkan_is_an_error() {
+    // SAFETY: the library outlives all made here, which is destroyed before its end; nothing is submitted.
+    unsafe {
+        let entry = ash::Entry::load().expect("a loader");
+        let of_1_3 = Gpu::shared();
+        for version in [vk::API_VERSION_1_0, vk::API_VERSION_1_1, vk::API_VERSION_1_2] {
+            let application = vk::ApplicationInfo::default().api_version(version);
+            let info = vk::InstanceCreateInfo::default().application_info(&application);
+            let instance = entry.create_instance(&info, None).expect("an instance");
+            let all = instance.enumerate_physical_devices().expect("devices");
+            let named = |physical: &vk::PhysicalDevice| {
+                instance.get_physical_device_properties(*physical).device_id
+            };
+            let own = of_1_3.instance.get_physical_device_properties(of_1_3.physical).device_id;
+            let physical = all.into_iter().find(|p| named(p) == own).expect("the same");
+            let priorities = [1.0];
+            let queues = [vk::DeviceQueueCreateInfo::default()
+                .queue_family_index(of_1_3.queue_family)
+                .queue_priorities(&priorities)];
+            let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues);
+            let device = instance.create_device(physical, &info, None).expect("a device");
+            // Where what it enabled says too much, too.
+            for enabled in [Enabled::default(), of_1_3.enabled] {
+                let host = Host {
+                    instance: &instance,
+                    physical_device: physical,
+                    device: &device,
+                    enabled,
+                    ..of_1_3.host(1)
+                };
+                let mut made = vec![
+                    Renderer::new(&host, &config(extent(16, 16))).map(|_| ()),
+                    State::new(&host, &StateConfig::new(8)).map(|_| ()),
+                    Heap::new(&host, &HeapConfig::new(8), None).map(|_| ()),
+                    Generator::new(&host, &GenerateConfig::new(8, 8)).map(|_| ()),
+                    ShoreMap::new(&host, &ShoreMapConfig::default()).map(|_| ()),
+                ];
+                let first = made.remove(0);
+                assert!(matches!(first, Err(Error::Missing { .. })), "{first:?}");
+                for result in made {
+                    match result {
+                        Err(Error::Missing { what, why }) => {
+                            assert!(what.contains("vk") && why.contains("1.3"), "{what}: {why}");
+                        }
+                        other => panic!("{version:x}: {other:?}"),
+                    }
+                }
+            }
+            device.destroy_device(None);
+            instance.destroy_instance(None);
+        }
+    }
+}
+
+/// A table of functions with one that is not there.
+#[test]
+fn functions_that_are_not_loaded_are_named() {
+    let gpu = Gpu::shared();
+    let device = &gpu.device;
+    let (v1_2, v1_3) = (device.fp_v1_2(), device.fp_v1_3());
+    let none_1_2 = ash::DeviceFnV1_2::load(|_| std::ptr::null());
+    let none_1_3 = ash::DeviceFnV1_3::load(|_| std::ptr::null());
+    let of = |v1_2, v1_3| {
+        let (v1_0, v1_1) = (device.fp_v1_0().clone(), device.fp_v1_1().clone());
+        ash::Device::from_parts_1_3(device.handle(), v1_0, v1_1, v1_2, v1_3)
+    };
+    let (barrier, stamp) = (none_1_3.cmd_pipeline_barrier2, none_1_3.cmd_write_timestamp2);
+    let counted = Enabled { draw_indirect_count: true, ..gpu.enabled };
+    for (functions, enabled, name) in [
+        (
+            of(v1_2.clone(), ash::DeviceFnV1_3 { cmd_pipeline_barrier2: barrier, ..v1_3.clone() }),
+            gpu.enabled,
+            "vkCmdPipelineBarrier2",
+        ),
+        (
+            of(v1_2.clone(), ash::DeviceFnV1_3 { cmd_write_timestamp2: stamp, ..v1_3.clone() }),
+            gpu.enabled,
+            "vkCmdWriteTimestamp2",
+        ),
+        (of(none_1_2, v1_3.clone()), counted, "vkCmdDrawIndirectCount"),
+    ] {
+        let host = Host { device: &functions, enabled, ..gpu.host(1) };
+        // SAFETY: live handles; none is made.
+        match unsafe { Renderer::new(&host, &config(extent(16, 16))) } {
+            Err(Error::Missing { what, .. }) => assert!(what.contains(name), "{name}: {what}"),
+            other => panic!("{name}: {:?}", other.map(|_| ())),
+        }
+    }
+}
+
 /// 64 bytes of device memory a particle beside the input is the promise.
 #[test]
 fn ten_million_particles_have_room() {
     let gpu = Gpu::shared();
     let count = 10_000_000;
     let config = Config { max_particles: count, ..config(extent(64, 48)) };
+    let foam = Config { foam: true, ..config };
+    // SAFETY: live handles; nothing is recorded.
+    let state = unsafe {
+        Renderer::new(&gpu.host(1), &foam).expect("room for foam").destroy();
+        let state =
+            State::new(&gpu.host(1), &StateConfig::new(count)).expect("room for its phases");
+        let memory = state.memory();
+        state.destroy();
+        memory
+    };
+    let documented = 68 * u64::from(count);
+    assert!(state.abs_diff(documented) < documented / 1000, "{state} bytes of phases");
     // SAFETY: live handles.
     let renderer = unsafe { whitewater::Renderer::new(&gpu.host(1), &config) }.expect("room");
     let memory = renderer.memory();
