@@ -7,7 +7,7 @@ use crate::contract::{
     Slot, Stream, Surface,
 };
 use crate::error::Error;
-use crate::frame::{Lens, check_settings};
+use crate::frame::{Lens, check_settings, check_up};
 use crate::water::MOST_COARSENING;
 use crate::water::settings::{Shadows, range};
 
@@ -17,6 +17,7 @@ pub fn frame(
     config: &Config,
     limits: &vk::PhysicalDeviceLimits,
 ) -> Result<Lens, Error> {
+    check_up("Settings.up", frame.settings.up)?;
     check_settings(&frame.settings.water, &frame.settings.light)?;
     frame.settings.foam.check()?;
     frame.settings.spray.check()?;
@@ -118,10 +119,6 @@ fn shore(
     let bad = |field, why: &str| Err(Error::bad(field, why));
     if config.shore.is_none() {
         return bad("Frame.shore", "given, but Config.shore is None");
-    }
-    let up = glam::Vec3::from(shore.up);
-    if !up.is_finite() || (up.length() - 1.0).abs() > 1.0e-3 {
-        return bad("Frame.shore.up", "a direction of unit length expected");
     }
     range("Frame.shore.bias", shore.bias, 0.0, 1000.0)?;
     let surface = crate::shore::surface_of(shore);

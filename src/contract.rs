@@ -17,6 +17,7 @@ use crate::bubbles::settings::{BubbleConfig, BubbleLook};
 use crate::error::Error;
 use crate::foam::generate::settings::GenerateSettings;
 use crate::foam::settings::{DiffuseConfig, DiffuseLook};
+use crate::frame::level_axes;
 pub use crate::gpu::access::Access;
 use crate::shore::settings::{ShoreConfig, ShoreLook};
 use crate::water::settings::{
@@ -451,8 +452,6 @@ pub struct Shore {
     /// What takes contact foam away, over the view: one channel, 0 all to 1 nothing, any size (the source's mask); only
     /// sampled. `None`: the web, by places in the world.
     pub mask: Option<HostImage>,
-    /// World direction up, unit length, default +y.
-    pub up: [f32; 3],
     /// Metres, [0, 1000], by which what the scene's depth has may stand before the surface and count as behind it, default
     /// 0: more where the surface is in that depth.
     pub bias: f32,
@@ -461,20 +460,14 @@ pub struct Shore {
 impl Shore {
     /// Contact foam on a level surface of the host's.
     pub fn new(level: f32) -> Self {
-        Self {
-            surface: Some(Surface::Level(level)),
-            shoreline: None,
-            mask: None,
-            up: [0.0, 1.0, 0.0],
-            bias: 0.0,
-        }
+        Self { surface: Some(Surface::Level(level)), shoreline: None, mask: None, bias: 0.0 }
     }
 }
 
 /// A water surface of the host's.
 #[derive(Clone, Copy, Debug)]
 pub enum Surface {
-    /// Level, at this height along [`Shore::up`].
+    /// Level, at this height along [`Settings::up`].
     Level(f32),
     /// Of any shape: its depth in the camera's convention, any size, another image than the scene's depth, only sampled.
     /// Foam lies on it as if it were level about each point.
@@ -681,10 +674,10 @@ pub struct Region {
 
 impl Region {
     /// World to the light's maps: place 0 to 1, metres along the light.
-    pub(crate) fn to_map(self, light: &Light) -> Mat4 {
-        let sun = Vec3::from(light.direction).normalize_or(Vec3::Y);
-        let up = if sun.y.abs() > 0.99 { Vec3::X } else { Vec3::Y };
-        let right = up.cross(sun).normalize();
+    pub(crate) fn to_map(self, light: &Light, up: Vec3) -> Mat4 {
+        let sun = Vec3::from(light.direction).normalize_or(up);
+        let aside = if sun.dot(up).abs() > 0.99 { level_axes(up)[0] } else { up };
+        let right = aside.cross(sun).normalize();
         let side = sun.cross(right);
         let scale = 0.5 / self.radius;
         let center = Vec3::from(self.center);
@@ -734,8 +727,12 @@ impl Frame<'_> {
 }
 
 /// All settings that cost nothing to change from frame to frame.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
+    /// World direction up, of any length but 0, default +y: of the horizon under which water mirrors more water, of the
+    /// level ground that [`Light::irradiance`] is of, down which soap drains, and of shores. Environments have their own
+    /// ([`Sky::up`](crate::Sky), [`Equirectangular::up`](crate::Equirectangular)), what moves its gravity.
+    pub up: [f32; 3],
     /// Layered water.
     pub water: WaterSettings,
     /// Foam in it.
@@ -758,6 +755,24 @@ pub struct Settings {
     pub ladder: Ladder,
 }
 
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            up: [0.0, 1.0, 0.0],
+            water: WaterSettings::default(),
+            foam: FoamLook::default(),
+            spray: SprayLook::default(),
+            diffuse: DiffuseLook::default(),
+            bubbles: BubbleLook::default(),
+            shore: ShoreLook::default(),
+            shadow: ShadowFilter::default(),
+            noise: NoiseLook::default(),
+            light: Light::default(),
+            ladder: Ladder::default(),
+        }
+    }
+}
+
 impl Settings {
     /// The look of the thesis' demo (Bagar 2010) for particles of a spacing: its composite, colours, unit of the
     /// thickness, foam, spray and light on foam. With it go [`Rule::Source`](crate::water::Rule) of [`Config::rule`],
@@ -771,6 +786,11 @@ impl Settings {
             light: Light::default().thesis(),
             ..Self::default()
         }
+    }
+
+    /// [`up`](Self::up) at unit length.
+    pub(crate) fn up(&self) -> Vec3 {
+        Vec3::from(self.up).normalize_or(Vec3::Y)
     }
 }
 

@@ -3,10 +3,12 @@
 //! once per environment.
 
 use ash::vk;
-use bytemuck::{NoUninit, Pod, Zeroable};
+use bytemuck::NoUninit;
+use glam::Vec3;
 
 use crate::contract::{Config, HostImage};
 use crate::error::Error;
+use crate::frame::{check_up, level_axes};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, Access, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED,
@@ -30,20 +32,24 @@ pub enum EnvironmentSource {
 /// grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sky {
-    /// World direction to the sun, unit length, y up.
+    /// World direction to the sun, unit length.
     pub sun: [f32; 3],
+    /// World direction up, of any length but 0, default +y: as a frame's [`Settings::up`](crate::Settings::up).
+    pub up: [f32; 3],
     /// Irradiance of the sun above the air in the unit of the output, [0, ∞), default 20.
     pub intensity: f32,
 }
 
 impl Default for Sky {
     fn default() -> Self {
-        Self { sun: [0.408_248_3, 0.816_496_6, 0.408_248_3], intensity: 20.0 }
+        let (sun, up) = ([0.408_248_3, 0.816_496_6, 0.408_248_3], [0.0, 1.0, 0.0]);
+        Self { sun, up, intensity: 20.0 }
     }
 }
 
-/// An equirectangular image: row 0 up, its middle column along world −z, its right quarter along
-/// +x; left and right edge meet along +z.
+/// An equirectangular image: row 0 up, its middle column along world −z, its right quarter along +x; left and right edge
+/// meet along +z. Where another direction than +y is up that is turned with it: with z up the middle column lies along +y,
+/// x stays (with x up its right quarter along +y, the middle column along +z).
 #[derive(Clone, Copy, Debug)]
 pub struct Equirectangular {
     /// Linear radiance. Its format must be good for linear filtering.
@@ -55,25 +61,36 @@ pub struct Equirectangular {
     pub without_sun: Option<HostImage>,
     /// Factor on the radiance, default 1; the product is cut at 65 000.
     pub scale: f32,
-    /// Right-handed turn of the image about +y in radians: what lay along −z moves towards −x.
+    /// Right-handed turn of the image about up in radians: where +y is up, what lay along −z moves towards −x.
     pub turn: f32,
+    /// World direction up, of any length but 0, as a frame's [`Settings::up`](crate::Settings::up).
+    pub up: [f32; 3],
 }
 
 #[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, NoUninit)]
 struct SkyPush {
     sun: [f32; 4],
+    east: [f32; 4],
+    up: [f32; 4],
     size: u32,
-    pad: [u32; 3],
 }
+shader::assert_layout!(shader::ENVIRONMENT_SKY_COMP, "Push", SkyPush { sun, east, up, size });
 
 #[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, NoUninit)]
 struct EquirectPush {
+    east: [f32; 4],
+    up: [f32; 4],
     size: u32,
     scale: f32,
     turn: f32,
 }
+shader::assert_layout!(
+    shader::ENVIRONMENT_EQUIRECT_COMP,
+    "Push",
+    EquirectPush { east, up, size, scale, turn }
+);
 
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -87,6 +104,23 @@ shader::assert_layout!(
     "Push",
     IrradiancePush { size, coarse, mip }
 );
+
+/// East, up and north.
+fn axes(up: [f32; 3]) -> [Vec3; 3] {
+    let up = Vec3::from(up).normalize_or(Vec3::Y);
+    let [east, north] = level_axes(up);
+    [east, up, north]
+}
+
+impl EnvironmentSource {
+    /// What is wrong with it.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        match self {
+            Self::Sky(sky) => check_up("Sky.up", sky.up),
+            Self::Equirectangular(own) => check_up("Equirectangular.up", own.up),
+        }
+    }
+}
 
 /// Edge of the irradiance without its border.
 const IRRADIANCE: u32 = 32;
@@ -208,11 +242,12 @@ impl Environment {
         let size = self.cube.extent.width;
         let target = self.begin_cube(gpu, cmd);
         descriptors.bind(gpu, cmd, &self.sky, &[target])?;
-        let [x, y, z] = glam::Vec3::from(sky.sun).normalize_or_zero().to_array();
-        let push = SkyPush { sun: [x, y, z, sky.intensity], size, pad: [0; 3] };
-        // The shader's block ends after `size`.
-        let bytes: [u8; 20] = bytemuck::bytes_of(&push)[..20].try_into().unwrap_or([0; 20]);
-        self.sky.push(gpu, cmd, &bytes);
+        let [east, up, north] = axes(sky.up);
+        let sun = Vec3::from(sky.sun).normalize_or_zero();
+        let sun = Vec3::new(sun.dot(east), sun.dot(up), sun.dot(north));
+        let [east, up] = [east, up].map(|axis| axis.extend(0.0).to_array());
+        let sun = sun.extend(sky.intensity).to_array();
+        self.sky.push(gpu, cmd, &SkyPush { sun, east, up, size });
         self.fill_cube(gpu, cmd);
         self.record_mips(gpu, cmd);
         Ok(())
@@ -232,8 +267,9 @@ impl Environment {
         gpu.barriers(cmd, &[before], &[]);
         let source = (1, Resource::Sampled(image.view, gpu.samplers.around));
         descriptors.bind(gpu, cmd, &self.equirect, &[target, source])?;
-        let push = EquirectPush { size, scale: map.scale, turn: map.turn };
-        self.equirect.push(gpu, cmd, &push);
+        let [east, up, _] = axes(map.up).map(|axis| axis.extend(0.0).to_array());
+        let Equirectangular { scale, turn, .. } = *map;
+        self.equirect.push(gpu, cmd, &EquirectPush { east, up, size, scale, turn });
         self.fill_cube(gpu, cmd);
         let after = access::raw_image(image.image, image.aspect, COMPUTE_SAMPLED, image.after);
         gpu.barriers(cmd, &[after], &[]);

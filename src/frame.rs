@@ -3,7 +3,7 @@
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use glam::{DMat4, Mat4, Vec4};
+use glam::{DMat4, Mat4, Vec3, Vec4};
 
 use crate::contract::{Camera, Config, Frame, Light, Region, Settings};
 use crate::error::Error;
@@ -84,6 +84,7 @@ pub struct FrameUniforms {
     pub diffuse_sun: [f32; 4],
     pub shore_color: [f32; 4],
     pub contact_color: [f32; 4],
+    pub up: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -153,6 +154,7 @@ shader::assert_layout!(
         diffuse_sun,
         shore_color,
         contact_color,
+        up,
     }
 );
 
@@ -385,7 +387,7 @@ impl FrameUniforms {
             shadow: shadow
                 .map_or(Mat4::ZERO, |s| TO_PLACE * s.view_projection * to_world)
                 .to_cols_array_2d(),
-            to_light: (region.to_map(light) * to_world).to_cols_array_2d(),
+            to_light: (region.to_map(light, frame.settings.up()) * to_world).to_cols_array_2d(),
             shadow_map: shadow.map_or([0.0; 4], |s| [s.bias, s.nearer(light), 0.0, 0.0]),
             shadow_rect: shadow.map_or([0.0; 4], |s| {
                 let part = s.image.rect;
@@ -455,9 +457,10 @@ impl FrameUniforms {
                 diffuse.shadow[2],
             ),
             diffuse_color: light_vector(diffuse.albedo.map(|c| 2.0 * c)),
-            diffuse_sun: sun_on(light),
+            diffuse_sun: sun_on(frame.settings),
             shore_color,
             contact_color,
+            up: frame.settings.up().extend(0.0).to_array(),
         }
     }
 }
@@ -498,10 +501,26 @@ fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
 }
 
 /// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
-pub fn sun_on(light: &Light) -> [f32; 4] {
-    let height = light.direction[1].max(0.1);
+pub fn sun_on(settings: &Settings) -> [f32; 4] {
+    let light = &settings.light;
+    let height = settings.up().dot(light.direction.into()).max(0.1);
     let part = |i: usize| (light.irradiance[i] - light.shade[i]).max(0.0) / height;
     light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))
+}
+
+/// Two level axes where this is up: x and z where that is y.
+pub fn level_axes(up: Vec3) -> [Vec3; 2] {
+    let first = if up.x.abs() < 0.9 { Vec3::X } else { Vec3::Y };
+    let east = (first - up * up.dot(first)).normalize();
+    [east, east.cross(up)]
+}
+
+/// A direction up, of any length but 0.
+pub fn check_up(field: &'static str, up: [f32; 3]) -> Result<(), Error> {
+    match Vec3::from(up).try_normalize() {
+        Some(_) => Ok(()),
+        None => Err(Error::bad(field, format!("{up:?}: no direction"))),
+    }
 }
 
 /// Where water begins and is whole, and where spray ends; droplets of a particle.
@@ -626,7 +645,6 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
 
     fn camera(projection: Mat4) -> Camera {
         Camera { view: Mat4::IDENTITY, projection }

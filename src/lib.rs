@@ -89,6 +89,8 @@
 //! - One `record` per slot; two views are two renderers. The slot's earlier work is complete.
 //! - Family ownership is acquired before, images are single-sampled.
 //!
+//! Up is +y unless [`Settings::up`] says otherwise, and for the environment [`Sky::up`] or [`Equirectangular::up`].
+//!
 //! The view may be a part of each image ([`HostImage::rect`]), so that several views share one, and
 //! a resolution may change from frame to frame below [`Config::extent`] without a resize.
 //!

@@ -164,7 +164,7 @@ impl Renderer {
     /// Records the environment that the water reflects, once per environment.
     ///
     /// # Errors
-    /// What Vulkan reports; a bad slot.
+    /// What Vulkan reports; a bad slot, or no direction up.
     ///
     /// # Safety
     /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
@@ -176,6 +176,7 @@ impl Renderer {
         source: &EnvironmentSource,
     ) -> Result<(), Error> {
         let index = self.slot_index(slot)?;
+        source.check()?;
         self.retired.recorded(slot.0);
         self.slots[index].begin_environment(&self.gpu)?;
         self.environment.record(&self.gpu, cmd, &self.slots[index].descriptors, source)

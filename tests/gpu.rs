@@ -77,5 +77,7 @@ mod spray;
 mod temporal;
 #[path = "gpu/thickness.rs"]
 mod thickness;
+#[path = "gpu/up.rs"]
+mod up;
 #[path = "gpu/work.rs"]
 mod work;

@@ -160,7 +160,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     vec3 ball = normalize(mix(-ray.direction, round_, smoothstep(0.7, 3.0, look.pixels)));
     normal = normalize(mix(ball, normal, fine));
     uint number = pcg(look.blob.id * 977u + id);
-    float high = dot(to_world(look, normal), vec3(0.0, 1.0, 0.0));
+    float high = dot(to_world(look, normal), frame.up.xyz);
     // Colours of films of many thicknesses make white, as those of a thick one.
     float thick = mix(bubbly.film.w, film_thickness(number, 2.5 * met / radius, high), fine);
 
@@ -201,7 +201,7 @@ vec3 blob_light(Look look, uint id, out vec3 through, out vec3 body, out vec2 op
     // The film behind, from within.
     vec3 behind = normalize(past - middle);
     vec3 kept;
-    float far = film_thickness(number, 2.5 * past / radius, dot(to_world(look, behind), vec3(0.0, 1.0, 0.0)));
+    float far = film_thickness(number, 2.5 * past / radius, dot(to_world(look, behind), frame.up.xyz));
     light += fine * through * film_light(look, behind, pixels, far, 0.5, core, kept);
     through *= 1.0 - fine * kept;
     return light;

@@ -9,9 +9,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba16f) uniform writeonly image2DArray environment;
 layout(set = 0, binding = 1) uniform sampler2D equirect;
 layout(push_constant, std430) uniform Push {
+    vec4 east; // world directions: the x of where y is up
+    vec4 up;
     uint size;
     float scale;
-    float turn; // radians about y
+    float turn; // radians about up
 } push;
 
 const float PI = 3.14159265;
@@ -30,6 +32,7 @@ void main() {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         vec3 d = cube_direction(ivec3(2 * texel.xy + ivec2(i & 1, i >> 1), texel.z), 2 * int(push.size));
+        d = standing(d, push.east.xyz, push.up.xyz);
         sum += textureLod(equirect, equirect_uv(d), 0.0).rgb;
     }
     imageStore(environment, texel, vec4(min(0.25 * push.scale * sum, 65000.0), 1.0));

@@ -8,7 +8,9 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 0, rgba16f) uniform writeonly image2DArray environment;
 layout(push_constant, std430) uniform Push {
-    vec4 sun;   // direction to it (world), its irradiance
+    vec4 sun;   // direction to it (y up), its irradiance
+    vec4 east;  // world directions: the x of where y is up
+    vec4 up;
     uint size;
 } push;
 
@@ -17,6 +19,7 @@ void main() {
     if (max(texel.x, texel.y) >= int(push.size)) {
         return;
     }
-    vec3 sky = push.sun.w * sky_radiance(cube_direction(texel, int(push.size)), push.sun.xyz);
+    vec3 d = standing(cube_direction(texel, int(push.size)), push.east.xyz, push.up.xyz);
+    vec3 sky = push.sun.w * sky_radiance(d, push.sun.xyz);
     imageStore(environment, texel, vec4(min(sky, 65000.0), 1.0));
 }

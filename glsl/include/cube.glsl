@@ -33,3 +33,8 @@ ivec3 cube_texel(vec3 d, int size) {
     vec3 place = cube_place(d);
     return ivec3(clamp(ivec2(place.xy * float(size)), ivec2(0), ivec2(size - 1)), int(place.z));
 }
+
+// A world direction where y is up, of what is up there and the x of here.
+vec3 standing(vec3 direction, vec3 east, vec3 up) {
+    return vec3(dot(direction, east), dot(direction, up), dot(direction, cross(east, up)));
+}

@@ -68,6 +68,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 diffuse_sun;   // the sun's light on what faces it, over 2 pi
     vec4 shore_color;   // radiance of shoreline foam; its opacity
     vec4 contact_color; // of contact foam; what of it is light on it
+    vec4 up;            // world, unit length
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

@@ -220,7 +220,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
     vec3 reflected = mat3(frame.world) * reflect(-v, n);
     // What is mirrored from below the horizon is more water, not the environment's ground.
-    float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, reflected.y);
+    float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, dot(reflected, frame.up.xyz));
     sheet.mirror = w * sky * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
     vec3 h = normalize(v + frame.sun_direction.xyz);

@@ -73,7 +73,7 @@ impl BubbleUniforms {
             core: [look.core[0], look.core[1], look.distortion, look.roundness],
             albedo: [r, g, b, look.pattern],
             mirror: [look.reflection, look.shininess, flag(look.walls), flag(look.plug)],
-            sun: sun_on(light),
+            sun: sun_on(frame.settings),
             sun_mirror: [sun_r, sun_g, sun_b, look.merge],
             tiles: [x, y, lists::SLICES, lists::room(config.extent, bubbles)],
             kinds: [bubbles.templates, 0, 0, 0],

@@ -100,7 +100,8 @@ impl Headless {
         let lights = without_sun
             .map(|pixels| self.picture("headless/equirect/without sun", extent, pixels))
             .transpose()?;
-        let of = |image| Equirectangular { image, without_sun: None, scale, turn };
+        let up = [0.0, 1.0, 0.0];
+        let of = |image| Equirectangular { image, without_sun: None, scale, turn, up };
         let made = self.of_pictures(of, &shown, lights.as_ref());
         // The device is done with them, or lost.
         drop((shown, lights));

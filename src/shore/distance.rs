@@ -13,10 +13,10 @@ use bytemuck::NoUninit;
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use gpu_allocator::MemoryLocation;
 
-use super::level_axes;
 use crate::check;
 use crate::contract::{Access, Coast, Host, HostImage, Slot, Triangles};
 use crate::error::Error;
+use crate::frame::level_axes;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
     self, COMPUTE_READ_WRITE, COMPUTE_SAMPLED, COMPUTE_WRITE, COPY_READ, DEPTH_ATTACHMENT,
@@ -57,7 +57,7 @@ impl Default for ShoreMapConfig {
 /// What a map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Area {
-    /// World direction up, unit length.
+    /// World direction up, unit length, as a frame's [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
     /// Its middle along the two level axes: x and z where y is up. It is moved to whole texels, so that a map that follows
     /// a camera shows the same.

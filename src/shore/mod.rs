@@ -19,7 +19,7 @@ use crate::contract::{
     Coast, Config, Frame, HostImage, Layer, Settings, Shoreline, Strip, Surface,
 };
 use crate::error::Error;
-use crate::frame::Lens;
+use crate::frame::{Lens, level_axes};
 use crate::gpu::Gpu;
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
@@ -87,13 +87,6 @@ shader::assert_layout!(
         mask_part
     }
 );
-
-/// Two level axes where this is up: x and z where that is y.
-pub(crate) fn level_axes(up: Vec3) -> [Vec3; 2] {
-    let first = if up.x.abs() < 0.9 { Vec3::X } else { Vec3::Y };
-    let east = (first - up * up.dot(first)).normalize();
-    [east, east.cross(up)]
-}
 
 /// The texel of a host's image for a pixel: scale; size; first texel.
 fn texels(image: &HostImage, frame: vk::Extent2D) -> ([f32; 4], [f32; 2]) {
@@ -167,7 +160,7 @@ impl ShoreUniforms {
         let row = |axis: Vec3, less: f32| {
             (turn.transpose() * axis).extend(axis.dot(eye) - less).to_array()
         };
-        let up = Vec3::from(own.up).normalize_or(Vec3::Y);
+        let up = frame.settings.up();
         let [east, north] = level_axes(up);
         let (kind, level, depth) = match &own.surface {
             Some(Surface::Level(level)) => (1.0, *level, None),

@@ -142,7 +142,7 @@ fn the_sky_becomes_the_twins_cube() {
         ([0.9, 0.03, -0.4], 20.0),
         ([-0.5, -0.1, 0.5], 5.0),
     ] {
-        rig.any_environment(&EnvironmentSource::Sky(Sky { sun, intensity }));
+        rig.any_environment(&EnvironmentSource::Sky(Sky { sun, intensity, ..Sky::default() }));
         let to = DVec3::from(sun.map(f64::from)).normalize();
         let expected = |face: usize, at: DVec2| {
             let d = twin::direction(face, (at + 0.5) / f64::from(size)).normalize();

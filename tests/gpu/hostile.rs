@@ -153,7 +153,8 @@ fn draw(rig: &mut Rig<'_>, case: &Foamy, all: &[Words]) -> Vec<[f32; 4]> {
     rig.stub.end(0);
     rig.stub.wait(0);
     let drawn = rig.read(&output, &recorded);
-    rig.renderer().collect(Slot(0));
+    // SAFETY: the slot was waited for.
+    unsafe { rig.renderer().collect(Slot(0)) };
     drawn.output.data
 }
 

@@ -323,7 +323,8 @@ impl Scene {
                 ));
             };
             let intensity = sun.intensity.unwrap_or(Sky::default().intensity);
-            scene.sun = SunLight::of(&Sky { sun: direction.to_array(), intensity });
+            scene.sun =
+                SunLight::of(&Sky { sun: direction.to_array(), intensity, ..Sky::default() });
         }
         Ok(scene)
     }

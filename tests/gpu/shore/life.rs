@@ -231,7 +231,6 @@ fn bad_looks_shores_and_configurations_name_their_field() {
     let nowhere = HostImage { rect: extent(33, 16).into(), ..depth.host_image() };
     let base = Shore::new(0.0);
     for (field, shore) in [
-        ("Frame.shore.up", Shore { up: [0.0, 0.5, 0.0], ..base }),
         ("Frame.shore.bias", Shore { bias: -1.0, ..base }),
         ("Frame.shore.surface", Shore { surface: Some(Surface::Level(f32::NAN)), ..base }),
         (

@@ -471,7 +471,8 @@ fn up_may_be_any_axis() {
         coasts.image_step(&area, &heights(&area, 64, round), None);
         let map = twin_map(&coasts);
         let line = Some(Shoreline::Map(coasts.coast()));
-        shot.shore = Some(Shore { up: area.up, shoreline: line, ..Shore::new(0.0) });
+        shot.settings.up = area.up;
+        shot.shore = Some(Shore { shoreline: line, ..Shore::new(0.0) });
         shot.settings.shore = plain();
         let found = rig.draw(&shot).shore.expect("shoreline foam");
         let look = &shot.settings.shore;

@@ -123,7 +123,8 @@ impl<'g> Rig<'g> {
     ) {
         let image = self.map(size, texels);
         let (image, without_sun) = (image.host_image(), None);
-        let source = Equirectangular { image, without_sun, scale, turn };
+        let up = [0.0, 1.0, 0.0];
+        let source = Equirectangular { image, without_sun, scale, turn, up };
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
@@ -135,7 +136,8 @@ impl<'g> Rig<'g> {
     ) {
         let [image, without_sun] = [texels, without_sun].map(|texels| self.map(size, texels));
         let (image, without_sun) = (image.host_image(), Some(without_sun.host_image()));
-        let source = Equirectangular { image, without_sun, scale: 1.0, turn: 0.0 };
+        let up = [0.0, 1.0, 0.0];
+        let source = Equirectangular { image, without_sun, scale: 1.0, turn: 0.0, up };
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 

@@ -1,0 +1,173 @@
+//! Another direction than +y is up: a world that is turned, with all that is said of it, gives the same picture.
+
+use glam::{Mat4, Quat, Vec3};
+use whitewater::bubbles::BubbleConfig;
+use whitewater::foam::DiffuseConfig;
+use whitewater::headless::{Bubble, Diffuse};
+use whitewater::shore::ShoreConfig;
+use whitewater::{Config, EnvironmentSource, Error, Particles, Region, Settings, Shore, Sky, Slot};
+
+use crate::reference::Image;
+use crate::support::device::Gpu;
+use crate::support::rig::{Rig, Shot, config, extent, stream};
+use crate::support::scenes::{self, Lens, Random};
+
+/// Of one world.
+#[derive(Clone)]
+struct World {
+    shot: Shot,
+    sky: Sky,
+    velocities: Vec<[f32; 3]>,
+    foam: Vec<[f32; 2]>,
+    diffuse: Vec<[f32; 3]>,
+}
+
+impl World {
+    /// Water with foam and spray in it, diffuse foam and bubbles on it, before a shore, under a low sun.
+    fn new() -> Self {
+        let size = extent(96, 64);
+        let mut points = scenes::block(3, 0.25, [12, 8, 4], [-1.6, -1.2, 4.0]);
+        points.extend(scenes::cloud(4, 40, 0.2, 12.0));
+        let mut shot = Shot::new(size, Lens::Standard, 0.2, &points);
+        let mut random = Random(21);
+        let count = shot.positions.len();
+        shot.densities = Some((0..count).map(|_| random.between(300.0, 1000.0)).collect());
+        let velocities: Vec<_> =
+            (0..count).map(|_| [0; 3].map(|_| random.between(-2.0, 2.0))).collect();
+        let foam: Vec<_> =
+            (0..count).map(|_| [(2.0 * random.between(0.0, 1.0) - 1.0).max(0.0), 0.5]).collect();
+        let around: Vec<_> = (0..60).map(|_| [0; 3].map(|_| random.between(-0.5, 0.5))).collect();
+        let front: Vec<_> =
+            around.iter().map(|[x, y, z]| [2.0 * x - 0.5, 1.4 * y, 3.6 + z]).collect();
+        let diffuse = scenes::world(&shot.camera, &front);
+        let balls = scenes::world(&shot.camera, &[[0.8, 0.6, 4.0], [1.2, 0.2, 4.4]]);
+        shot.blobs = (1..)
+            .zip(balls)
+            .map(|(id, [x, y, z])| Bubble {
+                ball: [x, y, z, 0.45],
+                turn: Quat::from_rotation_z(0.7 * id as f32).to_array(),
+                id,
+            })
+            .collect();
+        // Ground that comes out of the water, and the level at which it does.
+        shot.scene_depth(|x, y| Some(5.0 + 0.05 * f64::from(x) - 0.02 * f64::from(y)));
+        shot.shore = Some(Shore::new(0.6));
+        let settings = &mut shot.settings;
+        settings.light.direction = Vec3::new(0.5, 0.4, 0.6).normalize().to_array();
+        // What random places of the world make is not turned with it.
+        (settings.foam.pattern, settings.foam.noise, settings.foam.relief) = (0.0, 0.0, 0.0);
+        (settings.spray.droplets, settings.spray.spread) = (1, 0.0);
+        settings.shore.contact.particle_opacity = 1.0;
+        let [x, y, z] = shot.positions[0];
+        shot.sun.region = Some(Region { center: [x, y, z], radius: 4.0 });
+        let sky = Sky { sun: shot.settings.light.direction, ..Sky::default() };
+        Self { shot, sky, velocities, foam, diffuse }
+    }
+
+    /// What was y is z: exact, but for the order of sums.
+    fn z_up(&self) -> Self {
+        let turned = |[x, y, z]: [f32; 3]| [x, -z, y];
+        let all = |list: &[[f32; 3]]| list.iter().map(|p| turned(*p)).collect::<Vec<_>>();
+        let mut other = self.clone();
+        let shot = &mut other.shot;
+        let back =
+            Mat4::from_mat3(glam::Mat3::from_cols(Vec3::X, Vec3::Z, Vec3::NEG_Y)).transpose();
+        shot.camera.view *= back;
+        shot.positions = all(&shot.positions);
+        let quarter = Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+        for blob in &mut shot.blobs {
+            let [x, y, z, radius] = blob.ball;
+            let [x, y, z] = turned([x, y, z]);
+            blob.ball = [x, y, z, radius];
+            blob.turn = (quarter * Quat::from_array(blob.turn)).to_array();
+        }
+        if let Some(region) = &mut shot.sun.region {
+            region.center = turned(region.center);
+        }
+        let settings = &mut shot.settings;
+        settings.light.direction = turned(settings.light.direction);
+        // Of any length.
+        settings.up = [0.0, 0.0, 2.5];
+        other.sky = Sky { sun: turned(self.sky.sun), up: [0.0, 0.0, 0.5], ..self.sky };
+        other.velocities = all(&self.velocities);
+        other.diffuse = all(&self.diffuse);
+        other
+    }
+
+    fn draw(&self, gpu: &Gpu, config: &Config) -> Image<[f32; 4]> {
+        let mut rig = Rig::new(gpu, config);
+        rig.any_environment(&EnvironmentSource::Sky(self.sky));
+        let usage = ash::vk::BufferUsageFlags::STORAGE_BUFFER;
+        let cloud = rig.particles(&self.shot);
+        let velocities = rig.stub.data(bytemuck::cast_slice(&self.velocities), usage);
+        let foam = rig.stub.data(bytemuck::cast_slice(&self.foam), usage);
+        let particles = Particles {
+            velocities: Some(stream(&velocities, 0, 12)),
+            foam: config.foam.then(|| stream(&foam, 0, 8)),
+            ..cloud.particles()
+        };
+        let diffuse = rig.diffuse(&Diffuse { positions: &self.diffuse, ..Diffuse::default() });
+        let some = config.diffuse.is_some().then(|| diffuse.particles());
+        let mut shot = self.shot.clone();
+        shot.shore = shot.shore.filter(|_| config.shore.is_some());
+        shot.sun.region = shot.sun.region.filter(|_| config.cast.is_some());
+        rig.draw_diffuse(&shot, &particles, some).output
+    }
+}
+
+/// Pixels farther apart than a thousandth of the brightest, of a hundred.
+fn apart(a: &Image<[f32; 4]>, b: &Image<[f32; 4]>) -> f64 {
+    let most = a.data.iter().flat_map(|c| c[..3].to_vec()).fold(0.0, f32::max);
+    let differs =
+        |(a, b): &(&[f32; 4], &[f32; 4])| (0..3).any(|i| !((a[i] - b[i]).abs() <= 1.0e-3 * most));
+    100.0 * a.data.iter().zip(&b.data).filter(differs).count() as f64 / a.data.len() as f64
+}
+
+#[test]
+fn a_turned_world_looks_the_same() {
+    let gpu = Gpu::shared();
+    let base = config(extent(96, 64));
+    let diffuse = Some(DiffuseConfig::new(64));
+    let bubbles = Some(BubbleConfig { templates: 1, bubbles: 12, ..BubbleConfig::new(8) });
+    let (world, z_up) = (World::new(), World::new().z_up());
+    let mut unsaid = z_up.clone();
+    unsaid.shot.settings.up = Settings::default().up;
+    unsaid.sky.up = Sky::default().up;
+    let mut wrong = Vec::new();
+    for (name, config) in [
+        ("water", base),
+        ("foam", Config { foam: true, ..base }),
+        ("spray", Config { spray: true, ..base }),
+        ("diffuse", Config { diffuse, ..base }),
+        ("bubbles", Config { bubbles, ..base }),
+        ("shore", Config { shore: Some(ShoreConfig::default()), ..base }),
+        ("cast", Config { cast: Some(64), ..base }),
+    ] {
+        let expected = world.draw(&gpu, &config);
+        let (same, other) = (z_up.draw(&gpu, &config), unsaid.draw(&gpu, &config));
+        let (same, other) = (apart(&same, &expected), apart(&other, &expected));
+        // Where an outline falls by rounding.
+        if same >= 0.5 || other <= 5.0 {
+            wrong.push(format!("{name}: {same:.2} % are apart, {other:.1} % where up is not said"));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
+#[test]
+fn up_is_a_direction() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::new(&gpu, &config(extent(16, 16)));
+    for up in [[0.0; 3], [f32::NAN, 1.0, 0.0], [0.0, f32::INFINITY, 0.0]] {
+        let mut shot = Shot::new(extent(16, 16), Lens::Standard, 0.1, &[]);
+        shot.settings.up = up;
+        let error = rig.refused(&shot, None);
+        assert!(error.starts_with("Settings.up: "), "{error}");
+        let sky = EnvironmentSource::Sky(Sky { up, ..Sky::default() });
+        let cmd = rig.stub.begin(0);
+        // SAFETY: cmd is recording; nothing is recorded of what is refused.
+        let result = unsafe { rig.renderer().record_environment(cmd, Slot(0), &sky) };
+        rig.stub.throw_away(0);
+        assert!(matches!(result, Err(Error::BadInput { field: "Sky.up", .. })), "{result:?}");
+    }
+}
