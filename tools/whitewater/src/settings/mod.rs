@@ -128,8 +128,9 @@ impl SettingsFile {
 
     /// The file that says all: of settings, of what was found, and of what chooses passes as this file does.
     pub fn all(&self, settings: &Settings, found: Found<'_>) -> Self {
-        // The ladder is of the layers that are written.
+        // The tool's worlds have y up; the ladder is of the layers that are written.
         let Settings {
+            up: _,
             water,
             foam,
             spray,
