@@ -90,7 +90,7 @@ vec3 core_light(Look look, vec3 past, vec3 normal, vec3 round_, float fine) {
     float facing = dot(n, mat3(frame.world) * frame.sun_direction.xyz);
     vec3 light = sky + bubbly.sun.rgb * look.sun * max((facing + 0.4) / 1.4, 0.0);
     // Between bubbles it is darker; where they are too small to be seen, as light as they are in the mean.
-    float crease = mix(0.81, mix(0.72, 1.0, smoothstep(0.6, 1.0, length(past))), fine);
+    float crease = mix(0.81, mix(0.77, 1.07, smoothstep(0.6, 1.0, length(past))), fine);
     return bubbly.albedo.rgb * light * mix(1.0, pattern.w, shown) * crease;
 }
 

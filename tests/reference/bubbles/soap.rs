@@ -342,7 +342,7 @@ fn layer(
     };
 
     let opacity = |t: f64| 1.0 - smoothstep(look.core[0], look.core[1], ray.at(t).length());
-    let crease = 0.72 + 0.28 * smoothstep(0.6, 1.0, ray.at(out).length());
+    let crease = 0.77 + 0.3 * smoothstep(0.6, 1.0, ray.at(out).length());
     // Of the pattern what lies behind, drawn towards where the normal points into it (Sec. 4.4).
     let inside = mix(ray.at(out).normalize(), -front, look.distortion).normalize();
     let (pattern, unsure) = picture.at(inside);
