@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{DVec3, Mat4, Vec3, Vec4};
 use gpu_allocator::vulkan::Allocator;
 
 use crate::bubbles::settings::{BubbleConfig, BubbleLook};
@@ -657,7 +657,7 @@ impl Shadow {
     pub(crate) fn nearer(&self, light: &Light) -> f32 {
         let inverse = self.view_projection.inverse();
         let middle = inverse.project_point3(Vec3::new(0.0, 0.0, 0.5));
-        let step = Vec3::from(light.direction) * 1.0e-3 * (1.0 + middle.length());
+        let step = light.toward() * 1.0e-3 * (1.0 + middle.length());
         let depth = |p| self.view_projection.project_point3(p).z;
         if depth(middle + step) <= depth(middle) { 1.0 } else { -1.0 }
     }
@@ -675,7 +675,7 @@ pub struct Region {
 impl Region {
     /// World to the light's maps: place 0 to 1, metres along the light.
     pub(crate) fn to_map(self, light: &Light, up: Vec3) -> Mat4 {
-        let sun = Vec3::from(light.direction).normalize_or(up);
+        let sun = light.toward();
         let aside = if sun.dot(up).abs() > 0.99 { level_axes(up)[0] } else { up };
         let right = aside.cross(sun).normalize();
         let side = sun.cross(right);
@@ -804,7 +804,7 @@ impl Light {
 /// The sun, and the light of the sky as the water's scattering sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// World direction to the sun, unit length.
+    /// World direction to the sun, of any length but 0.
     pub direction: [f32; 3],
     /// Radiance factor of its highlight, linear RGB, [0, ∞).
     pub color: [f32; 3],
@@ -825,6 +825,13 @@ impl Default for Light {
             irradiance: [3.6, 3.5, 3.4],
             shade: [0.6, 0.8, 1.1],
         }
+    }
+}
+
+impl Light {
+    /// The direction to the sun, of unit length: also of one whose square is beyond single precision.
+    pub(crate) fn toward(&self) -> Vec3 {
+        Vec3::from(self.direction).as_dvec3().normalize_or(DVec3::Y).as_vec3()
     }
 }
 

@@ -322,7 +322,7 @@ impl FrameUniforms {
         };
         let noise_level = config.noise.unwrap_or(0);
         let noisy = reduced(full, noise_level);
-        let sun = lens.view.transform_vector3(light.direction.into()).normalize_or_zero();
+        let sun = lens.view.transform_vector3(light.toward()).normalize_or_zero();
         let since = Since::new(lens, frame);
         Self {
             view: lens.view.to_cols_array_2d(),
@@ -503,7 +503,7 @@ fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
 /// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
 pub fn sun_on(settings: &Settings) -> [f32; 4] {
     let light = &settings.light;
-    let height = settings.up().dot(light.direction.into()).max(0.1);
+    let height = settings.up().dot(light.toward()).max(0.1);
     let part = |i: usize| (light.irradiance[i] - light.shade[i]).max(0.0) / height;
     light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))
 }
