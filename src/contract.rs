@@ -726,7 +726,8 @@ impl Frame<'_> {
     }
 }
 
-/// All settings that cost nothing to change from frame to frame.
+/// All settings that cost nothing to change from frame to frame. Where a range has no end (∞) that is 1e12, so that products
+/// of a few are numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// World direction up, of any length but 0, default +y: of the horizon under which water mirrors more water, of the

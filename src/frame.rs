@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::foam::settings::{Mixing, Reach, Submerged};
 use crate::gpu::shader;
 use crate::water::settings::{
-    Amplitude, Compositing, FoamLook, Fresnel, Medium, Rule, SprayLook, WaterSettings,
+    Amplitude, Compositing, FoamLook, Fresnel, GREATEST, Medium, Rule, SprayLook, WaterSettings,
 };
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
@@ -426,7 +426,7 @@ impl FrameUniforms {
             diffuse: [diffuse.radius, near, far, f32::from(u8::from(falloff.is_some()))],
             diffuse_below: falloff.unwrap_or([1.0; 4]),
             diffuse_light: [
-                diffuse.half,
+                diffuse.half.log2(),
                 diffuse.exponent,
                 f32::from(u8::from(diffuse.mixing == Mixing::Source)),
                 over.map_or(0.0, |over| over.size),
@@ -604,10 +604,11 @@ fn medium(medium: &Medium) -> ([f32; 4], [f32; 4]) {
 /// Checks the settings' ranges; the message names the field.
 pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error> {
     let at_least = |field, value: f32, least: f32| {
-        if value.is_finite() && value >= least {
+        if value >= least && value <= GREATEST {
             Ok(())
         } else {
-            Err(Error::bad(field, format!("expected at least {least}, found {value}")))
+            let why = format!("expected at least {least}, at most {GREATEST}, found {value}");
+            Err(Error::bad(field, why))
         }
     };
     at_least("Settings.water.spacing", water.spacing, 1e-6)?;

@@ -45,7 +45,8 @@ const float TO_EYE = 0.02;
 vec2 hidden(vec4 there, float depth, float reach) {
     vec3 opacity = vec3(there.y, frame.diffuse_opacity.xy);
     vec3 before = depth - there.xzw;
-    vec3 near = max(1.0 - before / reach, 0.0);
+    // No more than 1: what is not there is so far behind that its square is beyond what a number holds.
+    vec3 near = clamp(1.0 - before / reach, 0.0, 1.0);
     opacity = mix(vec3(0.0), opacity, greaterThan(before, vec3(0.0)));
     return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
 }
@@ -123,7 +124,9 @@ void main() {
     // What is hidden lies to one side: that much less than its part of all lies to the other.
     vec3 open = parts.y * whole - dark + vec3(0.0, 0.0, max(TO_EYE * sum.z, 1.0e-6));
     float told = told_of(0.5 * with.w * frame.extent.y);
-    vec3 normal = normalize(mix(mat3(frame.world) * normalize(open), with.xyz, told));
+    vec3 facing = mix(mat3(frame.world) * normalize(open), with.xyz, told);
+    // Two that are opposite have no mean.
+    vec3 normal = dot(facing, facing) > 1.0e-6 ? normalize(facing) : with.xyz;
     if (told < 1.0) {
         imageStore(normals, pixel, vec4(normal, with.w));
     }
@@ -131,6 +134,8 @@ void main() {
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.diffuse_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
     vec3 light = gathered(normal, first) + sun;
-    float shadow = pow(max(parts.x * frame.diffuse_opacity.z, 1.0e-20), frame.diffuse_opacity.w) + frame.diffuse_shadow.w;
+    float share = parts.x * frame.diffuse_opacity.z;
+    // pow() of 0 is NaN on some drivers.
+    float shadow = (share > 0.0 ? pow(share, frame.diffuse_opacity.w) : 0.0) + frame.diffuse_shadow.w;
     imageStore(radiance, pixel, vec4(light, clamp(shadow, 0.0, 1.0)));
 }

@@ -20,9 +20,9 @@ uint words_of(ivec2 pixel) {
     return WORDS * (uint(pixel.y) * uint(frame.extent.x) + uint(pixel.x));
 }
 
-// Search radius of a sphere with its middle at an eye-space depth, in the upper 16 bits.
+// Search radius of a sphere with its middle at an eye-space depth, in the upper 16 bits: no more than a half can hold.
 uint search_of(float radius, float z) {
-    return packHalf2x16(vec2(0.0, radius * abs(frame.projection.y) / z));
+    return packHalf2x16(vec2(0.0, min(radius * abs(frame.projection.y) / z, 60000.0)));
 }
 
 // Beside it the normal towards the eye where the sphere is met, (place, w), as the diamond |x| + |y| <= 1 turned to a

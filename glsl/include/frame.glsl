@@ -59,7 +59,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 noise_color;   // radiance of its foam
     vec4 diffuse;       // radius of a diffuse particle without one; nearer and farther end of where blobs take over, 0: nowhere; 1 = the source's falloff below the surface
     vec4 diffuse_below; // that falloff: metres, exponents
-    vec4 diffuse_light; // half and exponent of the intensity; 1 = mixed as the source does; radius of a blob in its particle's
+    vec4 diffuse_light; // binary logarithm of the intensity's half, its exponent; 1 = mixed as the source does; radius of a blob in its particle's
     vec4 diffuse_search; // spheres of the occlusion: first, more a pass, passes, samples a cubic pixel
     vec4 diffuse_samples; // least and most; reach of occluders in radii, or less than 0 in metres
     vec4 diffuse_opacity; // of fluid and solids; scale and exponent of the shadow

@@ -174,7 +174,7 @@ bool by_source() {
 float fresnel(float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
     float x2 = x * x;
-    float power = frame.fresnel.z == 5.0 ? x2 * x2 * x : pow(x, frame.fresnel.z);
+    float power = frame.fresnel.z == 5.0 ? x2 * x2 * x : (x > 0.0 ? pow(x, frame.fresnel.z) : float(frame.fresnel.z == 0.0));
     return clamp(frame.fresnel.x + frame.fresnel.y * power, 0.0, 1.0);
 }
 
@@ -223,7 +223,9 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, dot(reflected, frame.up.xyz));
     sheet.mirror = w * sky * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
-    vec3 h = normalize(v + frame.sun_direction.xyz);
+    // Straight against the sun there is none.
+    vec3 h = v + frame.sun_direction.xyz;
+    h *= inversesqrt(max(dot(h, h), 1.0e-12));
     // pow() by hand: of tiny bases some drivers make NaN.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;

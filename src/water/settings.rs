@@ -604,12 +604,17 @@ impl NoiseLook {
     }
 }
 
+/// Of a setting whose range says no end: products of a few such numbers are still numbers.
+pub(crate) const GREATEST: f32 = 1.0e12;
+
+/// Checks a setting; the message names the field.
 pub(crate) fn range(
     field: &'static str,
     value: f32,
     least: f32,
     most: f32,
 ) -> Result<(), crate::error::Error> {
+    let most = most.min(GREATEST);
     if value >= least && value <= most {
         return Ok(());
     }

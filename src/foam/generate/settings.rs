@@ -1,7 +1,7 @@
 //! Settings of the generator of diffuse particles (Ihmsen et al. 2012).
 
 use crate::error::Error;
-use crate::water::settings::range;
+use crate::water::settings::{GREATEST, range};
 
 /// What fixes the memory of a [`Generator`](super::Generator).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,7 +121,7 @@ impl GenerateSettings {
         range("GenerateSettings.trapped_air_rate", self.trapped_air_rate, 0.0, most)?;
         range("GenerateSettings.wave_crest_rate", self.wave_crest_rate, 0.0, most)?;
         let [short, long] = self.lifetime;
-        if !(short > 0.0 && long >= short && long.is_finite()) {
+        if !(short > 0.0 && long >= short && long <= GREATEST) {
             let why = format!("{short} to {long}: seconds expected, the second no less");
             return Err(Error::bad("GenerateSettings.lifetime", why));
         }

@@ -3,6 +3,7 @@
 mod fluid;
 mod heaped;
 pub mod packets;
+mod ranges;
 mod sun;
 pub mod ways;
 
