@@ -195,6 +195,9 @@
 //!   source's falloff is there as [`foam::Submerged::Falloff`].
 //! - A sample is hidden by how far its occluder stands before the sample itself; the print has the fragment's depth.
 //!   The reach is a radius of the search, not metres ([`foam::Reach`]).
+//! - By default a pixel has a sixteenth of the samples ([`foam::Occlusion::Fast`]), in pairs that lie opposite each other:
+//!   each pixel by itself finds half of a half space hidden. The blur is cut along rows and columns, and far from its
+//!   middle takes some of the numbers ([`foam::DiffuseLook::blur`]).
 //! - Light is scaled by what is in shadow ([`foam::Mixing`]); the source subtracts the shadow. The sun, which an
 //!   environment does not hold, is added.
 //! - Foam casts shadows (`Config.cast`), its future work: of the sun it takes what it covers of a picture from there,

@@ -20,16 +20,17 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 // 1: the environment is asked at the points' directions, as in the source; 0: once, filtered before.
 layout(constant_id = 0) const uint SAMPLED = 0;
-// 1: each pixel of a block has a sixteenth of all points, and `blur` puts them together. All of them whatever the
-// spheres' size, so that foam does not change with the distance: the first few points lie to one side.
+// 1: each pixel of a block has a sixteenth of all points, and `blur` puts them together. Each sixteenth by itself
+// finds half of a half space hidden, whatever its slope: foam that is alone is not helped by its neighbours' points.
+// As many whatever the spheres' size, so that foam does not change with the distance.
 layout(constant_id = 1) const uint FAST = 0;
-// Of which as few as tell half a sphere to 0.02.
+// Points of all sixteen.
 const float FAST_SAMPLES = 320.0;
 
 layout(set = 0, binding = 1) uniform sampler2D occluders;
 // With the search radius.
 layout(set = 0, binding = 2, rgba16f) uniform image2D normals;
-// Points of a unit sphere, and how much each counts.
+// Points of a unit sphere, and how much each counts. FAST: of each pair that lies opposite each other the one.
 layout(set = 0, binding = 3, std430) readonly buffer Points { vec4 points[]; };
 // Octahedral, with a border of a texel.
 layout(set = 0, binding = 4) uniform sampler2D irradiance;
@@ -51,34 +52,52 @@ vec2 hidden(vec4 there, float depth, float reach) {
     return min(vec2(dot(near * near, opacity), dot(vec3(1.0), opacity)), 1.0);
 }
 
-// Points of a sphere so many pixels wide: the first of them, and after the last.
-uvec2 samples_of(float pixels, ivec2 pixel) {
+vec4 point_of(uint i) {
+    if (FAST == 0u) {
+        return points[i];
+    }
+    vec4 one = points[i >> 1];
+    return vec4((i & 1u) == 0u ? one.xyz : -one.xyz, one.w);
+}
+
+// Points of the sphere of a pass, so many pixels wide: the first of them, and after the last.
+uvec2 samples_of(float pixels, ivec2 pixel, uint pass) {
     if (FAST == 1u) {
-        uint count = max(uint(min(frame.diffuse_samples.y, FAST_SAMPLES)) / 16u, 1u);
-        // Runs of the sequence, each of which fills the sphere; those of neighbours lie far from each other in it.
+        uint count = 2u * max(uint(min(frame.diffuse_samples.y, FAST_SAMPLES)) / 32u, 1u);
+        // Runs of the sequence, each of which fills the sphere; those of neighbours lie far from each other in it, and
+        // those of a pixel's passes: three spheres are told by three times the points.
         uvec2 p = uvec2(pixel);
         uint x = p.x ^ p.y;
         uint run = (x & 1u) << 3 | (p.y & 1u) << 2 | (x & 2u) | (p.y & 2u) >> 1;
+        run = run + 5u * pass & 15u;
         return uvec2(run, run + 1u) * count;
     }
     float count = 4.0 / 3.0 * 3.14159265 * pixels * pixels * pixels * frame.diffuse_search.w;
     return uvec2(0u, uint(clamp(count, frame.diffuse_samples.x, frame.diffuse_samples.y) + 0.5));
 }
 
-// The environment's light over the hemisphere of a normal, 1/2 of one that is 1 everywhere.
+// Search radius of a pass, in half heights of the picture.
+float search_of(float foam, uint pass) {
+    return foam * (frame.diffuse_search.x + frame.diffuse_search.y * float(pass));
+}
+
+// The environment's light over the hemisphere of a normal, 1/2 of one that is 1 everywhere: of a few directions by
+// what their own cosines come to.
 vec3 gathered(vec3 normal, uvec2 run) {
     if (SAMPLED == 0u) {
         vec2 at = octahedral_texture_place(normal, textureSize(irradiance, 0));
         return textureLod(irradiance, at, 0.0).rgb;
     }
     vec3 sum = vec3(0.0);
+    float cosines = 0.0;
     for (uint i = run.x; i < run.y; ++i) {
-        vec3 direction = mat3(frame.world) * normalize(points[i].xyz);
+        vec3 direction = mat3(frame.world) * normalize(point_of(i).xyz);
         float cosine = dot(direction, normal);
         direction -= 2.0 * min(cosine, 0.0) * normal;
         sum += abs(cosine) * textureLod(environment, direction, 0.0).rgb;
+        cosines += abs(cosine);
     }
-    return sum / float(run.y - run.x);
+    return sum / (FAST == 1u ? max(2.0 * cosines, 1.0e-6) : float(run.y - run.x));
 }
 
 void main() {
@@ -98,15 +117,13 @@ void main() {
     // Of what is hidden however far, and of all, the same times the points.
     vec3 dark = vec3(0.0);
     vec3 whole = vec3(0.0);
-    uvec2 first = uvec2(0u, 1u);
     for (uint pass = 1u; pass <= passes; ++pass) {
-        float search = with.w * (frame.diffuse_search.x + frame.diffuse_search.y * float(pass));
+        float search = search_of(with.w, pass);
         float radius = search * metres;
         float reach = frame.diffuse_samples.z > 0.0 ? frame.diffuse_samples.z * radius : -frame.diffuse_samples.z;
-        uvec2 run = samples_of(0.5 * search * frame.extent.y, pixel);
-        first = pass == 1u ? run : first;
+        uvec2 run = samples_of(0.5 * search * frame.extent.y, pixel, pass);
         for (uint i = run.x; i < run.y; ++i) {
-            vec4 point = points[i];
+            vec4 point = point_of(i);
             vec3 s = position + radius * point.xyz;
             vec2 at = (s.xy / -s.z - frame.slope.zw) / frame.slope.xy;
             bool seen = -s.z > frame.depth.z && all(greaterThanEqual(at, vec2(0.0)))
@@ -133,6 +150,8 @@ void main() {
     // The environment is without the sun. Foam is soft: it is lit beyond where it is turned away.
     float turned = dot(mat3(frame.world) * frame.sun_direction.xyz, normal);
     vec3 sun = frame.diffuse_sun.rgb * sunlight(position, vec2(pixel) + 0.5) * max((turned + 0.5) / 1.5, 0.0);
+    // The directions of the first sphere's points, also where no sphere is asked for.
+    uvec2 first = samples_of(0.5 * search_of(with.w, 1u) * frame.extent.y, pixel, 1u);
     vec3 light = gathered(normal, first) + sun;
     float share = parts.x * frame.diffuse_opacity.z;
     // pow() of 0 is NaN on some drivers.

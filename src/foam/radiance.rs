@@ -1,9 +1,13 @@
 //! Passes `radiance` and `blur`: how much light foam gets of its surroundings (Akinci et al. 2013, Sec. 2.4 and
 //! 2.5; passes 6 and 7).
 //!
-//! The samples are the source's, points of a sphere of the Halton sequence, in spheres of growing radius: the same for
-//! every pixel in the reference mode, shared out among the pixels of a block in the fast one, whose blur puts them
-//! together. Where they find the space open is the normal of what is smaller than a pixel, which is not the source's.
+//! In the reference mode the samples are the source's, points of a sphere of the Halton sequence, the same for every
+//! pixel, in spheres of growing radius. In the fast mode a pixel has a sixteenth of the points, which the blur puts
+//! together. Foam that is alone has nothing but its own: they come in pairs that lie opposite each other, of which a plane
+//! through the middle hides one, and where they are weighed most they lie most, so that each counts in full. Where the
+//! samples find the space open is the normal of what is smaller than a pixel, which is not the source's.
+
+use std::f64::consts::TAU;
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -51,6 +55,35 @@ fn points() -> Vec<[f32; 4]> {
     inside.take(MOST_SAMPLES).collect()
 }
 
+/// Pairs of points of the fast mode, a sixteenth of them for each pixel of a block (glsl/foam/radiance.comp).
+const PAIRS: u32 = 160;
+
+/// Of pairs of points opposite each other the one of each, all of weight 1: as dense as `λ = (1 − |s|)²` says, evenly spread
+/// by the multiples of three powers of a root of x⁴ = x + 1 (Roberts, The unreasonable effectiveness of
+/// quasirandom sequences, 2018), any run of which fills the sphere.
+fn pairs() -> Vec<[f32; 4]> {
+    const ROOT: f64 = 1.220_744_084_605_759_6;
+    let pair = |index: u32| {
+        let part = |power: i32| (f64::from(index) * ROOT.powi(-power)).fract();
+        let (radius, height) = (radius_within(part(2)), part(3));
+        let (sin, cos) = (TAU * part(1)).sin_cos();
+        let across = (1.0 - height * height).sqrt();
+        [across * cos, across * sin, height].map(|v| (radius * v) as f32)
+    };
+    (1..=PAIRS).map(pair).map(|[x, y, z]| [x, y, z, 1.0]).collect()
+}
+
+/// The radius within which this share of the unit sphere lies, weighed by λ: where `10 r³ − 15 r⁴ + 6 r⁵` is it.
+fn radius_within(share: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let r: f64 = 0.5 * (low + high);
+        let less = r.powi(3) * (10.0 - 15.0 * r + 6.0 * r * r) < share;
+        (low, high) = if less { (r, high) } else { (low, r) };
+    }
+    high
+}
+
 /// The surface of the water, as the fragments of `composite` take it.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
@@ -75,7 +108,7 @@ impl Radiance {
         let fast = u32::from(diffuse.occlusion == Occlusion::Fast);
         let own = [(0, sampled), (1, fast)];
         let constants = [&own[..], &crate::light::constants(config)].concat();
-        let points = points();
+        let points = if diffuse.occlusion == Occlusion::Fast { pairs() } else { points() };
         let bytes: &[u8] = bytemuck::cast_slice(&points);
         let mut buffer = Buffer::new(
             gpu,
@@ -255,5 +288,23 @@ mod tests {
         );
         let weight: f32 = points.iter().map(|p| p[3]).sum::<f32>() / 512.0;
         assert!((weight - 0.1).abs() < 0.005, "mean weight {weight}, of a full sphere 1/10");
+    }
+
+    /// Means over the sphere weighed by `λ`: of the squared radius `B(5,3)/B(3,3) = 2/7`, of the squared height a third of
+    /// it. Of a sixteenth they are nearly those of all.
+    #[test]
+    fn pairs_fill_the_weighed_sphere() {
+        let pairs = pairs();
+        let means = |pairs: &[[f32; 4]]| {
+            let mean =
+                |of: fn(&[f32; 4]) -> f32| pairs.iter().map(of).sum::<f32>() / pairs.len() as f32;
+            [mean(|[x, y, z, _]| x * x + y * y + z * z), mean(|[_, _, z, _]| z * z)]
+        };
+        let near =
+            |[a, b]: [f32; 2], by: f32| (a - 2.0 / 7.0).abs() < by && (b - 2.0 / 21.0).abs() < by;
+        assert!(near(means(&pairs), 0.003), "{:?}", means(&pairs));
+        for run in pairs.chunks(10) {
+            assert!(near(means(run), 0.06), "{:?}", means(run));
+        }
     }
 }

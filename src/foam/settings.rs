@@ -63,8 +63,9 @@ pub enum Splat {
 pub enum Occlusion {
     /// As printed: as many points as the spheres hold pixels, the same in every pixel.
     Reference,
-    /// A sixteenth of the most points ([`DiffuseLook::samples`]), of 320 at most, in each pixel of a block of sixteen,
-    /// which the blur puts together, in spheres of any size. Default.
+    /// A sixteenth of the most points ([`DiffuseLook::samples`]), of 320 at most, 2 at least, in each pixel of a block of
+    /// sixteen, which the blur puts together, in spheres of any size. They come in pairs opposite each other, so that each
+    /// pixel by itself finds half of a half space hidden. Default.
     Fast,
 }
 
@@ -74,7 +75,7 @@ pub enum Irradiance {
     /// Once a pixel, from a map that is filtered once per environment (which the source names as the
     /// quicker way). Default.
     Prefiltered,
-    /// At the directions of the first pass' samples (Sec. 2.4.2).
+    /// At the directions of the first pass' samples (Sec. 2.4.2), whether or not there is such a pass.
     Sampled,
 }
 

@@ -2,6 +2,7 @@
 
 mod fluid;
 mod heaped;
+mod lone;
 pub mod packets;
 mod ranges;
 mod sun;

@@ -33,7 +33,9 @@ pub use blur::blur;
 pub use bounds::{Bounds, Candidate, foam_bounds};
 pub use irradiance::{irradiance, irradiance_of};
 pub use layers::{Foam, Seen, foam};
-pub use occlusion::{Layers, Occlusion, Omega, Reach, halton, occlusion, points, shared_occlusion};
+pub use occlusion::{
+    Layers, Occlusion, Omega, Reach, halton, occlusion, pairs, points, shared_occlusion,
+};
 pub use picture::{composite_hdr, composite_source, intensity, zeta_final};
 
 /// Sums of thickness are whole multiples of this.

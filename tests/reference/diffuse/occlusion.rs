@@ -186,10 +186,7 @@ impl Occlusion {
             let within = at.cmpge(DVec2::ZERO).all() && at.cmplt(view.extent()).all();
             within.then_some((at.x as usize, at.y as usize))
         };
-        let length = s.unit.length();
-        let lambda = (1.0 - length).powi(2);
-        let own = U * (32.0 * (1.0 - length) + 8.0 * lambda);
-        let lambdas = [lambda, (lambda - own).max(0.0), lambda + own];
+        let lambdas @ [lambda, ..] = s.lambdas;
 
         let mut hidden = [[0.0, f64::INFINITY, 0.0]; 2];
         let mut counted = [0.0, if sure { lambdas[1] } else { 0.0 }, 0.0];
@@ -228,6 +225,24 @@ impl Occlusion {
         layers: &Layers<'_>,
         view: &View,
         points: &[DVec3],
+        at: (usize, usize),
+    ) -> Option<Omega> {
+        let weigh = |unit: DVec3| {
+            let length = unit.length();
+            let lambda = (1.0 - length).powi(2);
+            let own = U * (32.0 * (1.0 - length) + 8.0 * lambda);
+            [lambda, (lambda - own).max(0.0), lambda + own]
+        };
+        self.omega_by(layers, view, &|_| points, &weigh, at)
+    }
+
+    /// The same of any points of each pass and what they count.
+    fn omega_by<'a>(
+        &self,
+        layers: &Layers<'_>,
+        view: &View,
+        points: &dyn Fn(u32) -> &'a [DVec3],
+        weigh: &dyn Fn(DVec3) -> Ends,
         (x, y): (usize, usize),
     ) -> Option<Omega> {
         let seen = layers.front.at(x, y)?;
@@ -243,11 +258,11 @@ impl Occlusion {
             let radius = h * seen.depth / focal;
             let count = self.samples(h_px);
             let ends = self.samples_ends(h_px);
-            for (i, unit) in points.iter().take(ends[1]).enumerate() {
+            for (i, unit) in points(pass).iter().take(ends[1]).enumerate() {
                 // The radius 16u, a point u a coordinate, the product and the sum u each.
                 let moved = radius * *unit;
                 let e = at_e + U * (19.0 * moved.length() + at.length());
-                let sample = Sample { unit: *unit, radius, at: at + moved, e };
+                let sample = Sample { lambdas: weigh(*unit), radius, at: at + moved, e };
                 let here = [i < count, i < ends[0], true];
                 let all = self.sample(layers, view, &sample);
                 let [h, b, c] =
@@ -292,8 +307,8 @@ impl Occlusion {
 
 /// A sample in eye space.
 struct Sample {
-    /// In the unit sphere.
-    unit: DVec3,
+    /// What it counts.
+    lambdas: Ends,
     /// World radius of that.
     radius: f64,
     /// Where it is, and by what length that may be off.
@@ -318,21 +333,50 @@ pub fn occlusion(layers: &Layers<'_>, view: &View, settings: &Occlusion) -> Imag
     Image::from_fn(view.width, view.height, |x, y| settings.omega(layers, view, &points, (x, y)))
 }
 
-/// The same by a part of the points in each pixel of a block of sixteen: of `most`, in runs.
+/// The same by a part of the points in each pixel of a block of sixteen: of `most`, in runs of [`pairs`], of which each pass
+/// has another.
 pub fn shared_occlusion(
     layers: &Layers<'_>,
     view: &View,
     settings: &Occlusion,
     most: usize,
 ) -> Image<Option<Omega>> {
-    let (points, length) = (points(most), most / 16);
+    let length = most / 32 * 2;
+    let points: Vec<_> = pairs(8 * length).into_iter().flat_map(|s| [s, -s]).collect();
     let settings = Occlusion { counts: [length as f64; 2], ..*settings };
     Image::from_fn(view.width, view.height, |x, y| {
-        // The digits of the place in a Bayer matrix.
-        let digit = |i: usize| [(x ^ y) >> i & 1, y >> i & 1];
-        let [[a, b], [c, d]] = [digit(0), digit(1)];
-        let run = 8 * a + 4 * b + 2 * c + d;
-        settings.omega(layers, view, &points[run * length..], (x, y))
+        let run = |pass: u32| (bayer(x, y) + 5 * pass as usize) % 16 * length;
+        settings.omega_by(layers, view, &|pass| &points[run(pass)..], &|_| [1.0; 3], (x, y))
+    })
+}
+
+/// A pixel's number in a Bayer matrix of four by four.
+fn bayer(x: usize, y: usize) -> usize {
+    let digit = |i: usize| [(x ^ y) >> i & 1, y >> i & 1];
+    let [[a, b], [c, d]] = [digit(0), digit(1)];
+    8 * a + 4 * b + 2 * c + d
+}
+
+/// One of each pair of points that lie opposite each other: a lattice of multiples of powers of the root of x^4 = x + 1,
+/// from the cube to the half of the unit sphere. As many lie in a part of it as there is of `lambda` in it.
+pub fn pairs(count: usize) -> Vec<DVec3> {
+    // x = (1 + x)^(1/4), which comes nearer to the root at each step.
+    let root = (0..64).fold(1.0_f64, |x, _| (1.0 + x).powf(0.25));
+    let pair = |i: usize| {
+        let [turn, radius, height] = [1, 2, 3].map(|power| i as f64 / root.powi(power) % 1.0);
+        let across = (1.0 - height * height).sqrt();
+        let (sin, cos) = (2.0 * PI * turn).sin_cos();
+        within(radius) * DVec3::new(across * cos, across * sin, height)
+    };
+    (1..=count).map(pair).collect()
+}
+
+/// The radius of a share of all `lambda`, `30 int r^2 (1-r)^2 dr` from 0 on: by Newton's method from where it is steepest.
+fn within(share: f64) -> f64 {
+    (0..100).fold(0.5, |r: f64, _| {
+        let all = 30.0 * (r.powi(3) / 3.0 - r.powi(4) / 2.0 + r.powi(5) / 5.0);
+        let slope = 30.0 * (r * (1.0 - r)).powi(2);
+        r - (all - share) / slope.max(1e-12)
     })
 }
 

@@ -249,6 +249,28 @@ fn the_halton_points() {
     assert!(all.fold(1.0, f64::min) > 1e-6);
 }
 
+/// Points that count alike lie as `lambda` says: means of its powers over the sphere are `B(k + 3, 3) / B(3, 3)`, those of
+/// squares along each axis a third of the radius'. Each run of ten is nearly as good.
+#[test]
+fn pairs_lie_as_samples_count() {
+    let pairs = pairs(160);
+    let mean = |of: &dyn Fn(&DVec3) -> f64, all: &[DVec3]| {
+        all.iter().map(of).sum::<f64>() / all.len() as f64
+    };
+    near(mean(&|s| s.length(), &pairs), 0.5, 2e-3);
+    near(mean(&|s| s.length_squared(), &pairs), 2.0 / 7.0, 2e-3);
+    for axis in 0..3 {
+        near(mean(&|s| s[axis] * s[axis], &pairs), 2.0 / 21.0, 4e-3);
+    }
+    assert!(pairs.iter().all(|s| s.z >= 0.0 && s.length() < 1.0));
+    // What a sheet hides in reach, `(1 - z)^2` of a half.
+    let hides = |s: &DVec3| 0.5 * (1.0 - s.z).powi(2);
+    near(mean(&hides, &pairs), 25.0 / 84.0, 2e-3);
+    for run in pairs.chunks(10) {
+        near(mean(&hides, run), 25.0 / 84.0, 0.07);
+    }
+}
+
 /// How much is hidden about the middle of a flat opaque sheet of foam, of so many samples.
 fn sheet(samples: usize, reach: Reach) -> f64 {
     let view = square(65);
