@@ -81,6 +81,8 @@ pub struct FrameUniforms {
     pub diffuse_opacity: [f32; 4],
     pub diffuse_shadow: [f32; 4],
     pub diffuse_color: [f32; 4],
+    pub diffuse_shapes: [[f32; 4]; 3],
+    pub diffuse_life: [f32; 4],
     pub diffuse_sun: [f32; 4],
     pub shore_color: [f32; 4],
     pub contact_color: [f32; 4],
@@ -151,6 +153,8 @@ shader::assert_layout!(
         diffuse_opacity,
         diffuse_shadow,
         diffuse_color,
+        diffuse_shapes,
+        diffuse_life,
         diffuse_sun,
         shore_color,
         contact_color,
@@ -324,6 +328,10 @@ impl FrameUniforms {
         let noisy = reduced(full, noise_level);
         let sun = lens.view.transform_vector3(light.toward()).normalize_or_zero();
         let since = Since::new(lens, frame);
+        let mut shapes = [diffuse.foam_shape, diffuse.spray_shape, diffuse.bubble_shape]
+            .map(|[n, m]| [n, m, falloff_mean(n, m), 0.0]);
+        // Bubbles are hollow.
+        shapes[2][2] = 1.0 - shapes[2][2];
         Self {
             view: lens.view.to_cols_array_2d(),
             world: lens.view.inverse().to_cols_array_2d(),
@@ -456,7 +464,17 @@ impl FrameUniforms {
                 light_vector(diffuse.shadow_color.map(|c| 1.0 - c)),
                 diffuse.shadow[2],
             ),
-            diffuse_color: light_vector(diffuse.albedo.map(|c| 2.0 * c)),
+            diffuse_color: with(
+                light_vector(diffuse.albedo.map(|c| 2.0 * diffuse.scale * c)),
+                diffuse.blur,
+            ),
+            diffuse_shapes: shapes,
+            diffuse_life: [
+                diffuse.life[0],
+                diffuse.life[1],
+                diffuse.sizes as f32,
+                diffuse.bubble_size,
+            ],
             diffuse_sun: sun_on(frame.settings),
             shore_color,
             contact_color,
@@ -498,6 +516,24 @@ impl Since {
 fn foam_color(albedo: [f32; 3], light: &Light) -> [f32; 4] {
     let [r, g, b] = light.irradiance.map(|c| c * std::f32::consts::FRAC_1_PI);
     [albedo[0] * r, albedo[1] * g, albedo[2] * b, 0.0]
+}
+
+/// Mean of `(1 − x^n)^m` over the unit disc, `∫ 2x (1 − x^n)^m dx`: 1 − 2/(n + 2) of m = 1, else a sum over x = 1 − s³, in
+/// which all of it is smooth.
+fn falloff_mean(n: f32, m: f32) -> f32 {
+    let (n, m) = (f64::from(n), f64::from(m));
+    if m == 1.0 {
+        return (1.0 - 2.0 / (n + 2.0)) as f32;
+    }
+    let steps = 2048;
+    let sum: f64 = (0..steps)
+        .map(|i| {
+            let s = (f64::from(i) + 0.5) / f64::from(steps);
+            let x = 1.0 - s.powi(3);
+            2.0 * x * (1.0 - x.powf(n)).powf(m) * 3.0 * s * s
+        })
+        .sum();
+    (sum / f64::from(steps)) as f32
 }
 
 /// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
@@ -646,6 +682,17 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Against closed forms: `(2/n) B(2/n, m + 1)` of n = 2 is 1/(m + 1), of n = 1 it is 2/((m + 1)(m + 2)).
+    #[test]
+    fn the_mean_of_a_falloff_is_its_integral() {
+        for m in [0.1_f32, 0.4, 1.0, 2.5, 16.0] {
+            assert!((falloff_mean(2.0, m) - 1.0 / (m + 1.0)).abs() < 1.0e-5, "{m}");
+            let linear = 2.0 / ((m + 1.0) * (m + 2.0));
+            assert!((falloff_mean(1.0, m) - linear).abs() < 1.0e-5, "{m}");
+        }
+        assert_eq!(falloff_mean(1.5, 1.0), 1.0 - 2.0 / 3.5);
+    }
 
     fn camera(projection: Mat4) -> Camera {
         Camera { view: Mat4::IDENTITY, projection }

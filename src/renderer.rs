@@ -13,8 +13,8 @@ use crate::contract::{
 };
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
+use crate::foam::Foam;
 use crate::foam::streams::{self, Chunks};
-use crate::foam::{Foam, Submerged};
 use crate::frame::{FrameUniforms, Lens};
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
@@ -285,7 +285,7 @@ impl Renderer {
                 SHORE as u64,
                 size_of::<ShoreUniforms>() as u64,
             ),
-            falloff: matches!(frame.settings.diffuse.submerged, Submerged::Falloff { .. }),
+            shaped: frame.settings.diffuse.shaped(),
             hand_over: handed_over.map(|(_, over)| over),
             scene_depth,
             sunlight: sunlight(

@@ -32,7 +32,7 @@ void main() {
     }
     float search = texelFetch(normals, pixel, 0).w;
     float first = search * (frame.diffuse_search.x + frame.diffuse_search.y);
-    float radius = max(1.5 * 0.5 * first * frame.extent.y, BLOCK);
+    float radius = max(frame.diffuse_color.w * 0.5 * first * frame.extent.y, BLOCK);
     // Two radii of the particle.
     float gap = max(2.0 * search / abs(frame.projection.y), 2.0 * BLOCK * abs(frame.slope.y)) * depth;
     int reach = min(int(radius), MOST);

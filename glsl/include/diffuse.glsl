@@ -8,9 +8,16 @@ const uint FOAM = 0u;
 const uint SPRAY = 1u;
 const uint BUBBLE = 2u;
 
-// What is left of its light at an age (Eq. 1 with b = 1, n = 2, m = 0.4).
+// 0: shapes, lives and sizes are the source's, and its falloff below the surface is not asked for. A CPU goes through what
+// a branch passes over.
+layout(constant_id = 3) const uint SHAPED = 1;
+
+// What is left of its light at an age (Eq. 1 with b = 1; the source: n = 2, m = 0.4).
 float life_of(float age) {
     float x = max(age, 0.0);
+    if (SHAPED == 1u) {
+        return falloff(x, 1.0, frame.diffuse_life.x, frame.diffuse_life.y);
+    }
     return x < 1.0 ? pow(1.0 - x * x, 0.4) : 0.0;
 }
 
@@ -28,16 +35,28 @@ Diffuse diffuse_of(vec3 position, uint kind, float radius, float age, uint id) {
     // NaN and infinity reach no footprint: what is not finite lies behind the eye, and is drawn by none.
     p.centre = all(lessThan(abs(p.centre), vec3(EMPTY))) ? p.centre : vec3(0.0, 0.0, EMPTY);
     p.kind = kind;
-    // Between a fifth and the whole, so that they look irregular.
-    p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.diffuse.x) / float(id % 5u + 1u) * (kind == BUBBLE ? 0.5 : 1.0);
+    // The source: between a fifth and the whole, so that they look irregular, and of bubbles half of it.
+    uint size = (SHAPED == 1u ? id % uint(frame.diffuse_life.z) : id % 5u) + 1u;
+    float bubble = SHAPED == 1u ? frame.diffuse_life.w : 0.5;
+    p.radius = (radius > 0.0 && radius < EMPTY ? radius : frame.diffuse.x) / float(size) * (kind == BUBBLE ? bubble : 1.0);
     bool drawn = age < 1.0 && -p.centre.z > frame.depth.z;
     p.life = drawn ? life_of(age) : 0.0;
     return p;
 }
 
-// By the square of the distance from the middle, 0 to 1 (Fig. 5): 1 - x^1.5, x^2 or 1 - x^2.25, by roots, which cost less
-// than a power.
+// The numbers of a kind.
+vec4 shape_of(uint kind) {
+    return frame.diffuse_shapes[kind == SPRAY ? 1 : kind == BUBBLE ? 2 : 0];
+}
+
+// By the square of the distance from the middle, 0 to 1 (Fig. 5). The source: 1 - x^1.5, x^2 or 1 - x^2.25, by roots, which
+// cost less than a power.
 float diffuse_shape(uint kind, float rr) {
+    if (SHAPED == 1u) {
+        vec4 shape = shape_of(kind);
+        float part = falloff(sqrt(rr), 1.0, shape.x, shape.y);
+        return kind == BUBBLE ? 1.0 - part : part;
+    }
     float root = sqrt(rr);
     float fourth = sqrt(root);
     return kind == BUBBLE ? rr : 1.0 - (kind == SPRAY ? root * fourth : rr * sqrt(fourth));
@@ -45,6 +64,9 @@ float diffuse_shape(uint kind, float rr) {
 
 // Its mean over the disc.
 float diffuse_mean(uint kind) {
+    if (SHAPED == 1u) {
+        return shape_of(kind).z;
+    }
     return kind == SPRAY ? 1.0 - 2.0 / 3.5 : kind == BUBBLE ? 0.5 : 1.0 - 2.0 / 4.25;
 }
 
@@ -133,14 +155,11 @@ float diffuse_amount(Diffuse p, Footprint f, float rr) {
     return p.life * (f.even * (1.0 - rr) + f.own * diffuse_shape(p.kind, rr));
 }
 
-// 0: the source's falloff is not asked for. A CPU goes through what a branch passes over.
-layout(constant_id = 3) const uint FALLOFF = 1;
-
 // Where that goes: before the fluid's surface, behind it, and that by how far. Depths along z.
 vec3 diffuse_shares(float amount, float depth, float fluid) {
     float behind = fluid < EMPTY ? depth - fluid : 0.0;
     // The source's falloff, where no water of ours takes the light.
-    if (FALLOFF == 1u && frame.diffuse.w > 0.0) {
+    if (SHAPED == 1u && frame.diffuse.w > 0.0) {
         return vec3(amount * falloff(behind, frame.diffuse_below.x, frame.diffuse_below.y, frame.diffuse_below.z), 0.0, 0.0);
     }
     float spacing = frame.particle.y;

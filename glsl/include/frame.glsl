@@ -64,7 +64,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 diffuse_samples; // least and most; reach of occluders in radii, or less than 0 in metres
     vec4 diffuse_opacity; // of fluid and solids; scale and exponent of the shadow
     vec4 diffuse_shadow; // what of a shadow takes light; its offset
-    vec4 diffuse_color; // albedo, twice
+    vec4 diffuse_color; // albedo, twice and by its scale; radius of the blur in that of the first sphere
+    vec4 diffuse_shapes[3]; // of foam, spray, bubbles: exponents of the shape, its mean over the disc
+    vec4 diffuse_life;  // exponents of the lifetime; sizes there are; radius of a bubble in what it would be
     vec4 diffuse_sun;   // the sun's light on what faces it, over 2 pi
     vec4 shore_color;   // radiance of shoreline foam; its opacity
     vec4 contact_color; // of contact foam; what of it is light on it

@@ -95,7 +95,7 @@ void splat(ivec2 texel, Sprite s) {
     }
     float amount = diffuse_amount(s.p, s.f, rr);
     // What is not shown behind the water's surface does not cast either.
-    if (FALLOFF == 1u && frame.diffuse.w > 0.0) {
+    if (SHAPED == 1u && frame.diffuse.w > 0.0) {
         float depth = s.depth - sqrt(1.0 - rr) * s.p.radius;
         amount = diffuse_shares(amount, depth, texelFetch(front, texel, 0).x).x;
     }

@@ -44,8 +44,8 @@ const _: () =
 /// The pass.
 pub struct Near {
     begin: Pipeline,
-    /// How many, which.
-    goes: [Pipeline; 2],
+    /// How many, which; of particles as the source has them, and of others.
+    goes: [[Pipeline; 2]; 2],
     range: Pipeline,
     chunks: Chunks,
     arguments: Buffer,
@@ -68,7 +68,12 @@ impl Near {
         let most = u64::from(bubbles.max_blobs);
         let (cleared, plain) = (vk::BufferUsageFlags::TRANSFER_DST, vk::BufferUsageFlags::empty());
         let indirect = vk::BufferUsageFlags::INDIRECT_BUFFER;
-        let go = |which| Pipeline::compute(gpu, shader::BUBBLES_NEAR_COMP, &[(0, which)]);
+        let go = |which| -> Result<_, Error> {
+            let make = |shaped| {
+                Pipeline::compute(gpu, shader::BUBBLES_NEAR_COMP, &[(0, which), (3, shaped)])
+            };
+            Ok([make(0)?, make(1)?])
+        };
         Ok(Self {
             begin: Pipeline::compute(gpu, shader::LIGHT_DIFFUSE_BEGIN_COMP, &[])?,
             goes: [go(0)?, go(1)?],
@@ -134,7 +139,7 @@ impl Near {
             unsafe { gpu.device.cmd_fill_buffer(cmd, own.handle, 0, vk::WHOLE_SIZE, 0) };
         }
         let (counting, host_count) =
-            self.chunks.counting(particles, self.goes[0].local_size[0], self.over());
+            self.chunks.counting(particles, self.goes[0][0].local_size[0], self.over());
         let own = [(1, host_count), (2, Resource::buffer(&self.arguments))];
         r.descriptors.bind(gpu, cmd, &self.begin, &own)?;
         self.begin.push(gpu, cmd, &counting);
@@ -189,7 +194,8 @@ impl Near {
             (12, Resource::buffer(&self.count)),
         ];
         let push = |places| Push { places, room: self.room };
-        self.chunks.each(r, &self.goes[go], &own, particles, push, |chunk| {
+        let pipeline = &self.goes[go][usize::from(r.shaped)];
+        self.chunks.each(r, pipeline, &own, particles, push, |chunk| {
             // SAFETY: outside a render pass, pipeline and set are bound; the arguments are visible.
             unsafe { r.gpu.device.cmd_dispatch_indirect(r.cmd, arguments, 16 * chunk) };
         })

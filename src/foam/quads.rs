@@ -54,8 +54,9 @@ impl Targets {
 pub struct Quads {
     front_pass: Owned<vk::RenderPass>,
     thickness_pass: Owned<vk::RenderPass>,
-    front: Pipeline,
-    thickness: Pipeline,
+    /// Of particles as the source has them, and of others (glsl/include/diffuse.glsl).
+    front: [Pipeline; 2],
+    thickness: [Pipeline; 2],
     targets: Targets,
 }
 
@@ -76,15 +77,18 @@ impl Quads {
         let front_pass = gpu.render_pass("foam/splat/front", &attachments)?;
         let thickness_pass = gpu.color_pass("foam/splat/thickness", &[thickness.format], clear)?;
         let graphics = |fragment, pass: &Owned<vk::RenderPass>, blend: &[_], passes| {
-            let desc = Graphics {
-                vertex: shader::FOAM_SPLAT_VERT,
-                fragment,
-                topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: pass.handle,
-                blend,
-                constants: &[],
+            let shaped = |shaped: u32| {
+                let desc = Graphics {
+                    vertex: shader::FOAM_SPLAT_VERT,
+                    fragment,
+                    topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
+                    pass: pass.handle,
+                    blend,
+                    constants: &[(3, shaped)],
+                };
+                Pipeline::tested(gpu, &desc, passes)
             };
-            Pipeline::tested(gpu, &desc, passes)
+            Ok::<_, Error>([shaped(0)?, shaped(1)?])
         };
         Ok(Self {
             front: graphics(
@@ -153,7 +157,7 @@ impl Quads {
         for (pass, framebuffer, clears, pipeline) in passes {
             let area = r.extent.into();
             gpu.begin_pass_with(cmd, pass.handle, framebuffer.handle, area, clears);
-            let drawn = draw(pipeline);
+            let drawn = draw(&pipeline[usize::from(r.shaped)]);
             gpu.end_pass(cmd);
             drawn?;
         }

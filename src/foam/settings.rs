@@ -117,8 +117,8 @@ pub enum Mixing {
 /// How the foam of diffuse particles looks. Of no effect without [`Config::diffuse`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DiffuseLook {
-    /// Radius of a particle without one, scene units, (0, ∞), default 0.15 of 0.05. It is divided by 1 to 5 by
-    /// the particle's number, a bubble's halved (Sec. 2.1).
+    /// Radius of a particle without one, scene units, (0, ∞), default 0.15 of 0.05. It is divided by the
+    /// particle's number ([`sizes`](Self::sizes)), a bubble's halved ([`bubble_size`](Self::bubble_size)).
     pub radius: f32,
     /// What the water takes.
     pub submerged: Submerged,
@@ -144,8 +144,27 @@ pub struct DiffuseLook {
     pub shadow: [f32; 3],
     /// Colour that stays in the shadow, linear RGB, 0 to 1, default a deep blue (0, 0, 0.2).
     pub shadow_color: [f32; 3],
-    /// Albedo, linear RGB, 0 to 1, default 0.9. Its double is the source's C_IrrScale.
+    /// Albedo, linear RGB, 0 to 1, default 0.9.
     pub albedo: [f32; 3],
+    /// What foam shines with over what its albedo sends back, [0, 64], default 1: twice both is the source's C_IrrScale
+    /// (Sec. 2.5), more than 2 with a scale above 1.
+    pub scale: f32,
+    /// Exponents n and m of the shape `(1 − x^n)^m` of a particle of foam, x the distance from its middle in radii (Eq. 1,
+    /// Sec. 2.2), [0.1, 16]; default 2.25 and 1. Other shapes, lives and sizes than the defaults cost a few powers.
+    pub foam_shape: [f32; 2],
+    /// The same of spray, default 1.5 and 1.
+    pub spray_shape: [f32; 2],
+    /// The same of a bubble, whose thickness is 1 less it, default 2 and 1.
+    pub bubble_shape: [f32; 2],
+    /// Exponents n and m of what is left of a particle, `(1 − a^n)^m` at the age a (Sec. 2.2), [0.1, 16]; default 2 and 0.4.
+    pub life: [f32; 2],
+    /// A radius is divided by 1 to so many, by the particle's number, 1 to 64, default 5 (Sec. 2.1).
+    pub sizes: u32,
+    /// Radius of a bubble in that of another particle, (0, 1], default 0.5 (Sec. 2.1).
+    pub bubble_size: f32,
+    /// Radius of the blur of light and shadow in that of the first sphere of the occlusion, [0, 16], default 1.5 (Sec. 2.5).
+    /// Numbers that are up to 32 pixels away are all taken, beyond it some of them, at least 11 to a side, evenly spread.
+    pub blur: f32,
     /// How they are mixed.
     pub mixing: Mixing,
 }
@@ -167,8 +186,30 @@ impl DiffuseLook {
             shadow: [1.0, 1.5, -0.05],
             shadow_color: [0.0, 0.0, 0.2],
             albedo: [0.9; 3],
+            scale: 1.0,
+            foam_shape: [2.25, 1.0],
+            spray_shape: [1.5, 1.0],
+            bubble_shape: [2.0, 1.0],
+            life: [2.0, 0.4],
+            sizes: 5,
+            bubble_size: 0.5,
+            blur: 1.5,
             mixing: Mixing::Scaled,
         }
+    }
+
+    /// Whether particles are other than the source's, or fade as its do behind the water's surface: shaders have a variant
+    /// for that.
+    pub(crate) fn shaped(&self) -> bool {
+        let sources = Self::default();
+        let numbers = |look: &Self| {
+            (
+                [look.foam_shape, look.spray_shape, look.bubble_shape, look.life],
+                look.sizes,
+                look.bubble_size,
+            )
+        };
+        self.submerged != Submerged::Water || numbers(self) != numbers(&sources)
     }
 
     /// Checks the ranges; the message names the field.
@@ -198,6 +239,18 @@ impl DiffuseLook {
         for part in [self.opacity[0], self.opacity[1]] {
             range("Settings.diffuse.opacity", part, 0.0, 1.0)?;
         }
+        range("Settings.diffuse.scale", self.scale, 0.0, 64.0)?;
+        for (field, exponents) in [
+            ("Settings.diffuse.foam_shape", self.foam_shape),
+            ("Settings.diffuse.spray_shape", self.spray_shape),
+            ("Settings.diffuse.bubble_shape", self.bubble_shape),
+            ("Settings.diffuse.life", self.life),
+        ] {
+            exponents.into_iter().try_for_each(|exponent| range(field, exponent, 0.1, 16.0))?;
+        }
+        range("Settings.diffuse.sizes", self.sizes as f32, 1.0, 64.0)?;
+        range("Settings.diffuse.bubble_size", self.bubble_size, 1.0e-6, 1.0)?;
+        range("Settings.diffuse.blur", self.blur, 0.0, 16.0)?;
         for (shadow, albedo) in self.shadow_color.into_iter().zip(self.albedo) {
             range("Settings.diffuse.shadow_color", shadow, 0.0, 1.0)?;
             range("Settings.diffuse.albedo", albedo, 0.0, 1.0)?;

@@ -181,7 +181,7 @@ const LIST: u64 = 4 * (4 + ROOM);
 /// A shader that covers what each particle does (glsl/include/diffuse_cover.glsl): an invocation a particle, or a
 /// group for each of the host's packets; then a group for each large one.
 pub struct Covering {
-    /// Without and with the source's falloff behind the water's surface.
+    /// Of particles as the source has them; of others, and with its falloff behind the water's surface.
     ways: [Ways; 2],
     list: Buffer,
 }
@@ -202,15 +202,15 @@ impl Covering {
         constants: &[(u32, u32)],
         config: &DiffuseConfig,
     ) -> Result<Self, Error> {
-        let make = |packets, large, falloff| {
-            let own = [(1, u32::from(packets)), (2, u32::from(large)), (3, falloff)];
+        let make = |packets, large, shaped| {
+            let own = [(1, u32::from(packets)), (2, u32::from(large)), (3, shaped)];
             Pipeline::compute(gpu, shader, &[constants, &own].concat())
         };
-        let ways = |falloff| -> Result<Ways, Error> {
+        let ways = |shaped| -> Result<Ways, Error> {
             Ok(Ways {
-                each: make(false, false, falloff)?,
-                packets: config.packets.then(|| make(true, false, falloff)).transpose()?,
-                large: make(false, true, falloff)?,
+                each: make(false, false, shaped)?,
+                packets: config.packets.then(|| make(true, false, shaped)).transpose()?,
+                large: make(false, true, shaped)?,
             })
         };
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER
@@ -261,7 +261,7 @@ impl Covering {
         // Not read.
         let unread = Resource::Buffer(arguments, 0, 16);
         // That the configuration has them was checked with the frame.
-        let ways = &self.ways[usize::from(r.falloff)];
+        let ways = &self.ways[usize::from(r.shaped)];
         match (particles.packets, &ways.packets) {
             (Some(Packets { buffer, offset, count }), Some(pipeline)) => {
                 let packets = Resource::Buffer(buffer, offset, 32 * u64::from(count));

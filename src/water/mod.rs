@@ -79,8 +79,9 @@ pub(crate) struct Recording<'a> {
     pub bubbles: Resource,
     /// Those of shoreline and contact foam.
     pub shore: Resource,
-    /// Whether diffuse particles fade behind the water's surface by the source's falloff.
-    pub falloff: bool,
+    /// Whether diffuse particles fade behind the water's surface by the source's falloff, or are of other shapes, lives or
+    /// sizes than the source's.
+    pub shaped: bool,
     /// Where that takes over from sprites of diffuse particles, if it does.
     pub hand_over: Option<Resource>,
     /// The scene's depth, sampled.

@@ -129,6 +129,13 @@ impl Diffuse {
             radius: f64::from(look.radius),
             spacing: f64::from(water.spacing),
             attenuation: attenuation(look.submerged),
+            look: diffuse::Look {
+                shapes: [look.foam_shape, look.spray_shape, look.bubble_shape]
+                    .map(|shape| shape.map(f64::from)),
+                life: look.life.map(f64::from),
+                sizes: look.sizes,
+                bubble: look.bubble_size.into(),
+            },
         }
     }
 
@@ -146,6 +153,7 @@ impl Diffuse {
             opacities: look.opacity.map(f64::from),
             shadow: look.shadow.map(f64::from),
             least_blur: 0.0,
+            blur: look.blur.into(),
         }
     }
 }
@@ -189,6 +197,47 @@ fn foam_is_the_twins_by(rig: &mut Rig<'_>) {
         }
         foam_is_the_twins_of(rig, &cloud, &format!("{lens:?}"), 300);
     }
+}
+
+/// Other shapes, lives and sizes than the source's, with its falloff and without.
+#[test]
+fn foam_of_any_shape_is_the_twins() {
+    let gpu = Gpu::shared();
+    for way in ways(&gpu) {
+        let mut rig = Rig::lit(&gpu, &by(way, SIZE), 1);
+        for submerged in [Submerged::Water, Submerged::Falloff { most: 1.5, n: 2.0, m: 4.0 }] {
+            let mut cloud = Diffuse::new(Lens::Standard);
+            let look = &mut cloud.shot.settings.diffuse;
+            look.submerged = submerged;
+            (look.foam_shape, look.spray_shape) = ([4.0, 1.0], [2.0, 0.5]);
+            (look.bubble_shape, look.life) = ([6.0, 3.0], [1.0, 2.0]);
+            (look.sizes, look.bubble_size) = (3, 1.0);
+            foam_is_the_twins_of(&mut rig, &cloud, &format!("{submerged:?}"), 200);
+        }
+    }
+}
+
+/// Light is scaled, by more than its clamp at an albedo of 1 where it is asked for.
+#[test]
+fn foam_shines_as_bright_as_it_is_asked_to() {
+    let gpu = Gpu::shared();
+    let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
+    let mut cloud = Diffuse::new(Lens::Standard);
+    cloud.shot.positions.clear();
+    // Of what is behind it nothing is left.
+    (cloud.shot.settings.diffuse.half, cloud.shot.color) =
+        (1.0e-6, vec![[0.0; 4]; (SIZE.width * SIZE.height) as usize]);
+    let mut draw = |scale: f32| {
+        cloud.shot.settings.diffuse.scale = scale;
+        channel(&cloud.draw(&mut rig).output, 0)
+    };
+    let (one, three) = (draw(1.0), draw(3.0));
+    let bright = one.data.iter().filter(|v| **v > 0.05).count();
+    assert!(bright > 500, "{bright} pixels of foam");
+    // A product.
+    compare::close("diffuse-scale", &three, &one.map(|v| 3.0 * f64::from(*v)), 0, |_, _, v| {
+        1.0e-5 * v + 1.0e-6
+    });
 }
 
 /// Footprints that are widened to a pixel are much longer the other way.
@@ -625,7 +674,12 @@ fn mistakes_are_named() {
     let cloud = Diffuse::new(Lens::Standard);
     let mut rig = Rig::lit(&gpu, &diffusing(SIZE), 1);
     type Mistake = fn(&mut DiffuseLook);
-    let cases: [(&str, Mistake); 10] = [
+    let cases: [(&str, Mistake); 15] = [
+        ("Settings.diffuse.bubble_shape", |look| look.bubble_shape[1] = 0.0),
+        ("Settings.diffuse.life", |look| look.life = [f32::NAN, 0.4]),
+        ("Settings.diffuse.sizes", |look| look.sizes = 0),
+        ("Settings.diffuse.bubble_size", |look| look.bubble_size = 1.5),
+        ("Settings.diffuse.scale", |look| look.scale = -1.0),
         ("Settings.diffuse.radius", |look| look.radius = f32::NAN),
         ("Settings.diffuse.submerged.most", |look| {
             look.submerged = Submerged::Falloff { most: 0.0, n: 2.0, m: 4.0 };

@@ -123,7 +123,7 @@ fn no_setting_in_its_range_makes_nan() {
     fn pick<T>(most: bool, least: T, greatest: T) -> T {
         if most { greatest } else { least }
     }
-    let turns: [(&str, Turn); 16] = [
+    let turns: [(&str, Turn); 23] = [
         ("radius", |look, most| look.radius = pick(most, 1.0e-9, 1.0e6)),
         ("submerged.most", |look, most| {
             look.submerged = Submerged::Falloff { most: pick(most, 1.0e-9, 1.0e9), n: 2.0, m: 4.0 };
@@ -143,6 +143,13 @@ fn no_setting_in_its_range_makes_nan() {
         ("samples", |look, most| look.samples = pick(most, [1, 1], [512, 512])),
         ("reach", |look, most| look.reach = Reach::Radii(pick(most, 1.0e-9, 1.0e9))),
         ("metres", |look, most| look.reach = Reach::Metres(pick(most, 1.0e-9, 1.0e9))),
+        ("foam_shape", |look, most| look.foam_shape = pick(most, [0.1; 2], [16.0; 2])),
+        ("spray_shape", |look, most| look.spray_shape = pick(most, [0.1, 16.0], [16.0, 0.1])),
+        ("bubble_shape", |look, most| look.bubble_shape = pick(most, [0.1; 2], [16.0; 2])),
+        ("life", |look, most| look.life = pick(most, [0.1, 16.0], [16.0, 0.1])),
+        ("sizes", |look, most| look.sizes = pick(most, 1, 64)),
+        ("bubble_size", |look, most| look.bubble_size = pick(most, 1.0e-6, 1.0)),
+        ("blur", |look, most| look.blur = pick(most, 0.0, 16.0)),
         ("shadow.scale", |look, most| look.shadow[0] = pick(most, 0.0, 16.0)),
         ("shadow.exponent", |look, most| look.shadow[1] = pick(most, 0.1, 16.0)),
         ("shadow.offset", |look, most| look.shadow[2] = pick(most, -1.0, 1.0)),

@@ -29,7 +29,7 @@ fn along(
 ) -> Image<[f64; 4]> {
     Image::from_fn(view.width, view.height, |x, y| {
         let Some(seen) = front.at(x, y) else { return values.at(x, y) };
-        let radius = 1.5 * 0.5 * settings.search(seen.h, 1) * view.extent().y;
+        let radius = settings.blur * 0.5 * settings.search(seen.h, 1) * view.extent().y;
         let radius = radius.max(settings.least_blur);
         let sigma = 0.5 * radius;
         let gap = 2.0 * seen.h * seen.depth / view.focal().y.abs();

@@ -3,16 +3,20 @@
 use super::super::View;
 use super::super::foam::Off;
 use super::sprite::{all_pixels, pixels};
-use super::{Attenuation, Kind, LEAST, Particle, Settings, TOLD, falloff, has_fluid};
+use super::{Attenuation, Kind, LEAST, Look, Particle, Settings, TOLD, falloff, has_fluid};
 use crate::support::rounded::{self, Rounded, exact, off};
 use crate::support::tolerance::U;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
+/// What a mean over the disc is off where it is a sum of many steps, in u: a millionth.
+const SUMMED: f64 = 1e-6 / U;
+
 /// A particle's disc and its errors.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LooseSprite {
     kind: Kind,
+    look: Look,
     /// Whether it is surely drawn.
     pub(super) sure: bool,
     depth: Rounded,
@@ -45,7 +49,7 @@ impl LooseSprite {
     /// clip space: either way no more than 8u of the terms in half extents. C is made of the
     /// projection, 6u.
     pub(super) fn new(particle: &Particle, view: &View, settings: &Settings) -> Option<Self> {
-        // A quotient; half of it is exact.
+        // A quotient and a part of it; the half is exact.
         let radius = off(particle.drawn_radius(settings)?, 5.0);
         let center = Off::point(view.view.transform_point3(particle.position), view);
         let depth = Rounded { v: -center.v.z, e: center.e };
@@ -72,15 +76,21 @@ impl LooseSprite {
             least if least.v - least.e >= TOLD.1 => exact(1.0),
             _ => told,
         };
+        let summed = if settings.look.shapes[kind.index()][1] == 1.0 { 0.0 } else { SUMMED };
         let even = match told.v - told.e < 1.0 {
-            true => off(PI * kind.mean(), 3.0) * own[0] * own[1] / weights(at, half),
+            true => {
+                off(PI * settings.look.mean(kind), 3.0 + summed) * own[0] * own[1]
+                    / weights(at, half)
+            }
             false => exact(0.0),
         };
         let h = radius * off(focal.y.abs(), 1.0) / depth;
-        let lifetime = loose_falloff(exact(particle.age), exact(1.0), 2.0, 0.4);
+        let [n, m] = settings.look.life;
+        let lifetime = loose_falloff(exact(particle.age), exact(1.0), n, m);
         let sure = depth.v - depth.e > near * (1.0 + 8.0 * U);
         let facing = focal.signum();
-        Some(Self { kind, sure, depth, radius, at, half, facing, h, lifetime, told, even })
+        let look = settings.look;
+        Some(Self { kind, look, sure, depth, radius, at, half, facing, h, lifetime, told, even })
     }
 
     /// The pixels of the picture that it may lie in.
@@ -120,7 +130,8 @@ impl LooseSprite {
 
     /// The shape by the square of the distance: a root and a power.
     fn shape(&self, square: Rounded) -> Rounded {
-        let f = loose_falloff(root(square), exact(1.0), self.kind.power(), 1.0);
+        let [n, m] = self.look.shapes[self.kind.index()];
+        let f = loose_falloff(root(square), exact(1.0), n, m);
         if self.kind == Kind::Bubble { exact(1.0) - f } else { f }
     }
 }

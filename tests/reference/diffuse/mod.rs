@@ -66,25 +66,66 @@ impl Kind {
         }
     }
 
-    /// The power of the distance by which its thickness falls or, of a bubble, grows.
-    fn power(self) -> f64 {
+    /// The source's [`Look::shape`].
+    pub fn shape(self, x: f64) -> f64 {
+        Look::default().shape(self, x)
+    }
+
+    /// Its mean.
+    pub fn mean(self) -> f64 {
+        Look::default().mean(self)
+    }
+
+    /// Which of a few it is.
+    fn index(self) -> usize {
         match self {
-            Self::Foam => 2.25,
-            Self::Spray => 1.5,
-            Self::Bubble => 2.0,
+            Self::Foam => 0,
+            Self::Spray => 1,
+            Self::Bubble => 2,
         }
     }
+}
 
-    /// Thickness at a distance from the middle, 0 to 1 radii.
-    pub fn shape(self, x: f64) -> f64 {
-        let f = falloff(x, 1.0, self.power(), 1.0);
-        if self == Self::Bubble { 1.0 - f } else { f }
+/// What particles are like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Of foam, spray, bubbles the powers of the [`falloff`] by which the thickness falls or, of a bubble, grows.
+    pub shapes: [[f64; 2]; 3],
+    /// Those of the lifetime.
+    pub life: [f64; 2],
+    /// How many sizes there are.
+    pub sizes: u32,
+    /// Radius of a bubble in that of another particle.
+    pub bubble: f64,
+}
+
+impl Default for Look {
+    /// The source's.
+    fn default() -> Self {
+        let shapes = [[2.25, 1.0], [1.5, 1.0], [2.0, 1.0]];
+        Self { shapes, life: [2.0, 0.4], sizes: 5, bubble: 0.5 }
+    }
+}
+
+impl Look {
+    /// Thickness of a kind at a distance from the middle, 0 to 1 radii.
+    pub fn shape(&self, kind: Kind, x: f64) -> f64 {
+        let [n, m] = self.shapes[kind.index()];
+        let f = falloff(x, 1.0, n, m);
+        if kind == Kind::Bubble { 1.0 - f } else { f }
     }
 
-    /// M, the mean of that over the disc: of `x^n` it is `2 / (n + 2)`.
-    pub fn mean(self) -> f64 {
-        let power = 2.0 / (self.power() + 2.0);
-        if self == Self::Bubble { power } else { 1.0 - power }
+    /// M, the mean of that over the disc: of `x^n` it is `2 / (n + 2)`. Else by rings of equal areas.
+    pub fn mean(&self, kind: Kind) -> f64 {
+        let [n, m] = self.shapes[kind.index()];
+        let falls = match m {
+            1.0 => 1.0 - 2.0 / (n + 2.0),
+            _ => {
+                let rings = (0..20_000).map(|i| ((f64::from(i) + 0.5) / 20_000.0).sqrt());
+                rings.map(|x| falloff(x, 1.0, n, m)).sum::<f64>() / 20_000.0
+            }
+        };
+        if kind == Kind::Bubble { 1.0 - falls } else { falls }
     }
 }
 
@@ -128,12 +169,15 @@ pub struct Settings {
     pub spacing: f64,
     /// What becomes of foam behind the fluid's surface.
     pub attenuation: Attenuation,
+    /// What particles are like.
+    pub look: Look,
 }
 
 impl Settings {
     /// The defaults for a spacing.
     pub fn new(spacing: f64) -> Self {
-        Self { radius: 0.15 * spacing, spacing, attenuation: Attenuation::Water }
+        let look = Look::default();
+        Self { radius: 0.15 * spacing, spacing, attenuation: Attenuation::Water, look }
     }
 
     /// What share of a fragment at a depth goes to the sums above the fluid's surface, below it,
@@ -157,14 +201,15 @@ impl Particle {
     fn drawn_radius(&self, settings: &Settings) -> Option<f64> {
         let alive = self.age.is_finite() && self.age < 1.0;
         let whole = self.radius.unwrap_or(settings.radius);
-        let part = if self.kind == Kind::Bubble { 0.5 } else { 1.0 };
-        let r = part * whole / f64::from(self.id % 5 + 1);
+        let part = if self.kind == Kind::Bubble { settings.look.bubble } else { 1.0 };
+        let r = part * whole / f64::from(self.id % settings.look.sizes + 1);
         (alive && self.position.is_finite() && r.is_finite() && r > 0.0).then_some(r)
     }
 
     /// How much of it there is left by its age.
-    fn lifetime(&self) -> f64 {
-        falloff(self.age, 1.0, 2.0, 0.4)
+    fn lifetime(&self, look: &Look) -> f64 {
+        let [n, m] = look.life;
+        falloff(self.age, 1.0, n, m)
     }
 }
 

@@ -35,6 +35,8 @@ pub struct Occlusion {
     pub opacities: [f64; 2],
     /// Of the shadow `(scale omega)^power + offset`.
     pub shadow: [f64; 3],
+    /// Radius of the blur in that of the first pass' sphere.
+    pub blur: f64,
     /// Least radius of the blur in pixels; it is not across more than twice that in depth, or a particle's diameter.
     pub least_blur: f64,
 }
@@ -49,6 +51,7 @@ impl Default for Occlusion {
             reach: Reach::Radii(1.0),
             opacities: [0.5, 1.0],
             shadow: [1.0, 1.5, -0.05],
+            blur: 1.5,
             least_blur: 0.0,
         }
     }

@@ -1,7 +1,7 @@
 //! The disc that a particle is in the picture.
 
 use super::super::{View, smoothstep};
-use super::{Kind, LEAST, Particle, Settings, TOLD};
+use super::{Kind, LEAST, Look, Particle, Settings, TOLD};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -10,6 +10,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sprite {
     kind: Kind,
+    look: Look,
     /// d_c, the depth of its centre.
     depth: f64,
     /// r, the radius of the sphere.
@@ -55,12 +56,24 @@ impl Sprite {
         let half = own * (LEAST / own.min_element()).max(1.0);
         let told = smoothstep(TOLD.0, TOLD.1, half.min_element());
         let even = match told < 1.0 {
-            true => PI * own.x * own.y * kind.mean() / weights(at, half),
+            true => PI * own.x * own.y * settings.look.mean(kind) / weights(at, half),
             false => 0.0,
         };
         let h = radius * view.focal().y.abs() / depth;
-        let (facing, lifetime) = (view.focal().signum(), particle.lifetime());
-        Some(Self { kind, depth, radius, at, half, facing, h, lifetime, told, even })
+        let (facing, lifetime) = (view.focal().signum(), particle.lifetime(&settings.look));
+        Some(Self {
+            kind,
+            look: settings.look,
+            depth,
+            radius,
+            at,
+            half,
+            facing,
+            h,
+            lifetime,
+            told,
+            even,
+        })
     }
 
     /// The pixels of the picture that it may lie in.
@@ -76,7 +89,7 @@ impl Sprite {
         (square < 1.0).then(|| {
             let w = (1.0 - square).sqrt();
             let even = (1.0 - self.told) * self.even * (1.0 - square);
-            let shape = self.told * self.kind.shape(square.sqrt());
+            let shape = self.told * self.look.shape(self.kind, square.sqrt());
             Fragment {
                 depth: self.depth - w * self.radius,
                 normal: (q * self.facing).extend(w),

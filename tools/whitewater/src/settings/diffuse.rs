@@ -22,6 +22,14 @@ table! {
         shadow: [f32; 3],
         shadow_color: [f32; 3],
         albedo: [f32; 3],
+        scale: f32,
+        foam_shape: [f32; 2],
+        spray_shape: [f32; 2],
+        bubble_shape: [f32; 2],
+        life: [f32; 2],
+        sizes: u32,
+        bubble_size: f32,
+        blur: f32,
         mixing: MixingWord,
     }
     optional {}
