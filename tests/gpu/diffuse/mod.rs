@@ -1,5 +1,6 @@
 //! Passes `splat`, `radiance` and `blur`: foam of diffuse particles against the twin, and the picture with it.
 
+mod blur;
 mod fluid;
 mod heaped;
 mod lone;
