@@ -49,7 +49,8 @@ void visit(uint i) {
     axes_of(ahead, x, y);
     uint seed = step_seed();
     uint id = places[i].id;
-    uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)));
+    // Of what is about it the particle that makes it is one, as it is in the steps after.
+    uint kind = kind_of(uint(uintBitsToFloat(normals[i].w)) + 1u);
     // The random numbers before are the stages'.
     uint random = SNAPSHOT == 0u ? 1u : 32u;
     uint stage = 0u;
@@ -61,10 +62,12 @@ void visit(uint i) {
         }
         --of_stage;
         uint order = first + k;
-        uint slot = order < counts.free ? free_slots[order] : counts.high + (order - counts.free);
-        if (slot >= push.most) {
+        // A difference: the sum of slots and of what is to be made may be beyond 32 bits.
+        uint beyond = order - min(order, counts.free);
+        if (order >= counts.free && beyond >= push.most - min(counts.high, push.most)) {
             return;
         }
+        uint slot = order < counts.free ? free_slots[order] : counts.high + beyond;
         float radius = 0.5 * push.spacing * sqrt(uniform_of(seed, id, 4u * k + random));
         float along = way * uniform_of(seed, id, 4u * k + random + 1u);
         // Less half a turn: sines are exact only there.

@@ -483,6 +483,51 @@ fn in_still_water_motion_is_exact() {
     assert!(seen.iter().all(|n| *n > 20), "{seen:?}");
 }
 
+/// A diffuse particle is of a kind by the water about it, of which the particle that makes it is a part: six that lie close
+/// together make foam, and 21 bubbles, at birth as in the step after it.
+#[test]
+fn kinds_at_birth_are_those_of_the_next_step() {
+    let gpu = Gpu::shared();
+    let mut making = Making::new(&gpu, &config());
+    let mut random = Random(11);
+    let mut fluid = Fluid { positions: Vec::new(), velocities: Vec::new(), ids: Vec::new() };
+    for (at, count) in [(0.0, 5), (0.5, 6), (1.0, 20), (1.5, 21)] {
+        for _ in 0..count {
+            let [x, y, z] = [0; 3].map(|_| random.between(-0.1, 0.1) * SPACING);
+            fluid.positions.push([at + x, y, z]);
+            fluid.velocities.push([0; 3].map(|_| random.between(-3.0, 3.0)));
+            fluid.ids.push(fluid.ids.len() as u32);
+        }
+    }
+    for (snapshot, rate) in [(false, 4000.0), (true, 200.0)] {
+        let settings = GenerateSettings { trapped_air_rate: rate, bounds: None, ..settings() };
+        let data = making.upload(&fluid);
+        // Those of a step come no farther than a hundredth of a second's way.
+        let step = step_of(&data, &fluid, &settings, 0.01 * SPACING, 0);
+        let recorded = making.record_by(&step, |generator, cmd, step| {
+            // SAFETY: cmd is recording; the slot was waited for; the handles live to the end of this.
+            unsafe {
+                match snapshot {
+                    true => generator.record_snapshot(cmd, step),
+                    false => generator.record_step(cmd, step),
+                }
+            }
+        });
+        recorded.expect("recorded");
+        let born = making.made(fluid.ids.len()).particles;
+        // No time goes by: where they were born they are looked at again.
+        let after = making.step(&fluid, &settings, 0.0, 1).particles;
+        let mut seen = [0; 3];
+        for (born, after) in born.iter().zip(&after) {
+            let cluster = (born.position.x / 0.5).round() as usize;
+            let expected = [twin::SPRAY, twin::FOAM, twin::FOAM, twin::BUBBLE][cluster];
+            assert_eq!([born.kind, after.kind], [expected; 2], "{snapshot}: {born:?}");
+            seen[born.kind as usize] += 1;
+        }
+        assert!(seen.iter().all(|count| *count > 5), "{snapshot}: {seen:?}");
+    }
+}
+
 /// Counts from the GPU, streams of their own, chunks, without ids, no particles, all on one spot.
 #[test]
 fn every_kind_of_input() {

@@ -167,7 +167,7 @@ pub fn newborn(
         // The offset is added as published: a metre is a metre a second.
         velocity: velocity + aside,
         age: 0.0,
-        kind: kind_of(p.neighbours),
+        kind: kind_of(p.neighbours + 1),
         id: hash(seed, id, 4 * k + 4) >> 1,
     }
 }

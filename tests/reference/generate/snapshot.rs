@@ -174,7 +174,7 @@ impl<'a> Snapshot<'a> {
         let radius = 0.5 * spacing * random(32).sqrt();
         let turn = 2.0 * PI * (random(34) - 0.5);
         let off = -radius * (turn.cos() * x + turn.sin() * y);
-        let kind = kind_of(self.potentials[i].map_or(0, |p| p.neighbours));
+        let kind = kind_of(1 + self.potentials[i].map_or(0, |p| p.neighbours));
         Particle {
             position: position + off + along * ahead,
             velocity: velocity + off,
