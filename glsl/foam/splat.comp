@@ -18,11 +18,12 @@ layout(constant_id = 0) const uint FRONTMOST = 0;
 #include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
-layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
+// Of a pixel two. One declaration for what is read at once and what is added word by word: two of the same memory may be taken
+// for two memories.
+layout(set = 0, binding = 6, std430) buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// The same memory, four words at a time.
-layout(set = 0, binding = 12, std430) readonly buffer Heads { uvec4 heads[]; };
 
+#define WORD(at) words[(at) / 4u][(at) % 4u]
 #include "diffuse_splat.glsl"
 
 void splat(ivec2 pixel, Sprite s) {
@@ -37,11 +38,12 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    uvec4 head = heads[at / 4u];
+    // It may be old by the time that it is used: then an atomic is for nothing, or the next particle's.
+    uvec4 head = words[at / 4u];
     uint front = head[FRONT];
     if (FRONTMOST == 1u) {
         if (bits == front && front < head[SCENE]) {
-            atomicMin(words[at + WITH], with_of(s.search, place, w));
+            atomicMin(WORD(at + WITH), with_of(s.search, place, w));
         }
         return;
     }
@@ -50,7 +52,7 @@ void splat(ivec2 pixel, Sprite s) {
     }
     // Most lose: a read is cheaper than an atomic.
     if (bits < front) {
-        atomicMin(words[at + FRONT], bits);
+        atomicMin(WORD(at + FRONT), bits);
     }
     thicken(at, p, f, rr, depth, uintBitsToFloat(head[FLUID]));
 }

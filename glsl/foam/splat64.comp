@@ -18,12 +18,18 @@ layout(local_size_x = 64) in;
 #include "diffuse_push.glsl"
 #include "diffuse_streams.glsl"
 
-layout(set = 0, binding = 6, std430) buffer Words { uint words[]; };
+// The words of diffuse_words.glsl. One declaration for what is read and what is added: two of the same memory may be taken for
+// two memories.
+struct Pixel {
+    uint64_t front; // with the frontmost, below its depth
+    uint scene;
+    uint fluid;
+    uvec4 sums;
+};
+layout(set = 0, binding = 6, std430) buffer Words { Pixel pixels[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Arguments { uvec4 arguments[]; };
-// The same memory.
-layout(set = 0, binding = 8, std430) buffer Fronts { uint64_t fronts[]; };
-layout(set = 0, binding = 12, std430) readonly buffer Heads { uvec4 heads[]; };
 
+#define WORD(at) pixels[(at) / WORDS].sums[(at) % 4u]
 #include "diffuse_splat.glsl"
 
 void splat(ivec2 pixel, Sprite s) {
@@ -38,15 +44,15 @@ void splat(ivec2 pixel, Sprite s) {
     float depth = -p.centre.z - w * p.radius;
     uint bits = floatBitsToUint(depth);
     uint at = words_of(pixel);
-    uvec4 head = heads[at / 4u];
-    if (!(bits < head[SCENE])) {
+    uint own = at / WORDS;
+    if (!(bits < pixels[own].scene)) {
         return;
     }
-    // Most lose: a read is cheaper than an atomic.
-    if (bits <= head[FRONT]) {
-        atomicMin(fronts[at / 2u], uint64_t(bits) << 32 | with_of(s.search, place, w));
+    // Most lose: a read is cheaper than an atomic. It may be old by the time that it is used, and then an atomic is for nothing.
+    if (bits <= uint(pixels[own].front >> 32)) {
+        atomicMin(pixels[own].front, uint64_t(bits) << 32 | with_of(s.search, place, w));
     }
-    thicken(at, p, f, rr, depth, uintBitsToFloat(head[FLUID]));
+    thicken(at, p, f, rr, depth, uintBitsToFloat(pixels[own].fluid));
 }
 
 #include "diffuse_cover.glsl"

@@ -1,5 +1,5 @@
 // Diffuse particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
-// diffuse_words.glsl, frustum.glsl. Reads: words. Writes: words.
+// diffuse_words.glsl, frustum.glsl, and WORD(at), one of the words. Reads: words. Writes: words.
 
 struct Sprite {
     Diffuse p;
@@ -29,7 +29,7 @@ bool shows(vec3 middle, float reach) {
 void add(uint word, uvec3 steps) {
     do {
         // Nothing is never too much: it would be taken out, as nothing again, for ever.
-        bool over = atomicAdd(words[word], steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
+        bool over = atomicAdd(WORD(word), steps.x) >= HALF_FULL && steps.x - 1u < HALF_FULL - 1u;
         steps = over ? uvec3(0u - steps.x, steps.yz) : uvec3(steps.yz, 0u);
         word += over ? 0u : 1u;
         bool next = !over && steps.x == 0u;

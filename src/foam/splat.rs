@@ -246,12 +246,7 @@ impl Sprites {
                 if i > 0 {
                     gpu.barriers(cmd, &[], &[buffer(words.handle, both, both)]);
                 }
-                let own = [
-                    (6, Resource::buffer(words)),
-                    (7, Resource::buffer(&self.arguments)),
-                    (8, Resource::buffer(words)),
-                    (12, Resource::buffer(words)),
-                ];
+                let own = [(6, Resource::buffer(words)), (7, Resource::buffer(&self.arguments))];
                 let arguments = self.arguments.handle;
                 go.record(r, &self.chunks, &own, particles, arguments, |places| places)?;
             }
