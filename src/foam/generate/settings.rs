@@ -38,8 +38,8 @@ impl GenerateConfig {
 }
 
 /// From where on a potential makes diffuse particles, and where it does so fully (`τmin`, `τmax` of Eq. 1): they
-/// do not transfer between simulations. The source's limits are an artist's; the 97th percentile of a sequence's
-/// potentials that are not 0 ([`Generator::potentials`](super::Generator::potentials)) and a tenth of it do.
+/// do not transfer between simulations. The source's limits are an artist's; the 99.9th percentile of a
+/// sequence's potentials ([`Generator::potentials`](super::Generator::potentials)) and a tenth of it do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// None is made up to it, [0, most).

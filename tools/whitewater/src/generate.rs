@@ -16,9 +16,8 @@ use crate::settings::generate::GenerateTable;
 const MOST: u32 = 1_000_000;
 /// The part of them that there are when as much is made as goes.
 const FULL: f64 = 0.5;
-/// Share of the particles that have some, of those of all frames that are looked at, whose potential is less
-/// than the most.
-const NEARLY_ALL: f64 = 0.97;
+/// Share of the particles of all frames that are looked at whose potential is less than the most.
+const NEARLY_ALL: f64 = 0.999;
 /// Of the most, the least.
 const LEAST: f32 = 0.1;
 /// The most is no less, so that water at rest makes nothing: trapped air and speed in falls through a
@@ -40,6 +39,17 @@ pub struct Generate {
     seconds: Option<f32>,
     probes: Vec<Particles>,
     found: Option<GenerateSettings>,
+}
+
+/// The limits of trapped air, wave crests and energy by those that particles have. `fall`: the squared speed, over 2, of a fall
+/// through a spacing.
+fn limits_of(potentials: &[[f32; 4]], fall: f32) -> [Limits; 3] {
+    let floors = [FLOORS[0] * fall.sqrt(), FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall];
+    [0, 1, 2].map(|which| {
+        let values = potentials.iter().map(|all| all[which]).collect();
+        let most = quantile(values, NEARLY_ALL).unwrap_or(0.0).max(floors[which]);
+        Limits { least: LEAST * most, most }
+    })
 }
 
 impl Generate {
@@ -113,14 +123,7 @@ impl Generate {
             Ok(())
         })?;
         let gravity = Vec3::from(settings.gravity).length();
-        let fall = (gravity * self.spacing).sqrt();
-        let floors = [FLOORS[0] * fall, FLOORS[1], FLOORS[2] * FLOORS[2] * 0.5 * fall * fall];
-        let [trapped_air, wave_crest, energy] = [0, 1, 2].map(|which| {
-            let values = potentials.iter().map(|all| all[which]).filter(|v| *v > 0.0);
-            let most = quantile(values.collect(), NEARLY_ALL).unwrap_or(0.0);
-            let most = most.max(floors[which]);
-            Limits { least: LEAST * most, most }
-        });
+        let [trapped_air, wave_crest, energy] = limits_of(&potentials, gravity * self.spacing);
         settings.trapped_air = trapped_air;
         settings.wave_crest = wave_crest;
         settings.energy = energy;
@@ -179,5 +182,36 @@ impl Generate {
             frames += 1;
         }
         Ok(frames)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pool whose particles tremble at a tenth of the speed of a fall through a spacing: its limits are the floors, in units
+    /// of that speed, and it is below them all.
+    #[test]
+    fn a_calm_pool_makes_nothing() {
+        for spacing in [0.02_f32, 0.5] {
+            let fall = 9.81 * spacing;
+            let calm = [fall.sqrt(), 0.3, 0.005 * fall, 30.0];
+            let limits = limits_of(&vec![calm; 5000], fall);
+            assert_eq!(limits.map(|limits| limits.most), [15.0 * fall.sqrt(), 4.0, 8.0 * fall]);
+            assert_eq!(limits, limits_of(&[], fall));
+            assert!(limits.iter().zip(calm).all(|(limits, potential)| potential < limits.least));
+        }
+    }
+
+    /// Of 10 000 particles the ten that have most are beyond the limit, of those that have none too.
+    #[test]
+    fn limits_are_by_nearly_all_particles() {
+        let wild: Vec<_> = (0..10_000_u16).map(|i| [100.0 + f32::from(i); 4]).collect();
+        for limits in limits_of(&wild, 1.0e-4) {
+            assert_eq!((limits.most, limits.least), (10_090.0, LEAST * 10_090.0));
+        }
+        let few: Vec<_> =
+            (0..10_000_u16).map(|i| [if i < 9_950 { 0.0 } else { f32::from(i) }; 4]).collect();
+        assert_eq!(limits_of(&few, 1.0e-4)[1].most, 9_990.0);
     }
 }
