@@ -627,3 +627,24 @@ impl Default for FoamLook {
         Self::of_spacing(0.05)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The kernel `√(1 − ρ²)·exp(−2ρ²)` over a disc, by midpoints of u = ρ².
+    #[test]
+    fn a_sprite_of_the_source_holds_as_many_volumes() {
+        let steps = 10_000_u32;
+        let kernel = |i: u32| {
+            let u = (f64::from(i) + 0.5) / f64::from(steps);
+            (1.0 - u).sqrt() * (-2.0 * u).exp()
+        };
+        let mean = (0..steps).map(kernel).sum::<f64>() / f64::from(steps);
+        let half_axis = 2.0 * f64::from(RADIUS_PER_SPACING);
+        let height = 0.8 * 2.0 * half_axis;
+        let volumes = height * std::f64::consts::PI * mean * half_axis * half_axis;
+        // Three digits are said.
+        assert!((volumes - f64::from(SOURCE_VOLUMES)).abs() < 5.0e-3, "{volumes}");
+    }
+}

@@ -75,11 +75,15 @@ fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
 
 /// The source's whole look beside ours.
 fn thesis(tool: &Tool, docs: &Path) -> Outcome<()> {
-    let panels = [
-        tool.frame("waterfall", 240, "--look thesis")?.picture,
-        tool.frame("waterfall", 240, "")?.picture,
-    ];
-    grid(&panels, 2, &pictures(docs, "thesis.png"))
+    let panels: Result<Vec<_>, _> = ["--look thesis", ""]
+        .iter()
+        .map(|more| {
+            let picture = tool.frame("waterfall", 240, more)?.picture;
+            // Of the sky and of the ground less.
+            Ok::<_, String>(image::imageops::crop_imm(&picture, 60, 10, 400, 225).to_image())
+        })
+        .collect();
+    grid(&panels?, 2, &pictures(docs, "thesis.png"))
 }
 
 /// Figures 4.7 to 4.20: what each pass leaves.
@@ -171,11 +175,18 @@ fn curvature(tool: &Tool, docs: &Path) -> Outcome<()> {
 fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
     let mut panels = Vec::new();
     let far = "--eye 2.6,2.6,5.6 --target -0.2,0.3,0 --fov 36";
-    let near = "--eye 0.75,0.6,1.1 --target 0.15,0.15,0.15 --fov 40";
+    let near = "--eye 0.95,0.75,0.6 --target 0.2,0.15,0 --fov 45";
     for view in [far, near] {
         for rule in ["fixed:5", "fixed:40", "fixed:160", "constant-width"] {
             let more = format!("{view} --rule {rule} --foam none --spray none --shadows none");
-            panels.push(tool.frame("waterfall", 240, &more)?.picture);
+            let picture = tool.frame("waterfall", 240, &more)?.picture;
+            let half = (SIZE.0 as u32 / 2, SIZE.1 as u32 / 2);
+            let panel = match view == far {
+                // The water, as it is there.
+                true => image::imageops::crop_imm(&picture, 140, 60, half.0, half.1).to_image(),
+                false => image::imageops::thumbnail(&picture, half.0, half.1),
+            };
+            panels.push(image::imageops::crop_imm(&panel, 8, 4, 224, 126).to_image());
         }
     }
     grid(&panels, 4, &pictures(docs, "fixed-counts.png"))
@@ -183,10 +194,11 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
 
 /// Figures 4.13 and 4.15: what one particle adds to the thickness of water and of foam, and what many add up to.
 fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
-    let view = "--radius 0.05 --eye 0,0,0.7 --target 0,0,0 --fov 40 --spray none --shadows none";
+    // From above: the ground lies behind.
+    let view = "--radius 0.05 --eye 0,0.8,0 --target 0,0,0 --up 0,0,-1 --fov 40 --spray none --shadows none";
     let water = tool.particles("x,y,z\n0,0,0\n", &format!("{view} --foam none"))?;
     let own = tool.settings("[foam]\npattern = 0\n")?;
-    let moving = "x,y,z,vx,vy,vz\n0,0,0,1.5,1.0,0\n";
+    let moving = "x,y,z,vx,vy,vz\n0,0,0,1.5,0,1\n";
     let foam = tool.particles(moving, &format!("{view} --foam 1e-6 {own}"))?;
     let near = tool.frame("waterfall", 240, &format!("{NEAR} --thickness-level 0"))?.layers;
     let square = |image: image::RgbImage| {
@@ -198,9 +210,9 @@ fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
         Ok::<_, String>(square(amount(layers, name, scale)?))
     };
     let panels = [
-        part(&water, "water.thickness", 0.4 * most(&water, "water.thickness")?)?,
+        part(&water, "water.thickness", 0.8 * most(&water, "water.thickness")?)?,
         part(&near, "water.thickness", 6.0 * RADIUS)?,
-        part(&foam, "water.foam.thickness", 0.4 * most(&foam, "water.foam.thickness")?)?,
+        part(&foam, "water.foam.thickness", 0.8 * most(&foam, "water.foam.thickness")?)?,
         part(&near, "water.foam.thickness", RADIUS)?,
     ];
     grid(&panels, 4, &pictures(docs, "kernels.png"))

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{Rgb, RgbImage};
 use whitewater::io::picture::Layers;
 
@@ -75,7 +76,7 @@ fn pixel_sizes(layers: &Layers) -> Outcome<[f32; 2]> {
 /// flat; black at silhouettes, where neighbours are farther than five radii apart. And its mean magnitude.
 ///
 /// `2H = (C_y E_x + C_x E_y) / D^(3/2)`, `D = C_y² z_x² + C_x² z_y² + C_x² C_y² z²`, `E_x = z_x D_x / 2 - z_xx D` (van der
-/// Laan et al. 2009), by central differences.
+/// Laan et al. 2009), by central differences: a pixel, whose size is `C z`.
 pub fn curvature(layers: &Layers, name: &str, radius: f32) -> Outcome<(RgbImage, f32)> {
     let z = channel(layers, name)?;
     let [c_x, c_y] = pixel_sizes(layers)?;
@@ -102,7 +103,8 @@ pub fn curvature(layers: &Layers, name: &str, radius: f32) -> Outcome<(RgbImage,
         let d_x = 2.0 * (y2 * z_x * z_xx + x2 * z_y * z_xy + x2 * y2 * middle * z_x);
         let d_y = 2.0 * (y2 * z_x * z_xy + x2 * z_y * z_yy + x2 * y2 * middle * z_y);
         let (e_x, e_y) = (0.5 * z_x * d_x - z_xx * d, 0.5 * z_y * d_y - z_yy * d);
-        Some(0.5 * (c_y * e_x + c_x * e_y) / d.powf(1.5) * radius)
+        let a_pixel = 0.5 * (c_y * e_x + c_x * e_y) / d.powf(1.5);
+        Some(a_pixel / (c_y * middle) * radius)
     };
     let all: Vec<Option<f32>> =
         (0..z.len()).map(|i| if z[i] < 1.0e9 { curved(i) } else { None }).collect();
@@ -186,5 +188,9 @@ pub fn grid(pictures: &[RgbImage], columns: u32, to: &Path) -> Outcome<()> {
         let (x, y) = (i % columns * (width + GAP), i / columns * (height + GAP));
         image::imageops::replace(&mut all, picture, x.into(), y.into());
     }
-    all.save(to).map_err(|error| format!("cannot write {}: {error}", to.display()))
+    let bad = |error: &dyn std::fmt::Display| format!("cannot write {}: {error}", to.display());
+    let file = std::fs::File::create(to).map_err(|error| bad(&error))?;
+    // They are kept for good.
+    let encoder = PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive);
+    all.write_with_encoder(encoder).map_err(|error| bad(&error))
 }
