@@ -118,8 +118,9 @@ impl World {
 /// Pixels farther apart than a thousandth of the brightest, of a hundred.
 fn apart(a: &Image<[f32; 4]>, b: &Image<[f32; 4]>) -> f64 {
     let most = a.data.iter().flat_map(|c| c[..3].to_vec()).fold(0.0, f32::max);
-    let differs =
-        |(a, b): &(&[f32; 4], &[f32; 4])| (0..3).any(|i| !((a[i] - b[i]).abs() <= 1.0e-3 * most));
+    // NaN is near nothing.
+    let near = |a: f32, b: f32| (a - b).abs() <= 1.0e-3 * most;
+    let differs = |(a, b): &(&[f32; 4], &[f32; 4])| (0..3).any(|i| !near(a[i], b[i]));
     100.0 * a.data.iter().zip(&b.data).filter(differs).count() as f64 / a.data.len() as f64
 }
 
