@@ -72,7 +72,7 @@ fn of(mesh: &Mesh, upward: bool) -> Result<Strip, String> {
         .iter()
         .fold((f32::INFINITY, -f32::INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
     // Pictures are upside down in glTF: what writes it (Blender does) turns v over, to -1 on the land.
-    let turned = low < -SLACK && low >= -1.0 - SLACK && high <= 1.0 + SLACK;
+    let turned = (-1.0 - SLACK..-SLACK).contains(&low) && high <= 1.0 + SLACK;
     if turned {
         v.iter_mut().for_each(|v| *v = 1.0 - *v);
     } else if low < -SLACK || high > 2.0 + SLACK {
