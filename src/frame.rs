@@ -691,7 +691,7 @@ mod tests {
             let linear = 2.0 / ((m + 1.0) * (m + 2.0));
             assert!((falloff_mean(1.0, m) - linear).abs() < 1.0e-5, "{m}");
         }
-        assert_eq!(falloff_mean(1.5, 1.0), 1.0 - 2.0 / 3.5);
+        assert_eq!(falloff_mean(1.5, 1.0), (1.0 - 2.0 / 3.5_f64) as f32);
     }
 
     fn camera(projection: Mat4) -> Camera {

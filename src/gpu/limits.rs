@@ -170,12 +170,12 @@ mod tests {
         };
         assert_eq!(needed(&config, "maxPerStageDescriptorSamplers"), 22);
         assert_eq!(needed(&config, "maxPerStageDescriptorSampledImages"), 22);
-        assert_eq!(needed(&config, "maxPerStageDescriptorStorageBuffers"), 7);
+        assert_eq!(needed(&config, "maxPerStageDescriptorStorageBuffers"), 8);
         assert_eq!(needed(&config, "maxComputeWorkGroupInvocations"), 256);
         // smooth_fused.comp: two arrays of 32 x 32 words.
         assert_eq!(needed(&config, "maxComputeSharedMemorySize"), 8192);
         let diffuse = crate::foam::DiffuseConfig::new(1);
         let diffuse = Config { diffuse: Some(diffuse), ..config };
-        assert_eq!(needed(&diffuse, "maxPerStageDescriptorStorageBuffers"), 12);
+        assert_eq!(needed(&diffuse, "maxPerStageDescriptorStorageBuffers"), 10);
     }
 }

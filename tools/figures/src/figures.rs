@@ -16,13 +16,14 @@ use crate::tool::{SIZE, Timed, Tool, sequence};
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 36] = [
+pub const ALL: [(&str, Figure); 37] = [
     ("noise-foam", noise_foam),
     ("thesis", thesis),
     ("layers", layers),
     ("curvature", curvature),
     ("fixed-counts", fixed_counts),
     ("kernels", kernels),
+    ("water-layers", water_layers),
     ("borders", borders),
     ("iterations", iteration_counts),
     ("thresholds", thresholds),
@@ -197,7 +198,7 @@ fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
     // From above: the ground lies behind.
     let view = "--radius 0.05 --eye 0,0.8,0 --target 0,0,0 --up 0,0,-1 --fov 40 --spray none --shadows none";
     let water = tool.particles("x,y,z\n0,0,0\n", &format!("{view} --foam none"))?;
-    let own = tool.settings("[foam]\npattern = 0\n")?;
+    let own = tool.settings("[foam]\npattern = 0\nnoise = 1\n")?;
     let moving = "x,y,z,vx,vy,vz\n0,0,0,1.5,0,1\n";
     let foam = tool.particles(moving, &format!("{view} --foam 1e-6 {own}"))?;
     let near = tool.frame("waterfall", 240, &format!("{NEAR} --thickness-level 0"))?.layers;
@@ -216,6 +217,16 @@ fn kernels(tool: &Tool, docs: &Path) -> Outcome<()> {
         part(&near, "water.foam.thickness", RADIUS)?,
     ];
     grid(&panels, 4, &pictures(docs, "kernels.png"))
+}
+
+/// Figure 4.14: water behind the frontmost foam, and before it.
+fn water_layers(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let layers = tool.frame("waterfall", 240, NEAR)?.layers;
+    let panels = [
+        amount(&layers, "water.thickness.back", 6.0 * RADIUS)?,
+        amount(&layers, "water.thickness.front", 6.0 * RADIUS)?,
+    ];
+    grid(&panels, 2, &pictures(docs, "water-layers.png"))
 }
 
 /// Figure 4.18: where the surface is shaded one-sidedly, red, and where its derivatives are interpolated, yellow.

@@ -106,11 +106,13 @@ fn everything() -> SettingsFile {
         [shore]
         period = 7.0
         web = 'web.png'
+        strip = 'strip.obj'
         by = 'screen'
         map = 256
         [shoreline]
         floor = -0.2
         [contact]
+        mask_picture = 'mask.png'
         particle_depth = 0.3";
     let file = SettingsFile::parse(text).unwrap();
     let mut settings = Settings::default();
