@@ -790,7 +790,7 @@ impl Settings {
     }
 
     /// [`up`](Self::up) at unit length.
-    pub(crate) fn up(&self) -> Vec3 {
+    pub(crate) fn upward(&self) -> Vec3 {
         Vec3::from(self.up).normalize_or(Vec3::Y)
     }
 }

@@ -395,7 +395,7 @@ impl FrameUniforms {
             shadow: shadow
                 .map_or(Mat4::ZERO, |s| TO_PLACE * s.view_projection * to_world)
                 .to_cols_array_2d(),
-            to_light: (region.to_map(light, frame.settings.up()) * to_world).to_cols_array_2d(),
+            to_light: (region.to_map(light, frame.settings.upward()) * to_world).to_cols_array_2d(),
             shadow_map: shadow.map_or([0.0; 4], |s| [s.bias, s.nearer(light), 0.0, 0.0]),
             shadow_rect: shadow.map_or([0.0; 4], |s| {
                 let part = s.image.rect;
@@ -478,7 +478,7 @@ impl FrameUniforms {
             diffuse_sun: sun_on(frame.settings),
             shore_color,
             contact_color,
-            up: frame.settings.up().extend(0.0).to_array(),
+            up: frame.settings.upward().extend(0.0).to_array(),
         }
     }
 }
@@ -539,7 +539,7 @@ fn falloff_mean(n: f32, m: f32) -> f32 {
 /// The sun's irradiance on what faces it, over 2π: of level ground's, where the sun stands not too low.
 pub fn sun_on(settings: &Settings) -> [f32; 4] {
     let light = &settings.light;
-    let height = settings.up().dot(light.toward()).max(0.1);
+    let height = settings.upward().dot(light.toward()).max(0.1);
     let part = |i: usize| (light.irradiance[i] - light.shade[i]).max(0.0) / height;
     light_vector([part(0), part(1), part(2)].map(|e| e * 0.5 * std::f32::consts::FRAC_1_PI))
 }

@@ -160,7 +160,7 @@ impl ShoreUniforms {
         let row = |axis: Vec3, less: f32| {
             (turn.transpose() * axis).extend(axis.dot(eye) - less).to_array()
         };
-        let up = frame.settings.up();
+        let up = frame.settings.upward();
         let [east, north] = level_axes(up);
         let (kind, level, depth) = match &own.surface {
             Some(Surface::Level(level)) => (1.0, *level, None),
