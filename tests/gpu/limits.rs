@@ -402,8 +402,13 @@ fn levels_beside_each_other_smooth_the_same() {
 #[test]
 fn the_longest_images_are_drawn() {
     let gpu = Gpu::shared();
-    let most = gpu.limits().max_image_dimension2_d;
-    for size in [extent(16, most), extent(most, 16)] {
+    let limits = gpu.limits();
+    // Of an image that is drawn to.
+    let [across, down] = [0, 1].map(|i| {
+        let frame = [limits.max_framebuffer_width, limits.max_framebuffer_height][i];
+        limits.max_image_dimension2_d.min(frame).min(limits.max_viewport_dimensions[i])
+    });
+    for size in [extent(16, down), extent(across, 16)] {
         for smoothing_level in [0, 1] {
             let config = Config { smoothing_level, sheets: 2, ..config(size) };
             let mut rig = Rig::new(&gpu, &config);
