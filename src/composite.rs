@@ -76,7 +76,7 @@ pub struct Surroundings {
 type Pipelines = [Option<Pipeline>; KINDS as usize];
 
 enum Path {
-    Raster { pass: Owned<vk::RenderPass>, pipelines: Pipelines, coat: Option<Pipeline> },
+    Raster { pass: vk::RenderPass, pipelines: Pipelines, coat: Option<Pipeline> },
     Compute { pipelines: Pipelines, coat: Option<Pipeline> },
 }
 
@@ -127,7 +127,7 @@ impl Composite {
                             vertex: shader::COMPOSITE_VERT,
                             fragment: shader::COMPOSITE_FRAG,
                             topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                            pass: pass.handle,
+                            pass,
                             blend: &[no_blend()],
                             constants,
                         },
@@ -141,7 +141,7 @@ impl Composite {
                             vertex: shader::SHORE_COAT_VERT,
                             fragment: shader::SHORE_COAT_FRAG,
                             topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                            pass: pass.handle,
+                            pass,
                             blend: &[if blended { over() } else { no_blend() }],
                             constants: &[(0, u32::from(blended)), (24, 1)],
                         },
@@ -189,7 +189,7 @@ impl Composite {
     ) -> Result<Option<Owned<vk::Framebuffer>>, Error> {
         match &self.path {
             Path::Raster { pass, .. } => {
-                gpu.framebuffer("composite/output", pass.handle, view, extent).map(Some)
+                gpu.framebuffer("composite/output", *pass, view, extent).map(Some)
             }
             Path::Compute { .. } => Ok(None),
         }
@@ -255,7 +255,7 @@ impl Composite {
         let first = |i: u32| layers.split.most * i;
         match &self.path {
             Path::Raster { pass, pipelines, coat } => {
-                gpu.begin_pass(cmd, pass.handle, around.target, around.area, [0.0; 4]);
+                gpu.begin_pass(cmd, *pass, around.target, around.area, [0.0; 4]);
                 if let (Some(pipeline), Some(shore)) = (coat, shore) {
                     let (list, arguments, places) = shore.tiles(r.extent);
                     let resources = [&resources[..], &[(32, Resource::buffer(list))]].concat();

@@ -25,7 +25,8 @@ use crate::water::settings::{
     Splat, SprayLook, WaterSettings,
 };
 
-/// The host's Vulkan objects. All must outlive the renderer; none is owned by it.
+/// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All must outlive the context and what is made
+/// from it; none is owned by it.
 pub struct Host<'a> {
     /// The instance.
     pub instance: &'a ash::Instance,
@@ -34,8 +35,8 @@ pub struct Host<'a> {
     /// A Vulkan 1.3 device with what [`requirements`](crate::requirements) asks for.
     pub device: &'a ash::Device,
     /// Shared allocator; locked only in construction, `reconfigure`, `resize`, `collect` and
-    /// `destroy`. It must be dropped after the renderer is destroyed and before the device is;
-    /// `Host` holds it too, so drop that first.
+    /// `destroy`. It must be dropped before the device is destroyed, and `Host` and the context hold it too: drop them
+    /// first, when what was made from the context is destroyed.
     pub allocator: Arc<Mutex<Allocator>>,
     /// One family with graphics and compute; every command buffer handed in is of it.
     pub queue_family: u32,

@@ -10,7 +10,8 @@
 //! 1. Ask [`requirements`] and [`Offer::check`] before you make the device, and enable what you
 //!    want of the optional features ([`Offer`] says which it supports). Tell the truth about them
 //!    in [`Enabled`].
-//! 2. [`Renderer::new`] with a [`Host`] and a [`Config`]: all pipelines and memory are made here.
+//! 2. [`Context::new`] with a [`Host`], once for a device; [`Renderer::new`] with it and a [`Config`]: all memory is
+//!    made here, and all pipelines that no other object of the context has made.
 //! 3. [`Renderer::record_setup`] once, [`Renderer::record_environment`] once per environment.
 //! 4. Each frame, after the slot's fence: [`Renderer::collect`], then [`Renderer::record`] with a
 //!    [`Frame`]. [`Renderer::timings`] says what each pass took.
@@ -254,6 +255,7 @@ pub use gpu_allocator;
 pub mod bubbles;
 mod check;
 mod composite;
+mod context;
 mod contract;
 mod environment;
 mod error;
@@ -272,6 +274,7 @@ pub mod shore;
 mod state;
 pub mod water;
 
+pub use context::Context;
 pub use contract::*;
 pub use environment::{EnvironmentSource, Equirectangular, Sky};
 pub use error::Error;

@@ -8,8 +8,9 @@ use gpu_allocator::MemoryLocation;
 use crate::bubbles::{self, BubbleUniforms, Bubbles, near_sets};
 use crate::check;
 use crate::composite::{Composite, Surroundings};
+use crate::context::Context;
 use crate::contract::{
-    Config, Count, Frame, Host, HostImage, Layer, MemoryUse, Recorded, Slot, SmoothingLevels,
+    Config, Count, Frame, HostImage, Layer, MemoryUse, Recorded, Slot, SmoothingLevels,
 };
 use crate::environment::{Environment, EnvironmentSource};
 use crate::error::Error;
@@ -22,7 +23,6 @@ use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
-use crate::gpu::requirements::Offer;
 use crate::gpu::retire::RetireList;
 use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
@@ -54,8 +54,6 @@ struct SlotState {
 /// contract.
 pub struct Renderer {
     gpu: Arc<Gpu>,
-    instance: ash::Instance,
-    physical_device: vk::PhysicalDevice,
     config: Config,
     slots: Vec<SlotState>,
     retired: RetireList,
@@ -74,18 +72,14 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Makes all pipelines and memory for a configuration.
+    /// Makes all memory for a configuration, and the pipelines that its context does not have yet.
     ///
     /// # Errors
     /// Bad configuration, missing features, no memory, and what Vulkan reports.
-    ///
-    /// # Safety
-    /// The host's handles are alive, belong together, and outlive the renderer; what
-    /// [`Enabled`](crate::Enabled) and [`requirements`](crate::requirements) name is enabled.
-    pub unsafe fn new(host: &Host<'_>, config: &Config) -> Result<Self, Error> {
+    pub fn new(context: &Context, config: &Config) -> Result<Self, Error> {
         check::config(config)?;
-        Offer::of(host.instance, host.physical_device, config.output_format).check(config)?;
-        let gpu = Gpu::new(host)?;
+        context.shared.offer(config.output_format).check(config)?;
+        let gpu = Gpu::new(context);
         let made = Parts::new(&gpu, config, (None, None)).and_then(|parts| {
             let environment = Environment::new(&gpu, config)?;
             let slots = (0..gpu.slots).map(|_| SlotState::new(&gpu, config));
@@ -100,8 +94,6 @@ impl Renderer {
             }
         };
         Ok(Self {
-            instance: host.instance.clone(),
-            physical_device: host.physical_device,
             gpu,
             config: *config,
             slots,
@@ -572,7 +564,7 @@ impl Renderer {
 
     fn check_config(&self, config: &Config) -> Result<(), Error> {
         check::config(config)?;
-        Offer::of(&self.instance, self.physical_device, config.output_format).check(config)
+        self.gpu.offer(config.output_format).check(config)
     }
 
     /// Everything that can be wrong with a frame.

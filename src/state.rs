@@ -5,7 +5,8 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::check;
-use crate::contract::{Host, Slot, Step, Stream};
+use crate::context::Context;
+use crate::contract::{Slot, Step, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::descriptors::Descriptors;
@@ -53,10 +54,7 @@ impl State {
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
-    ///
-    /// # Safety
-    /// As [`Renderer::new`](crate::Renderer::new).
-    pub unsafe fn new(host: &Host<'_>, config: &StateConfig) -> Result<Self, Error> {
+    pub fn new(context: &Context, config: &StateConfig) -> Result<Self, Error> {
         if config.max_particles == 0 {
             return Err(Error::bad("StateConfig.max_particles", "zero; it sizes the buffers"));
         }
@@ -64,7 +62,7 @@ impl State {
             let why = format!("{} is no multiple of 4", config.max_stride);
             return Err(Error::bad("StateConfig.max_stride", why));
         }
-        let gpu = Gpu::new(host)?;
+        let gpu = Gpu::new(context);
         let made = Classify::new(&gpu, config.max_particles, config.max_stride).and_then(|c| {
             let slot = |_| {
                 let descriptors = Descriptors::new(&gpu, c.sets())?;

@@ -73,8 +73,8 @@ impl Targets {
 
 /// The draws.
 pub struct Billboards {
-    layer_pass: Owned<vk::RenderPass>,
-    opacity_pass: Owned<vk::RenderPass>,
+    layer_pass: vk::RenderPass,
+    opacity_pass: vk::RenderPass,
     layer: Pipeline,
     opacity: Pipeline,
     keep: Pipeline,
@@ -99,12 +99,12 @@ impl Billboards {
         let layer_pass = gpu.render_pass("bubbles/peel/layer", &attachments)?;
         let opacity_pass = gpu.color_pass("bubbles/peel/opacity", &[OPACITY], clear)?;
         let constants = Templates::constants(bubbles);
-        let graphics = |fragment, pass: &Owned<vk::RenderPass>, blend: &[_], passes| {
+        let graphics = |fragment, pass: vk::RenderPass, blend: &[_], passes| {
             let desc = Graphics {
                 vertex: shader::BUBBLES_PEEL_VERT,
                 fragment,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: pass.handle,
+                pass,
                 blend,
                 constants: &constants,
             };
@@ -116,10 +116,10 @@ impl Billboards {
         let layers = [(0, bubbles.layers)];
         let kept = [&layers[..], &constants].concat();
         Ok(Self {
-            layer: graphics(layer_frag, &layer_pass, &[no_blend()], less)?,
-            opacity: graphics(opacity_frag, &opacity_pass, &[blend(vk::BlendOp::MAX)], None)?,
+            layer: graphics(layer_frag, layer_pass, &[no_blend()], less)?,
+            opacity: graphics(opacity_frag, opacity_pass, &[blend(vk::BlendOp::MAX)], None)?,
             keep: Pipeline::compute(gpu, shader::BUBBLES_PEEL_KEEP_COMP, &kept)?,
-            targets: Targets::new(gpu, config.extent, layer_pass.handle, opacity_pass.handle)?,
+            targets: Targets::new(gpu, config.extent, layer_pass, opacity_pass)?,
             layer_pass,
             opacity_pass,
             layers: bubbles.layers,
@@ -132,7 +132,7 @@ impl Billboards {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let passes = [self.layer_pass.handle, self.opacity_pass.handle];
+        let passes = [self.layer_pass, self.opacity_pass];
         let new = Targets::new(gpu, config.extent, passes[0], passes[1])?;
         let old = &mut self.targets;
         for (old, new) in old.layer_targets.iter_mut().zip(new.layer_targets) {
@@ -178,12 +178,12 @@ impl Billboards {
             gpu.barriers(cmd, &before, &[]);
             let resources = [bound, &[(4, sampled(&layers[other]))]].concat();
             let (pass, target, pipeline, clears) = if peels {
-                (&self.layer_pass, &self.targets.layer_targets[own], &self.layer, &nothing[..])
+                (self.layer_pass, &self.targets.layer_targets[own], &self.layer, &nothing[..])
             } else {
-                (&self.opacity_pass, &self.targets.opacity_target, &self.opacity, &none[..])
+                (self.opacity_pass, &self.targets.opacity_target, &self.opacity, &none[..])
             };
             let set = r.descriptors.set(gpu, pipeline, &resources)?;
-            gpu.begin_pass_with(cmd, pass.handle, target.handle, r.extent.into(), clears);
+            gpu.begin_pass_with(cmd, pass, target.handle, r.extent.into(), clears);
             pipeline.bind(gpu, cmd);
             bind_set(gpu, cmd, pipeline, set);
             if peels {

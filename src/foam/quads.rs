@@ -28,18 +28,14 @@ struct Targets {
 }
 
 impl Targets {
-    fn new(
-        gpu: &Gpu,
-        passes: [&Owned<vk::RenderPass>; 2],
-        thickness: &Image,
-    ) -> Result<Self, Error> {
+    fn new(gpu: &Gpu, passes: [vk::RenderPass; 2], thickness: &Image) -> Result<Self, Error> {
         use vk::ImageUsageFlags as Usage;
         let extent = thickness.extent;
         let image =
             |name, format, usage| Image::new(gpu, &ImageDesc::new(name, extent, format, usage));
         let fronts = image("foam/splat/fronts", FRONT, Usage::COLOR_ATTACHMENT | Usage::SAMPLED)?;
         let depth = image("foam/splat/depth", DEPTH, Usage::DEPTH_STENCIL_ATTACHMENT)?;
-        let [front, sums] = passes.map(|pass| pass.handle);
+        let [front, sums] = passes;
         let views = [fronts.view, depth.view];
         Ok(Self {
             front: gpu.framebuffer_of("foam/splat/front", front, &views, extent)?,
@@ -52,8 +48,8 @@ impl Targets {
 
 /// The draws of the pass.
 pub struct Quads {
-    front_pass: Owned<vk::RenderPass>,
-    thickness_pass: Owned<vk::RenderPass>,
+    front_pass: vk::RenderPass,
+    thickness_pass: vk::RenderPass,
     /// Of particles as the source has them, and of others (glsl/include/diffuse.glsl).
     front: [Pipeline; 2],
     thickness: [Pipeline; 2],
@@ -76,13 +72,13 @@ impl Quads {
         };
         let front_pass = gpu.render_pass("foam/splat/front", &attachments)?;
         let thickness_pass = gpu.color_pass("foam/splat/thickness", &[thickness.format], clear)?;
-        let graphics = |fragment, pass: &Owned<vk::RenderPass>, blend: &[_], passes| {
+        let graphics = |fragment, pass: vk::RenderPass, blend: &[_], passes| {
             let shaped = |shaped: u32| {
                 let desc = Graphics {
                     vertex: shader::FOAM_SPLAT_VERT,
                     fragment,
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                    pass: pass.handle,
+                    pass,
                     blend,
                     constants: &[(3, shaped)],
                 };
@@ -93,17 +89,17 @@ impl Quads {
         Ok(Self {
             front: graphics(
                 shader::FOAM_SPLAT_FRONT_FRAG,
-                &front_pass,
+                front_pass,
                 &[no_blend()],
                 Some(vk::CompareOp::GREATER),
             )?,
             thickness: graphics(
                 shader::FOAM_SPLAT_THICKNESS_FRAG,
-                &thickness_pass,
+                thickness_pass,
                 &[blend(vk::BlendOp::ADD)],
                 None,
             )?,
-            targets: Targets::new(gpu, [&front_pass, &thickness_pass], thickness)?,
+            targets: Targets::new(gpu, [front_pass, thickness_pass], thickness)?,
             front_pass,
             thickness_pass,
         })
@@ -115,7 +111,7 @@ impl Quads {
         thickness: &Image,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let new = Targets::new(gpu, [&self.front_pass, &self.thickness_pass], thickness)?;
+        let new = Targets::new(gpu, [self.front_pass, self.thickness_pass], thickness)?;
         let old = &mut self.targets;
         retired.replace(&mut old.front, new.front);
         retired.replace(&mut old.thickness, new.thickness);
@@ -151,12 +147,12 @@ impl Quads {
         ];
         let targets = &self.targets;
         let passes = [
-            (&self.front_pass, &targets.front, &nothing[..], &self.front),
-            (&self.thickness_pass, &targets.thickness, &nothing[1..], &self.thickness),
+            (self.front_pass, &targets.front, &nothing[..], &self.front),
+            (self.thickness_pass, &targets.thickness, &nothing[1..], &self.thickness),
         ];
         for (pass, framebuffer, clears, pipeline) in passes {
             let area = r.extent.into();
-            gpu.begin_pass_with(cmd, pass.handle, framebuffer.handle, area, clears);
+            gpu.begin_pass_with(cmd, pass, framebuffer.handle, area, clears);
             let drawn = draw(&pipeline[usize::from(r.shaped)]);
             gpu.end_pass(cmd);
             drawn?;

@@ -16,12 +16,10 @@ pub enum Grave {
     Image(vk::Image, [vk::ImageView; 2], Allocation),
     /// A buffer with its memory.
     Buffer(vk::Buffer, Allocation),
-    /// A pipeline with its layouts.
+    /// A pipeline with its layouts, that is not the context's.
     Pipeline(vk::Pipeline, vk::PipelineLayout, vk::DescriptorSetLayout),
     /// A framebuffer.
     Framebuffer(vk::Framebuffer),
-    /// A render pass.
-    RenderPass(vk::RenderPass),
     /// A view of an image that lives elsewhere.
     View(vk::ImageView),
     /// A query pool.
@@ -126,7 +124,6 @@ impl Gpu {
                         device.destroy_descriptor_set_layout(set_layout, None);
                     }
                     Grave::Framebuffer(handle) => device.destroy_framebuffer(handle, None),
-                    Grave::RenderPass(handle) => device.destroy_render_pass(handle, None),
                     Grave::View(handle) => device.destroy_image_view(handle, None),
                     Grave::QueryPool(handle) => device.destroy_query_pool(handle, None),
                     Grave::DescriptorPool(handle) => device.destroy_descriptor_pool(handle, None),

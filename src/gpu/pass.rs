@@ -10,7 +10,7 @@ use super::image::Image;
 use crate::error::{Error, VkContext};
 
 /// One attachment.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Attachment {
     /// Format.
     pub format: vk::Format,
@@ -23,7 +23,7 @@ pub struct Attachment {
 }
 
 /// What a pass draws to. Views and clear values come in the same order, without those left out.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub struct Attachments {
     /// In COLOR_ATTACHMENT_OPTIMAL.
     pub color: Option<Attachment>,
@@ -36,12 +36,16 @@ pub struct Attachments {
 }
 
 impl Gpu {
-    /// A render pass.
+    /// A render pass: the context's, once for each name and attachments.
     pub fn render_pass(
         &self,
         name: &str,
         attachments: &Attachments,
-    ) -> Result<Owned<vk::RenderPass>, Error> {
+    ) -> Result<vk::RenderPass, Error> {
+        self.passes.get((name.into(), *attachments), || self.make_pass(name, attachments))
+    }
+
+    fn make_pass(&self, name: &str, attachments: &Attachments) -> Result<vk::RenderPass, Error> {
         let color = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
         let depth = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
         let mut descriptions = Vec::with_capacity(4);
@@ -83,7 +87,7 @@ impl Gpu {
         let pass = unsafe { self.device.create_render_pass(&info, None) }
             .context(|| format!("vkCreateRenderPass {name}"))?;
         self.name(pass, name);
-        Ok(self.own(pass, Grave::RenderPass))
+        Ok(pass)
     }
 
     /// A render pass of one or two colour attachments, which are kept.
@@ -92,7 +96,7 @@ impl Gpu {
         name: &str,
         formats: &[vk::Format],
         load: vk::AttachmentLoadOp,
-    ) -> Result<Owned<vk::RenderPass>, Error> {
+    ) -> Result<vk::RenderPass, Error> {
         let samples = vk::SampleCountFlags::TYPE_1;
         let store = vk::AttachmentStoreOp::STORE;
         let at =

@@ -1,6 +1,8 @@
 //! Pipelines. Descriptor layout, push range and workgroup size come from the shaders themselves.
 
 use std::collections::BTreeMap;
+use std::ops::Deref;
+use std::sync::Arc;
 
 use ash::vk;
 
@@ -10,8 +12,19 @@ use super::limits;
 use super::shader::Shader;
 use crate::error::{Error, VkContext};
 
+/// A pipeline: one that its context has for all that need it, or one of its own.
+pub struct Pipeline(Arc<Made>);
+
+impl Deref for Pipeline {
+    type Target = Made;
+
+    fn deref(&self) -> &Made {
+        &self.0
+    }
+}
+
 /// A pipeline with its layouts.
-pub struct Pipeline {
+pub struct Made {
     /// The pipeline.
     pub handle: vk::Pipeline,
     /// Its layout.
@@ -28,7 +41,43 @@ pub struct Pipeline {
     pub name: &'static str,
     stages: vk::ShaderStageFlags,
     push_size: u32,
-    yard: Graveyard,
+    /// Where its handles go when it is dropped; none when they are the context's.
+    yard: Option<Graveyard>,
+}
+
+/// All that two pipelines of one kind have in common.
+#[derive(PartialEq, Eq, Hash)]
+pub struct Key {
+    shaders: Vec<&'static str>,
+    constants: Vec<(u32, u32)>,
+    graphics: Option<GraphicsKey>,
+}
+
+#[derive(PartialEq, Eq, Hash)]
+struct GraphicsKey {
+    topology: vk::PrimitiveTopology,
+    pass: vk::RenderPass,
+    blend: Vec<[u32; 8]>,
+    passes: Option<vk::CompareOp>,
+}
+
+impl GraphicsKey {
+    fn new(desc: &Graphics<'_>, passes: Option<vk::CompareOp>) -> Self {
+        let word = |b: &vk::PipelineColorBlendAttachmentState| {
+            [
+                b.blend_enable,
+                b.src_color_blend_factor.as_raw() as u32,
+                b.dst_color_blend_factor.as_raw() as u32,
+                b.color_blend_op.as_raw() as u32,
+                b.src_alpha_blend_factor.as_raw() as u32,
+                b.dst_alpha_blend_factor.as_raw() as u32,
+                b.alpha_blend_op.as_raw() as u32,
+                b.color_write_mask.as_raw(),
+            ]
+        };
+        let blend = desc.blend.iter().map(word).collect();
+        Self { topology: desc.topology, pass: desc.pass, blend, passes }
+    }
 }
 
 /// What differs between the graphics pipelines here: no vertex input, no depth test, dynamic
@@ -102,8 +151,59 @@ impl Specialization {
 }
 
 impl Pipeline {
-    /// A compute pipeline.
+    /// A compute pipeline, the context's.
     pub fn compute(gpu: &Gpu, shader: Shader, constants: &[(u32, u32)]) -> Result<Self, Error> {
+        Self::shared(gpu, &[shader], constants, None, || Made::compute(gpu, shader, constants))
+    }
+
+    /// A graphics pipeline with one colour attachment, the context's.
+    pub fn graphics(gpu: &Gpu, desc: &Graphics<'_>) -> Result<Self, Error> {
+        Self::tested(gpu, desc, None)
+    }
+
+    /// The same behind a depth test, which writes what passes it.
+    pub fn tested(
+        gpu: &Gpu,
+        desc: &Graphics<'_>,
+        passes: Option<vk::CompareOp>,
+    ) -> Result<Self, Error> {
+        let graphics = GraphicsKey::new(desc, passes);
+        Self::shared(gpu, &[desc.vertex, desc.fragment], desc.constants, Some(graphics), || {
+            Made::graphics(gpu, desc, passes)
+        })
+    }
+
+    /// A graphics pipeline of any state, which is not shared; its stages and layout are filled in here.
+    #[cfg(feature = "headless")]
+    pub fn from_state(
+        gpu: &Gpu,
+        stages: &[(Shader, vk::ShaderStageFlags)],
+        constants: &[(u32, u32)],
+        state: vk::GraphicsPipelineCreateInfo<'_>,
+    ) -> Result<Self, Error> {
+        Ok(Self(Arc::new(Made::from_state(gpu, stages, constants, state)?)))
+    }
+
+    fn shared(
+        gpu: &Gpu,
+        shaders: &[Shader],
+        constants: &[(u32, u32)],
+        graphics: Option<GraphicsKey>,
+        make: impl FnOnce() -> Result<Made, Error>,
+    ) -> Result<Self, Error> {
+        let shaders = shaders.iter().map(|shader| shader.name).collect();
+        let key = Key { shaders, constants: constants.to_vec(), graphics };
+        let made = gpu.pipelines.get(key, || {
+            let mut made = make()?;
+            made.yard = None;
+            Ok(Arc::new(made))
+        })?;
+        Ok(Self(made))
+    }
+}
+
+impl Made {
+    fn compute(gpu: &Gpu, shader: Shader, constants: &[(u32, u32)]) -> Result<Self, Error> {
         let mut pipeline = Self::layouts(
             gpu,
             &[(shader, vk::ShaderStageFlags::COMPUTE)],
@@ -128,13 +228,7 @@ impl Pipeline {
         Ok(pipeline)
     }
 
-    /// A graphics pipeline with one colour attachment.
-    pub fn graphics(gpu: &Gpu, desc: &Graphics<'_>) -> Result<Self, Error> {
-        Self::tested(gpu, desc, None)
-    }
-
-    /// The same behind a depth test, which writes what passes it.
-    pub fn tested(
+    fn graphics(
         gpu: &Gpu,
         desc: &Graphics<'_>,
         passes: Option<vk::CompareOp>,
@@ -172,8 +266,7 @@ impl Pipeline {
         Self::from_state(gpu, &stages, desc.constants, state)
     }
 
-    /// A graphics pipeline of any state; its stages and layout are filled in here.
-    pub fn from_state(
+    fn from_state(
         gpu: &Gpu,
         stages: &[(Shader, vk::ShaderStageFlags)],
         constants: &[(u32, u32)],
@@ -266,7 +359,7 @@ impl Pipeline {
             name,
             stages,
             push_size,
-            yard: gpu.graveyard.clone(),
+            yard: Some(gpu.graveyard.clone()),
         })
     }
 
@@ -304,9 +397,11 @@ impl Pipeline {
     }
 }
 
-impl Drop for Pipeline {
+impl Drop for Made {
     fn drop(&mut self) {
-        self.yard.push(Grave::Pipeline(self.handle, self.layout, self.set_layout));
+        if let Some(yard) = &self.yard {
+            yard.push(Grave::Pipeline(self.handle, self.layout, self.set_layout));
+        }
     }
 }
 

@@ -13,7 +13,7 @@ pub struct Target {
     /// The image.
     pub image: Image,
     /// The pass, for pipelines.
-    pub pass: Owned<vk::RenderPass>,
+    pub pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
 }
 
@@ -22,7 +22,7 @@ impl Target {
     pub fn new(gpu: &Gpu, desc: &ImageDesc<'_>, load: vk::AttachmentLoadOp) -> Result<Self, Error> {
         let image = Image::new(gpu, desc)?;
         let pass = gpu.color_pass(desc.name, &[desc.format], load)?;
-        let framebuffer = gpu.framebuffer(desc.name, pass.handle, image.view, image.extent)?;
+        let framebuffer = gpu.framebuffer(desc.name, pass, image.view, image.extent)?;
         Ok(Self { image, pass, framebuffer })
     }
 
@@ -34,7 +34,7 @@ impl Target {
         retired: &mut RetireList,
     ) -> Result<(), Error> {
         let image = Image::new(gpu, desc)?;
-        let framebuffer = gpu.framebuffer(desc.name, self.pass.handle, image.view, image.extent)?;
+        let framebuffer = gpu.framebuffer(desc.name, self.pass, image.view, image.extent)?;
         retired.replace(&mut self.framebuffer, framebuffer);
         retired.replace(&mut self.image, image);
         Ok(())
@@ -42,6 +42,6 @@ impl Target {
 
     /// Begins the pass over an area; the image is in COLOR_ATTACHMENT_OPTIMAL.
     pub fn begin(&self, gpu: &Gpu, cmd: vk::CommandBuffer, area: vk::Rect2D, clear: [f32; 4]) {
-        gpu.begin_pass(cmd, self.pass.handle, self.framebuffer.handle, area, clear);
+        gpu.begin_pass(cmd, self.pass, self.framebuffer.handle, area, clear);
     }
 }

@@ -89,8 +89,7 @@ impl Headless {
             None => {
                 let fluid = self.renderer.config().max_particles;
                 let config = GenerateConfig::new(fluid, max_particles);
-                // SAFETY: the device is ours and outlives the generator (field order, `finish`).
-                let generator = unsafe { Generator::new(&self.device.host(1), &config) }?;
+                let generator = Generator::new(&self.context, &config)?;
                 Generating { generator, max_particles, shown: false, count: 0 }
             }
         };

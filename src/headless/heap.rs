@@ -21,9 +21,7 @@ impl Headless {
         self.drop_heap();
         let count = u32::try_from(blobs.len()).unwrap_or(u32::MAX).max(1);
         let config = HeapConfig { halvings, ..HeapConfig::new(count) };
-        let host = self.device.host(1);
-        // SAFETY: the device is ours and outlives the heap.
-        let mut heap = unsafe { Heap::new(&host, &config, field) }?;
+        let mut heap = Heap::new(&self.context, &config, field)?;
         let staged = match Foamed::new(&self.gpu, blobs) {
             Ok(staged) => staged,
             Err(error) => {

@@ -459,8 +459,7 @@ impl Headless {
             Some(old) => old.state,
             None => {
                 let config = StateConfig::new(self.renderer.config().max_particles);
-                // SAFETY: the device is ours and outlives the state (field order, `finish`).
-                unsafe { State::new(&self.device.host(1), &config) }?
+                State::new(&self.context, &config)?
             }
         };
         let step = Step {

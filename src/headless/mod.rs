@@ -39,6 +39,7 @@ use submit::{Commands, begin, submit};
 
 use crate::bubbles::Heap;
 use crate::composite::way;
+use crate::context::Context;
 use crate::contract::{
     Access, Config, Layer, ParticleCounts, Previous, Region, Slot, SmoothingLevels,
 };
@@ -118,6 +119,7 @@ pub struct Headless {
     scene: Option<Stage>,
     /// The environment without the sun, where that is in it: what lights the scene.
     without_sun: Option<Environment>,
+    context: Context,
     device: Device,
 }
 
@@ -129,12 +131,11 @@ impl Headless {
     pub fn new(device: Device, config: &Config) -> Result<Self, Error> {
         let config =
             Config { output_format: COLOR_FORMAT, in_place: true, keep_layers: true, ..*config };
-        let host = device.host(1);
-        let gpu = Gpu::new(&host)?;
-        let made = Self::own(&gpu, &device, &config).and_then(|own| {
-            // SAFETY: the device is ours and outlives the renderer (field order, `finish`).
-            Ok((own, unsafe { Renderer::new(&host, &config) }?))
-        });
+        // SAFETY: the device is ours, and dropped after its context and all that is made from it.
+        let context = unsafe { Context::new(&device.host(1)) }?;
+        let gpu = Gpu::new(&context);
+        let made = Self::own(&gpu, &device, &config)
+            .and_then(|own| Ok((own, Renderer::new(&context, &config)?)));
         let ((commands, color, depth), renderer) = match made {
             Ok(made) => made,
             Err(error) => {
@@ -170,6 +171,7 @@ impl Headless {
             bubble_words: None,
             scene: None,
             without_sun: None,
+            context,
             device,
         };
         if let Err(error) = headless.first_contents() {

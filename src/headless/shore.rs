@@ -120,8 +120,7 @@ impl Headless {
         let own = meshes.iter().map(|mesh| Meshed::new(&self.gpu, mesh));
         let own = own.collect::<Result<Vec<_>, _>>()?;
         let config = ShoreMapConfig { size, max_meshes: meshes.len().max(1) as u32 };
-        // SAFETY: the device is ours and outlives the map.
-        let map = unsafe { ShoreMap::new(&self.device.host(1), &config) }?;
+        let map = ShoreMap::new(&self.context, &config)?;
         self.shores.map = Some((map, own));
         Ok(())
     }

@@ -14,7 +14,6 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, Access, COLOR_ATTACHMENT, COMPUTE_SAMPLED, FRAGMENT_SAMPLED};
 use crate::gpu::descriptors::Resource;
-use crate::gpu::graveyard::Owned;
 use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::retire::RetireList;
@@ -44,7 +43,7 @@ pub struct Output {
 }
 
 enum Out {
-    Raster { pass: Owned<vk::RenderPass>, pipeline: Pipeline },
+    Raster { pass: vk::RenderPass, pipeline: Pipeline },
     Compute { pipeline: Pipeline },
 }
 
@@ -76,16 +75,13 @@ impl Lit {
             Shading::Raster => {
                 let format = config.output_format;
                 let pass = gpu.color_pass("lit/out", &[format], vk::AttachmentLoadOp::LOAD)?;
-                Out::Raster {
-                    pipeline: triangle(shader::LIGHT_LIT_OUT_FRAG, pass.handle, &[])?,
-                    pass,
-                }
+                Out::Raster { pipeline: triangle(shader::LIGHT_LIT_OUT_FRAG, pass, &[])?, pass }
             }
             Shading::Compute => {
                 Out::Compute { pipeline: Pipeline::compute(gpu, shader::LIGHT_LIT_OUT_COMP, &[])? }
             }
         };
-        let (pass, constants) = (target.pass.handle, super::constants(config));
+        let (pass, constants) = (target.pass, super::constants(config));
         Ok(Self { pipeline: triangle(shader::LIGHT_LIT_FRAG, pass, &constants)?, target, out })
     }
 
@@ -142,7 +138,7 @@ impl Lit {
         let lit = (1, Resource::Sampled(self.image().view, gpu.samplers.nearest));
         match &self.out {
             Out::Raster { pass, pipeline } => {
-                gpu.begin_pass(cmd, pass.handle, output.target, output.area, [0.0; 4]);
+                gpu.begin_pass(cmd, *pass, output.target, output.area, [0.0; 4]);
                 r.descriptors.bind(gpu, cmd, pipeline, &[(0, r.uniforms), lit])?;
                 // SAFETY: as above.
                 unsafe { gpu.device.cmd_draw(cmd, 3, 1, 0, 0) };

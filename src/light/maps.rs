@@ -80,7 +80,7 @@ impl Map {
                 vertex: shader::LIGHT_SPRITES_VERT,
                 fragment,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: target.pass.handle,
+                pass: target.pass,
                 blend: &[blend(op)],
                 constants: &[(9, u32::from(config.foam))],
             },

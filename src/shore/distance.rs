@@ -14,7 +14,8 @@ use glam::{Mat4, Vec2, Vec3, Vec4};
 use gpu_allocator::MemoryLocation;
 
 use crate::check;
-use crate::contract::{Access, Coast, Host, HostImage, Slot, Triangles};
+use crate::context::Context;
+use crate::contract::{Access, Coast, HostImage, Slot, Triangles};
 use crate::error::Error;
 use crate::frame::level_axes;
 use crate::gpu::Gpu;
@@ -192,7 +193,7 @@ struct MapSlot {
 
 /// The images, and what makes them.
 struct Grid {
-    pass: Owned<vk::RenderPass>,
+    pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
     pipelines: Pipelines,
     heights: Image,
@@ -254,10 +255,7 @@ impl ShoreMap {
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
-    ///
-    /// # Safety
-    /// As [`Renderer::new`](crate::Renderer::new).
-    pub unsafe fn new(host: &Host<'_>, config: &ShoreMapConfig) -> Result<Self, Error> {
+    pub fn new(context: &Context, config: &ShoreMapConfig) -> Result<Self, Error> {
         let size = config.size;
         if !size.is_multiple_of(16) || !(16..=4096).contains(&size) {
             let why = format!("{size}: a multiple of 16 from 16 to 4096 expected");
@@ -267,7 +265,7 @@ impl ShoreMap {
             let why = format!("expected 0 to 65536, found {}", config.max_meshes);
             return Err(Error::bad("ShoreMapConfig.max_meshes", why));
         }
-        let gpu = Gpu::new(host)?;
+        let gpu = Gpu::new(context);
         match Self::made(&gpu, config) {
             Ok(map) => Ok(map),
             Err(error) => {
@@ -288,14 +286,14 @@ impl ShoreMap {
         let depth = Attachment { format, samples, load: Load::CLEAR, store: Store::STORE };
         let attachments = Attachments { depth: Some(depth), ..Attachments::default() };
         let pass = gpu.render_pass("shore/heights", &attachments)?;
-        let framebuffer = gpu.framebuffer("shore/heights", pass.handle, heights.view, extent)?;
+        let framebuffer = gpu.framebuffer("shore/heights", pass, heights.view, extent)?;
         let height = Pipeline::tested(
             gpu,
             &Graphics {
                 vertex: shader::SHORE_MAP_HEIGHT_VERT,
                 fragment: shader::SHORE_MAP_HEIGHT_FRAG,
                 topology: vk::PrimitiveTopology::TRIANGLE_LIST,
-                pass: pass.handle,
+                pass,
                 blend: &[],
                 constants: &[],
             },
@@ -582,7 +580,7 @@ impl Grid {
                 offset: vk::Offset2D { x, y },
                 extent: vk::Extent2D { width: w as u32, height: h as u32 },
             };
-            let (pass, target) = (self.pass.handle, self.framebuffer.handle);
+            let (pass, target) = (self.pass, self.framebuffer.handle);
             gpu.begin_pass_with(cmd, pass, target, rect, &[clear_depth(0.0)]);
             let size = size as f32;
             let viewport = vk::Viewport {

@@ -87,7 +87,7 @@ impl Shore {
             vertex: shader::SHORE_STRIP_VERT,
             fragment: shader::SHORE_STRIP_FRAG,
             topology: vk::PrimitiveTopology::TRIANGLE_LIST,
-            pass: target.pass.handle,
+            pass: target.pass,
             blend: &most,
             constants: &constants,
         };

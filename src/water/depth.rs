@@ -31,7 +31,7 @@ enum Path {
     Raster {
         points: Pipeline,
         quads: Pipeline,
-        pass: Owned<vk::RenderPass>,
+        pass: vk::RenderPass,
         framebuffer: Owned<vk::Framebuffer>,
     },
     Compute {
@@ -77,12 +77,11 @@ impl Depth {
                     gpu,
                     shader::WATER_DEPTH_VERT,
                     shader::WATER_DEPTH_FRAG,
-                    pass.handle,
+                    pass,
                     &[blend(vk::BlendOp::MIN)],
                     false,
                 )?;
-                let framebuffer =
-                    gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
+                let framebuffer = gpu.framebuffer("water/depth", pass, image.view, image.extent)?;
                 Path::Raster { points, quads, pass, framebuffer }
             }
             Splat::Compute => Path::Compute {
@@ -120,7 +119,7 @@ impl Depth {
     ) -> Result<(), Error> {
         let image = Self::image(gpu, config)?;
         if let Path::Raster { pass, framebuffer, .. } = &mut self.path {
-            let new = gpu.framebuffer("water/depth", pass.handle, image.view, image.extent)?;
+            let new = gpu.framebuffer("water/depth", *pass, image.view, image.extent)?;
             retired.replace(framebuffer, new);
         }
         retired.replace(&mut self.image, image);
@@ -153,7 +152,7 @@ impl Depth {
                     &[],
                 );
                 let area = r.extent.into();
-                gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [EMPTY, 0.0, 0.0, 0.0]);
+                gpu.begin_pass(cmd, *pass, framebuffer.handle, area, [EMPTY, 0.0, 0.0, 0.0]);
                 draw_sprites(r, list, points, quads, &[])?;
                 gpu.end_pass(cmd);
                 gpu.barriers(

@@ -125,7 +125,7 @@ impl Blended {
                 vertex: shader::WATER_FOAM_VERT,
                 fragment,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: target.pass.handle,
+                pass: target.pass,
                 blend: &[blend(op)],
                 constants: &[(0, thick)],
             },

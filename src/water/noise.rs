@@ -83,7 +83,7 @@ impl Noise {
                 vertex: shader::WATER_NOISE_VERT,
                 fragment: shader::WATER_NOISE_FRAG,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: target.pass.handle,
+                pass: target.pass,
                 blend: &[blend(vk::BlendOp::ADD)],
                 constants: &[],
             },

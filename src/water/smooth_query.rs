@@ -46,7 +46,7 @@ struct Push {
 /// The form's state.
 pub struct Query {
     gate: Gate,
-    pass: Owned<vk::RenderPass>,
+    pass: vk::RenderPass,
     /// Of image `a`, of image `b`.
     framebuffers: [Owned<vk::Framebuffer>; 2],
     iterate: Pipeline,
@@ -95,7 +95,7 @@ impl Query {
                     vertex: shader::WATER_SMOOTH_VERT,
                     fragment: shader::WATER_SMOOTH_FRAG,
                     topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                    pass: pass.handle,
+                    pass,
                     blend: &[blend],
                     constants: &[(0, cull), (1, rule_constant(rule)), (2, task)],
                 },
@@ -115,7 +115,7 @@ impl Query {
             (make(0, no_blend())?, make(1, unwritten)?, make(2, no_blend())?);
         Ok(Self {
             gate,
-            framebuffers: Self::framebuffers(gpu, pass.handle, a, b)?,
+            framebuffers: Self::framebuffers(gpu, pass, a, b)?,
             iterate,
             count,
             copy,
@@ -168,7 +168,7 @@ impl Query {
         b: &Image,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
-        let new = Self::framebuffers(gpu, self.pass.handle, a, b)?;
+        let new = Self::framebuffers(gpu, self.pass, a, b)?;
         for old in std::mem::replace(&mut self.framebuffers, new) {
             retired.retire(old);
         }
@@ -310,7 +310,7 @@ impl Query {
         let barrier = access::image(image, FRAGMENT_SAMPLED, COLOR_ATTACHMENT);
         r.gpu.barriers(r.cmd, &[barrier], &[]);
         let area = image.extent.into();
-        r.gpu.begin_pass(r.cmd, self.pass.handle, self.framebuffers[index].handle, area, [0.0; 4]);
+        r.gpu.begin_pass(r.cmd, self.pass, self.framebuffers[index].handle, area, [0.0; 4]);
     }
 
     /// Ends it; the image is sampled next.

@@ -87,7 +87,7 @@ impl Spray {
                 vertex: shader::WATER_SPRAY_VERT,
                 fragment: shader::WATER_SPRAY_FRAG,
                 topology: vk::PrimitiveTopology::TRIANGLE_STRIP,
-                pass: target.pass.handle,
+                pass: target.pass,
                 blend: &[blend(vk::BlendOp::ADD)],
                 constants: &constants,
             },

@@ -45,7 +45,7 @@ enum Path {
     Raster {
         points: Pipeline,
         quads: Pipeline,
-        pass: Owned<vk::RenderPass>,
+        pass: vk::RenderPass,
         framebuffer: Owned<vk::Framebuffer>,
     },
     Compute {
@@ -109,11 +109,11 @@ impl Thickness {
                     } else {
                         shader::WATER_THICKNESS_FRAG
                     },
-                    pass.handle,
+                    pass,
                     &vec![blend(vk::BlendOp::ADD); formats.len()],
                     config.foam,
                 )?;
-                let framebuffer = Self::framebuffer(gpu, pass.handle, &image, sheets.as_ref())?;
+                let framebuffer = Self::framebuffer(gpu, pass, &image, sheets.as_ref())?;
                 Path::Raster { points, quads, pass, framebuffer }
             }
             Splat::Compute => Path::Compute {
@@ -210,7 +210,7 @@ impl Thickness {
         let sheets = Self::sheets(gpu, config)?;
         match &mut self.path {
             Path::Raster { pass, framebuffer, .. } => {
-                let new = Self::framebuffer(gpu, pass.handle, &image, sheets.as_ref())?;
+                let new = Self::framebuffer(gpu, *pass, &image, sheets.as_ref())?;
                 retired.replace(framebuffer, new);
             }
             Path::Compute { sums, .. } => {
@@ -251,7 +251,7 @@ impl Thickness {
             Path::Raster { points, quads, pass, framebuffer } => {
                 gpu.barriers(cmd, &hand(BEFORE.discarded(), COLOR_ATTACHMENT), &[]);
                 let area = reduced(r.extent, self.level).into();
-                gpu.begin_pass(cmd, pass.handle, framebuffer.handle, area, [0.0; 4]);
+                gpu.begin_pass(cmd, *pass, framebuffer.handle, area, [0.0; 4]);
                 draw_sprites(r, list, points, quads, &[(7, foam), (11, boundaries)])?;
                 gpu.end_pass(cmd);
                 gpu.barriers(cmd, &hand(COLOR_ATTACHMENT, FRAGMENT_SAMPLED), &[]);

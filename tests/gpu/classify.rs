@@ -29,8 +29,7 @@ type Foam = Vec<[f32; 2]>;
 
 impl<'g> Body<'g> {
     fn new(gpu: &'g Gpu, config: StateConfig) -> Self {
-        // SAFETY: the device outlives the body.
-        let state = unsafe { State::new(&gpu.host(SLOTS), &config) }.expect("a state");
+        let state = State::new(&gpu.context(SLOTS), &config).expect("a state");
         Self { gpu, stub: Stub::new(gpu, SLOTS), state: Some(state), steps: 0 }
     }
 
@@ -522,8 +521,7 @@ fn bad_steps_are_errors() {
         StateConfig { max_stride: 6, ..StateConfig::new(1) },
         StateConfig::new(u32::MAX),
     ] {
-        // SAFETY: live handles.
-        match unsafe { State::new(&gpu.host(1), &config) } {
+        match State::new(&gpu.context(1), &config) {
             Err(Error::BadInput { .. }) => {}
             Err(other) => panic!("{config:?}: {other}"),
             Ok(_) => panic!("{config:?} is accepted"),

@@ -39,8 +39,7 @@ struct Made {
 
 impl Making {
     fn new(gpu: &Gpu, config: &GenerateConfig) -> Self {
-        // SAFETY: the device outlives this.
-        let generator = unsafe { Generator::new(&gpu.host(SLOTS), config) }.expect("a generator");
+        let generator = Generator::new(&gpu.context(SLOTS), config).expect("a generator");
         Self { stub: Stub::new(gpu, SLOTS), generator: Some(generator), steps: 0 }
     }
 
@@ -640,12 +639,9 @@ fn an_abandoned_first_step_leaves_nothing() {
 #[test]
 fn mistakes_are_named() {
     let gpu = Gpu::shared();
-    let bad_config = |config: GenerateConfig| {
-        // SAFETY: nothing is made.
-        match unsafe { Generator::new(&gpu.host(SLOTS), &config) } {
-            Err(Error::BadInput { field, .. }) => field,
-            other => panic!("expected bad input, found {:?}", other.map(|_| ())),
-        }
+    let bad_config = |config: GenerateConfig| match Generator::new(&gpu.context(SLOTS), &config) {
+        Err(Error::BadInput { field, .. }) => field,
+        other => panic!("expected bad input, found {:?}", other.map(|_| ())),
     };
     let good = GenerateConfig::new(100, 100);
     for (field, config) in [

@@ -93,11 +93,17 @@ fn a_failed_scene_leaves_nothing() {
     let mut headless = Headless::new(device, &config(SIZE)).expect("headless");
     let scene = scene();
     spy::reset();
+    // What the context keeps is only made by the first scene, as far as it comes.
+    spy::CREATE_RENDER_PASS.fail(2, NO_MEMORY);
+    assert!(headless.scene(&scene, true).is_err());
+    headless.scene(&scene, true).expect("scene");
+    assert!(spy::CREATE_RENDER_PASS.calls() >= 3, "it sees");
+    spy::reset();
     headless.scene(&scene, true).expect("scene");
     let calls: Vec<u32> = MAKERS.iter().map(|f| f.calls()).collect();
-    assert!(spy::CREATE_RENDER_PASS.calls() >= 3 && spy::CREATE_SAMPLER.calls() >= 2, "it sees");
+    assert!(spy::CREATE_SAMPLER.calls() >= 2, "it sees");
     // The scene there is goes first: from here on there is none.
-    spy::CREATE_RENDER_PASS.fail(1, NO_MEMORY);
+    spy::CREATE_SAMPLER.fail(1, NO_MEMORY);
     assert!(headless.scene(&scene, true).is_err());
     let mut wrong = Vec::new();
     for (function, calls) in MAKERS.iter().zip(calls) {

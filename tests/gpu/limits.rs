@@ -251,8 +251,7 @@ fn what_the_device_does_not_bind_at_once_is_an_error() {
         edge: 1.0,
         distances: vec![1.0; points.iter().product::<u32>() as usize],
     };
-    // SAFETY: the device outlives it.
-    let heap = unsafe { Heap::new(&gpu.host(1), &HeapConfig::new(8), Some(&field)) };
+    let heap = Heap::new(&gpu.context(1), &HeapConfig::new(8), Some(&field));
     match heap.map(|_| "no error") {
         Err(Error::BadInput { field: "DistanceField", why }) => {
             assert!(why.contains("131072"), "{why}");
@@ -341,16 +340,13 @@ fn limits_are_what_the_shaders_use() {
     let mut least = all;
     least.max_per_stage_descriptor_storage_buffers = 4;
     claim(&mut gpu, Claims { limits: Some(least), ..Claims::default() });
-    let host = gpu.host(1);
-    // SAFETY: the device outlives them; none is made.
-    let made = unsafe {
-        [
-            State::new(&host, &StateConfig::new(8)).map(|_| ()),
-            Heap::new(&host, &HeapConfig::new(8), None).map(|_| ()),
-            Generator::new(&host, &GenerateConfig::new(8, 8)).map(|_| ()),
-            Renderer::new(&host, &base).map(|_| ()),
-        ]
-    };
+    let context = gpu.context(1);
+    let made = [
+        State::new(&context, &StateConfig::new(8)).map(|_| ()),
+        Heap::new(&context, &HeapConfig::new(8), None).map(|_| ()),
+        Generator::new(&context, &GenerateConfig::new(8, 8)).map(|_| ()),
+        Renderer::new(&context, &base).map(|_| ()),
+    ];
     for result in made {
         match result {
             Err(Error::Missing { what, .. }) => {

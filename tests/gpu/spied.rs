@@ -8,7 +8,7 @@ use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::foam::DiffuseConfig;
 use whitewater::headless::{Background, Headless};
 use whitewater::water::{Convolution, Gate, Shading, Shadows, Smoothing, Splat};
-use whitewater::{Config, Error, Frame, Particles, Recorded, Slot};
+use whitewater::{Config, Context, Error, Frame, Particles, Recorded, Renderer, Slot};
 
 use crate::foam::Foamy;
 use crate::light::{even, everything};
@@ -208,7 +208,8 @@ fn a_failed_construction_leaves_nothing() {
     let size = extent(32, 16);
     let config = Config { depth_splat: Some(Splat::Raster), ..config(size) };
     // SAFETY: live handles.
-    let make = || unsafe { whitewater::Renderer::new(&gpu.host(2), &config) };
+    let context = || unsafe { Context::new(&gpu.host(2)) };
+    let make = || context().and_then(|context| Renderer::new(&context, &config));
     spy::reset();
     let renderer = make().unwrap_or_else(|error| panic!("{error}"));
     let calls: Vec<u32> = spy::MAKERS.iter().map(|f| f.calls()).collect();
@@ -250,6 +251,60 @@ fn a_failed_construction_leaves_nothing() {
     let messages = gpu.expect_messages();
     assert!(messages.is_empty(), "{messages:?}");
     assert!(wrong.is_empty(), "{} of them:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A second renderer makes no pipeline of its own; a context goes with the last that needs it, whichever that is.
+#[test]
+fn objects_of_a_context_share_its_pipelines() {
+    let gpu = spied();
+    let config = config(extent(32, 16));
+    let made = || spy::CREATE_COMPUTE_PIPELINES.calls() + spy::CREATE_GRAPHICS_PIPELINES.calls();
+    let context = gpu.context(1);
+    spy::reset();
+    let first = Renderer::new(&context, &config).expect("a renderer");
+    assert!(made() > 10, "{}", made());
+    spy::reset();
+    let other = context.with_frames_in_flight(3).expect("three");
+    assert_eq!((context.frames_in_flight(), other.frames_in_flight()), (1, 3));
+    let mut second = Renderer::new(&other, &config).expect("a renderer");
+    assert_eq!(made(), 0, "the same pipelines");
+    // Another configuration needs others, once.
+    let raster = Config { depth_splat: Some(Splat::Raster), ..config };
+    second.reconfigure(&raster).expect("raster");
+    assert!(made() > 0);
+    spy::reset();
+    second.reconfigure(&config).expect("compute");
+    second.reconfigure(&raster).expect("raster");
+    assert_eq!(made(), 0, "there and back");
+    drop((context, other));
+    // SAFETY: nothing was recorded.
+    unsafe { first.destroy() };
+    assert!(!spy::live().is_empty(), "the second still needs them");
+    // SAFETY: as above.
+    unsafe { second.destroy() };
+    assert_eq!(spy::live(), Vec::<String>::new());
+
+    // The context last.
+    let context = gpu.context(1);
+    let renderer = Renderer::new(&context, &config).expect("a renderer");
+    // SAFETY: as above.
+    unsafe { renderer.destroy() };
+    assert!(!spy::live().is_empty(), "for the next");
+    drop(context);
+    assert_eq!(spy::live(), Vec::<String>::new());
+}
+
+/// What is dropped without `destroy` may still be in use: its context stays.
+#[test]
+fn a_renderer_that_is_only_dropped_keeps_its_context() {
+    let mut gpu = spied();
+    gpu.leaks = true;
+    let context = gpu.context(1);
+    let renderer = Renderer::new(&context, &config(extent(32, 16))).expect("a renderer");
+    spy::reset();
+    drop((context, renderer));
+    let pipelines = spy::live().into_iter().find(|what| what.ends_with(" of pipelines"));
+    assert!(pipelines.is_some(), "{:?}", spy::live());
 }
 
 /// Draws at one size; makes the `k`-th call of a function fail in a change to another; says what is

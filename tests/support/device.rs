@@ -9,7 +9,7 @@ use std::thread::available_parallelism;
 use ash::vk;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 use whitewater::headless::{Device, DeviceOptions};
-use whitewater::{Error, Host};
+use whitewater::{Context, Error, Host};
 
 use super::watchdog::Watch;
 
@@ -22,6 +22,8 @@ static SPIED: Mutex<()> = Mutex::new(());
 /// A device that tests share, one after the other.
 struct Shared {
     device: OnceLock<Device>,
+    /// Its pipelines are those of all its tests.
+    context: OnceLock<Context>,
     one_at_a_time: Mutex<()>,
 }
 
@@ -40,7 +42,7 @@ pub struct Gpu {
 }
 
 enum Held {
-    Shared(&'static Device),
+    Shared(&'static Device, &'static OnceLock<Context>),
     Own(Box<Device>),
 }
 
@@ -96,11 +98,11 @@ fn make(options: &DeviceOptions) -> Device {
 
 impl Shared {
     const fn new() -> Self {
-        Self { device: OnceLock::new(), one_at_a_time: Mutex::new(()) }
+        Self { device: OnceLock::new(), context: OnceLock::new(), one_at_a_time: Mutex::new(()) }
     }
 
     /// The first that no test has, else the one that comes free.
-    fn take() -> (&'static Device, MutexGuard<'static, ()>) {
+    fn take() -> (Held, MutexGuard<'static, ()>) {
         let all = &SHARED[..available_parallelism().map_or(1, |n| n.get().min(MOST_SHARED))];
         let free = |shared: &'static Self| match shared.one_at_a_time.try_lock() {
             Ok(lock) => Some((shared, lock)),
@@ -116,7 +118,7 @@ impl Shared {
             eprintln!("gpu: adapter {} ({})", device.adapter, device.driver);
             device
         });
-        (device, lock)
+        (Held::Shared(device, &shared.context), lock)
     }
 }
 
@@ -127,7 +129,7 @@ fn messages_of(device: &Device) -> Vec<String> {
 impl Gpu {
     fn new(lock: Option<MutexGuard<'static, ()>>, device: Held) -> Self {
         let (functions, allocator) = match &device {
-            Held::Shared(device) => (device.device.clone(), device.allocator.clone()),
+            Held::Shared(device, _) => (device.device.clone(), device.allocator.clone()),
             Held::Own(device) => (device.device.clone(), device.allocator.clone()),
         };
         Self {
@@ -144,8 +146,9 @@ impl Gpu {
     /// One of the devices that most tests share.
     pub fn shared() -> Self {
         let (device, lock) = Shared::take();
-        drop(messages_of(device));
-        Self::new(Some(lock), Held::Shared(device))
+        let gpu = Self::new(Some(lock), device);
+        drop(messages_of(&gpu));
+        gpu
     }
 
     /// A device of the test's own: everything made from it must be gone at the end.
@@ -177,6 +180,19 @@ impl Gpu {
             device: &self.functions,
             allocator: self.allocator.clone(),
             ..Device::host(self, frames_in_flight)
+        }
+    }
+
+    /// What a host makes of it: one for all tests of a shared device, a new one where it is the test's own.
+    pub fn context(&self, frames_in_flight: u32) -> Context {
+        // SAFETY: tests keep their device until all is destroyed that was made from it.
+        let new = || unsafe { Context::new(&self.host(frames_in_flight)) }.expect("a context");
+        match &self.device {
+            Some(Held::Shared(_, context)) => {
+                let context = context.get_or_init(new);
+                context.with_frames_in_flight(frames_in_flight).expect("1 to 8")
+            }
+            _ => new(),
         }
     }
 
@@ -231,7 +247,7 @@ impl Deref for Gpu {
 
     fn deref(&self) -> &Device {
         match &self.device {
-            Some(Held::Shared(device)) => device,
+            Some(Held::Shared(device, _)) => device,
             Some(Held::Own(device)) => device,
             None => unreachable!("only drop takes the device"),
         }

@@ -17,7 +17,8 @@ use gpu_allocator::MemoryLocation;
 
 use super::lists::{Places, buffers_of, windows};
 use crate::check;
-use crate::contract::{Blobs, Count, Host, Slot, Stream};
+use crate::context::Context;
+use crate::contract::{Blobs, Count, Slot, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -150,11 +151,8 @@ impl Heap {
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
-    ///
-    /// # Safety
-    /// As [`Renderer::new`](crate::Renderer::new).
-    pub unsafe fn new(
-        host: &Host<'_>,
+    pub fn new(
+        context: &Context,
         config: &HeapConfig,
         field: Option<&DistanceField>,
     ) -> Result<Self, Error> {
@@ -176,7 +174,7 @@ impl Heap {
             return Err(Error::bad("HeapConfig.max_solids", why));
         }
         field.map_or(Ok(()), DistanceField::check)?;
-        let gpu = Gpu::new(host)?;
+        let gpu = Gpu::new(context);
         let made = field
             .map_or(Ok(()), |field| field.check_binding(gpu.limits.max_storage_buffer_range))
             .and_then(|()| Self::made(&gpu, config, field));

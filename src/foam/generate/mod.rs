@@ -19,7 +19,8 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::check;
-use crate::contract::{Count, DiffuseParticles, GenerateStep, Host, Slot, Stream};
+use crate::context::Context;
+use crate::contract::{Count, DiffuseParticles, GenerateStep, Slot, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::COMPUTE_READ;
@@ -51,12 +52,9 @@ impl Generator {
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
-    ///
-    /// # Safety
-    /// As [`Renderer::new`](crate::Renderer::new).
-    pub unsafe fn new(host: &Host<'_>, config: &GenerateConfig) -> Result<Self, Error> {
+    pub fn new(context: &Context, config: &GenerateConfig) -> Result<Self, Error> {
         config.check()?;
-        let gpu = Gpu::new(host)?;
+        let gpu = Gpu::new(context);
         let made = Passes::new(&gpu, config).and_then(|passes| {
             let slot = |_| {
                 let descriptors = Descriptors::new(&gpu, passes.sets())?;

@@ -45,8 +45,7 @@ impl Running {
     ) -> Self {
         let config = HeapConfig { halvings, ..HeapConfig::new(blobs.len().max(1) as u32) };
         let stub = Stub::new(gpu, 1);
-        // SAFETY: the device outlives this.
-        let mut heap = unsafe { Heap::new(&gpu.host(1), &config, field) }.expect("a heap");
+        let mut heap = Heap::new(&gpu.context(1), &config, field).expect("a heap");
         let mut bytes = bytemuck::cast_slice(blobs).to_vec();
         bytes.resize(bytes.len().max(64), 0);
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;

@@ -187,8 +187,7 @@ fn bad_halvings_are_errors() {
         HeapConfig { halvings: 7, ..HeapConfig::new(4) },
         HeapConfig { halvings: 3, ..HeapConfig::new(1 << 18) },
     ] {
-        // SAFETY: the device outlives it; it is refused.
-        let result = unsafe { Heap::new(&gpu.host(1), &config, None) };
+        let result = Heap::new(&gpu.context(1), &config, None);
         let field = result.err().map(|error| error.to_string()).unwrap_or_default();
         assert!(field.contains("HeapConfig.halvings"), "{field}");
     }

@@ -3,7 +3,7 @@
 use ash::vk;
 use whitewater::water::{Convolution, Shading, Shadows};
 use whitewater::{
-    Config, Count, Error, Frame, Packets, Previous, Recorded, Region, Renderer, Settings, Shadow,
+    Config, Context, Count, Error, Frame, Packets, Previous, Recorded, Region, Settings, Shadow,
     Slot, Stream,
 };
 
@@ -383,14 +383,15 @@ fn bad_configurations_are_errors() {
         }
     }
     for slots in [0, 9] {
-        let host = gpu.host(slots);
         // SAFETY: live handles.
-        let result = unsafe { Renderer::new(&host, &good) };
+        let result = unsafe { Context::new(&gpu.host(slots)) }.map(|_| ());
+        assert!(matches!(result, Err(Error::BadInput { field: "Host.frames_in_flight", .. })));
+        let result = gpu.context(1).with_frames_in_flight(slots).map(|_| ());
         assert!(matches!(result, Err(Error::BadInput { field: "Host.frames_in_flight", .. })));
     }
     let host = whitewater::Host { queue_family: 77, ..gpu.host(1) };
     // SAFETY: live handles; the family is only looked up.
-    let result = unsafe { Renderer::new(&host, &good) };
+    let result = unsafe { Context::new(&host) }.map(|_| ());
     assert!(matches!(result, Err(Error::BadInput { field: "Host.queue_family", .. })));
     let depth = Config { output_format: vk::Format::D32_SFLOAT, ..good };
     assert!(matches!(Rig::try_new(&gpu, &depth, 1), Err(Error::Missing { .. })));

@@ -1,11 +1,9 @@
 //! What a device lacks or has room for, the memory that is used and the passes that are timed, as documented.
 
 use ash::vk;
-use whitewater::bubbles::{BubbleConfig, BubbleSort, Heap, HeapConfig};
-use whitewater::foam::{GenerateConfig, Generator};
-use whitewater::shore::{ShoreMap, ShoreMapConfig};
+use whitewater::bubbles::{BubbleConfig, BubbleSort};
 use whitewater::water::{Gate, Shading, Smoothing};
-use whitewater::{Config, Enabled, Error, Host, Renderer, Slot, State, StateConfig};
+use whitewater::{Config, Context, Enabled, Error, Host, Renderer, Slot, State, StateConfig};
 
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, config, extent};
@@ -133,22 +131,11 @@ fn an_instance_of_an_older_vulkan_is_an_error() {
                     enabled,
                     ..of_1_3.host(1)
                 };
-                let mut made = vec![
-                    Renderer::new(&host, &config(extent(16, 16))).map(|_| ()),
-                    State::new(&host, &StateConfig::new(8)).map(|_| ()),
-                    Heap::new(&host, &HeapConfig::new(8), None).map(|_| ()),
-                    Generator::new(&host, &GenerateConfig::new(8, 8)).map(|_| ()),
-                    ShoreMap::new(&host, &ShoreMapConfig::default()).map(|_| ()),
-                ];
-                let first = made.remove(0);
-                assert!(matches!(first, Err(Error::Missing { .. })), "{first:?}");
-                for result in made {
-                    match result {
-                        Err(Error::Missing { what, why }) => {
-                            assert!(what.contains("vk") && why.contains("1.3"), "{what}: {why}");
-                        }
-                        other => panic!("{version:x}: {other:?}"),
+                match Context::new(&host) {
+                    Err(Error::Missing { what, why }) => {
+                        assert!(what.contains("vk") && why.contains("1.3"), "{what}: {why}");
                     }
+                    other => panic!("{version:x}: {:?}", other.map(|_| ())),
                 }
             }
             device.destroy_device(None);
@@ -185,8 +172,8 @@ fn functions_that_are_not_loaded_are_named() {
         (of(none_1_2, v1_3.clone()), counted, "vkCmdDrawIndirectCount"),
     ] {
         let host = Host { device: &functions, enabled, ..gpu.host(1) };
-        // SAFETY: live handles; none is made.
-        match unsafe { Renderer::new(&host, &config(extent(16, 16))) } {
+        // SAFETY: live handles; nothing is made.
+        match unsafe { Context::new(&host) } {
             Err(Error::Missing { what, .. }) => assert!(what.contains(name), "{name}: {what}"),
             other => panic!("{name}: {:?}", other.map(|_| ())),
         }
@@ -202,17 +189,16 @@ fn ten_million_particles_have_room() {
     let foam = Config { foam: true, ..config };
     // SAFETY: live handles; nothing is recorded.
     let state = unsafe {
-        Renderer::new(&gpu.host(1), &foam).expect("room for foam").destroy();
+        Renderer::new(&gpu.context(1), &foam).expect("room for foam").destroy();
         let state =
-            State::new(&gpu.host(1), &StateConfig::new(count)).expect("room for its phases");
+            State::new(&gpu.context(1), &StateConfig::new(count)).expect("room for its phases");
         let memory = state.memory();
         state.destroy();
         memory
     };
     let documented = 68 * u64::from(count);
     assert!(state.abs_diff(documented) < documented / 1000, "{state} bytes of phases");
-    // SAFETY: live handles.
-    let renderer = unsafe { whitewater::Renderer::new(&gpu.host(1), &config) }.expect("room");
+    let renderer = whitewater::Renderer::new(&gpu.context(1), &config).expect("room");
     let memory = renderer.memory();
     // SAFETY: nothing was recorded.
     unsafe { renderer.destroy() };
@@ -229,8 +215,7 @@ fn memory_is_as_documented() {
         let format = vk::Format::R16G16B16A16_SFLOAT;
         let size = extent(width, height);
         let config = Config { sheets, coarsening, foam, spray, ..Config::new(size, format, count) };
-        // SAFETY: live handles.
-        let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+        let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
         let memory = renderer.memory();
         // SAFETY: nothing was recorded.
         unsafe { renderer.destroy() };
@@ -249,8 +234,7 @@ fn memory_is_as_documented() {
         for (cast, foam) in ways.into_iter().step_by(step).filter(|_| whole) {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config = Config { cast, foam, ..Config::new(extent(width, height), format, count) };
-            // SAFETY: live handles.
-            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
             unsafe { renderer.destroy() };
@@ -271,8 +255,7 @@ fn memory_is_as_documented() {
             let of = |motion| {
                 let size = extent(width, height);
                 let config = Config { motion, thickness_level, ..Config::new(size, format, count) };
-                // SAFETY: live handles.
-                let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+                let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
                 let memory = renderer.memory();
                 // SAFETY: nothing was recorded.
                 unsafe { renderer.destroy() };
@@ -298,8 +281,7 @@ fn memory_is_as_documented() {
                 BubbleConfig { templates: 1, bubbles: 8, map: 8, ..BubbleConfig::new(count) };
             let bubbles = Some(BubbleConfig { sort, layers, ..templates });
             let config = Config { bubbles, ..Config::new(extent(width, height), format, count) };
-            // SAFETY: live handles.
-            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
             unsafe { renderer.destroy() };
@@ -316,8 +298,7 @@ fn memory_is_as_documented() {
             let format = vk::Format::R16G16B16A16_SFLOAT;
             let config =
                 Config { noise: Some(level), ..Config::new(extent(width, height), format, count) };
-            // SAFETY: live handles.
-            let renderer = unsafe { Renderer::new(&gpu.host(1), &config) }.expect("a renderer");
+            let renderer = Renderer::new(&gpu.context(1), &config).expect("a renderer");
             let memory = renderer.memory();
             // SAFETY: nothing was recorded.
             unsafe { renderer.destroy() };

@@ -727,8 +727,7 @@ fn mistakes_are_named() {
         ("Config.diffuse.max_stride", DiffuseConfig { max_stride: 8, ..DiffuseConfig::new(1) }),
     ] {
         let config = Config { diffuse: Some(diffuse), ..config(SIZE) };
-        // SAFETY: live handles.
-        let error = unsafe { Renderer::new(&gpu.host(1), &config) }.err().expect("refused");
+        let error = Renderer::new(&gpu.context(1), &config).err().expect("refused");
         assert!(error.to_string().contains(field), "{field}: {error}");
     }
 }

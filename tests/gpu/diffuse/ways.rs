@@ -209,8 +209,7 @@ fn memory_is_by_the_pixel() {
         let size = extent(1280, 720);
         let diffuse = DiffuseConfig { splat: Some(way), ..DiffuseConfig::new(most) };
         let diffuse = (most > 1).then_some(diffuse);
-        // SAFETY: live handles.
-        let renderer = unsafe { Renderer::new(&gpu.host(1), &Config { diffuse, ..config(size) }) };
+        let renderer = Renderer::new(&gpu.context(1), &Config { diffuse, ..config(size) });
         let renderer = renderer.expect("a renderer");
         let memory = renderer.memory();
         // SAFETY: nothing was recorded.

@@ -646,8 +646,7 @@ fn memory_is_by_the_texel() {
     let of = |cast: Option<u32>, most: u32| {
         let plain = Config { cast, ..config(SIZE) };
         let config = if most > 0 { diffusing(plain, most) } else { plain };
-        // SAFETY: live handles.
-        let renderer = unsafe { whitewater::Renderer::new(&gpu.host(1), &config) };
+        let renderer = whitewater::Renderer::new(&gpu.context(1), &config);
         let renderer = renderer.expect("a renderer");
         let memory = renderer.memory();
         // SAFETY: nothing was recorded.

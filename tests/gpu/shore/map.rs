@@ -426,8 +426,7 @@ fn bad_maps_and_steps_name_their_field() {
         ("ShoreMapConfig.size", 8192, 1),
         ("ShoreMapConfig.max_meshes", 64, 65_537),
     ] {
-        // SAFETY: the device outlives it.
-        let made = unsafe { ShoreMap::new(&gpu.host(1), &ShoreMapConfig { size, max_meshes }) };
+        let made = ShoreMap::new(&gpu.context(1), &ShoreMapConfig { size, max_meshes });
         match made {
             Err(Error::BadInput { field: found, why }) => {
                 assert!(found == field && !why.is_empty())

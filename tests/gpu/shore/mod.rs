@@ -70,8 +70,7 @@ impl<'g> Mapped<'g> {
 
     fn with_slots(gpu: &'g Gpu, size: u32, slots: u32) -> Self {
         let config = ShoreMapConfig { size, max_meshes: 4 };
-        // SAFETY: the device outlives the map.
-        let map = unsafe { ShoreMap::new(&gpu.host(slots), &config) };
+        let map = ShoreMap::new(&gpu.context(slots), &config);
         let map = Some(map.unwrap_or_else(|error| panic!("{error}")));
         Self { gpu, stub: Stub::new(gpu, slots), map, size }
     }

@@ -68,8 +68,7 @@ impl<'g> Rig<'g> {
 
     pub fn try_new(gpu: &'g Gpu, config: &Config, slots: u32) -> Result<Self, Error> {
         let stub = Stub::new(gpu, slots);
-        // SAFETY: the device outlives the rig.
-        let mut renderer = unsafe { Renderer::new(&gpu.host(slots), config) }?;
+        let mut renderer = Renderer::new(&gpu.context(slots), config)?;
         // SAFETY: submitted before any record.
         stub.run(|cmd| unsafe { renderer.record_setup(cmd) });
         Ok(Self { gpu, stub, config: *config, renderer: Some(renderer) })

@@ -18,8 +18,8 @@ use vulkan::{CLEAR, COPY, Gpu};
 use whitewater::ash::vk;
 use whitewater::gpu_allocator::MemoryLocation;
 use whitewater::{
-    Access, Camera, Config, Count, Enabled, EnvironmentSource, Frame, Host, Particles, Renderer,
-    Settings, Sky, Slot, Stream, Sun, Timing,
+    Access, Camera, Config, Context, Count, Enabled, EnvironmentSource, Frame, Host, Particles,
+    Renderer, Settings, Sky, Slot, Stream, Sun, Timing,
 };
 
 /// Size of the picture.
@@ -105,9 +105,10 @@ pub fn draw(
         enabled: Enabled { debug_utils: validate, ..Enabled::default() },
         pipeline_cache: vk::PipelineCache::null(),
     };
-    // SAFETY: the handles belong together and outlive the renderer; `enabled` is the truth.
-    let mut water = unsafe { Renderer::new(&host, &config)? };
-    drop(host); // it shares the allocator, which has to go before the device
+    // SAFETY: the handles belong together and outlive context and renderer; `enabled` is the truth.
+    let context = unsafe { Context::new(&host)? };
+    let mut water = Renderer::new(&context, &config)?;
+    drop((host, context)); // they share the allocator, which has to go before the device
     let mut settings = Settings::default();
     settings.water.spacing = SPACING; // the look's other lengths follow from it
 

@@ -26,7 +26,7 @@ const ONE: vk::SampleCountFlags = vk::SampleCountFlags::TYPE_1;
 pub struct Color {
     /// Samples of a pixel.
     pub samples: vk::SampleCountFlags,
-    pass: Owned<vk::RenderPass>,
+    pass: vk::RenderPass,
     /// Depth of the samples, before their colour.
     first: Option<DepthOnly>,
     /// The opaque meshes and the ground.
@@ -49,10 +49,10 @@ impl Color {
         let pass = gpu.render_pass("scene/color", &attachments(formats, samples))?;
         let first = match samples {
             ONE => None,
-            _ => Some(DepthOnly::colored(gpu, pass.handle, samples)?),
+            _ => Some(DepthOnly::colored(gpu, pass, samples)?),
         };
-        let meshes = Meshes::new(gpu, scene, batches, textures, pass.handle, samples)?;
-        let sky = Sky::new(gpu, pass.handle, samples, sea::kind(scene))?;
+        let meshes = Meshes::new(gpu, scene, batches, textures, pass, samples)?;
+        let sky = Sky::new(gpu, pass, samples, sea::kind(scene))?;
         Ok(Self { samples, pass, first, meshes, sky })
     }
 
@@ -67,7 +67,7 @@ impl Color {
             Some(samples) => vec![samples.color.view, samples.depth.view, frame.color.view],
             None => vec![frame.color.view, frame.depth.view],
         };
-        gpu.framebuffer_of("scene/color", self.pass.handle, &views, frame.color.extent)
+        gpu.framebuffer_of("scene/color", self.pass, &views, frame.color.extent)
     }
 
     /// `depth`: the frame's, drawn before.
@@ -87,7 +87,7 @@ impl Color {
         }
         // The sky covers whatever the colour is cleared to.
         let clears = [vk::ClearValue::default(), clear_depth(r.view.far)];
-        r.gpu.begin_pass_with(r.cmd, self.pass.handle, targets.color.handle, r.area, &clears);
+        r.gpu.begin_pass_with(r.cmd, self.pass, targets.color.handle, r.area, &clears);
         if let Some(first) = &self.first {
             // The shading is dear: only what is seen is shaded.
             first.draw(r.gpu, r.cmd, r.geometry, r.view, r.geometry.count);

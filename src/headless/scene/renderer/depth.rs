@@ -13,7 +13,7 @@ use crate::gpu::image::Image;
 use crate::gpu::pass::{Attachment, Attachments, clear_depth};
 
 pub struct Depth {
-    pass: Owned<vk::RenderPass>,
+    pass: vk::RenderPass,
     pipeline: DepthOnly,
 }
 
@@ -27,16 +27,16 @@ impl Depth {
         };
         let attachments = Attachments { depth: Some(depth), ..Attachments::default() };
         let pass = gpu.render_pass("scene/depth", &attachments)?;
-        Ok(Self { pipeline: DepthOnly::new(gpu, pass.handle, 0.0)?, pass })
+        Ok(Self { pipeline: DepthOnly::new(gpu, pass, 0.0)?, pass })
     }
 
     pub fn framebuffer(&self, gpu: &Gpu, depth: &Image) -> Result<Owned<vk::Framebuffer>, Error> {
-        gpu.framebuffer("scene/depth", self.pass.handle, depth.view, depth.extent)
+        gpu.framebuffer("scene/depth", self.pass, depth.view, depth.extent)
     }
 
     pub fn record(&self, r: &Recording<'_>, target: vk::Framebuffer) {
         let clears = [clear_depth(r.view.far)];
-        r.gpu.begin_pass_with(r.cmd, self.pass.handle, target, r.area, &clears);
+        r.gpu.begin_pass_with(r.cmd, self.pass, target, r.area, &clears);
         self.pipeline.draw(r.gpu, r.cmd, r.geometry, r.view, r.geometry.count);
         r.gpu.end_pass(r.cmd);
     }

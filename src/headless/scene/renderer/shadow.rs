@@ -26,7 +26,7 @@ const BIAS: f32 = 1.5;
 pub struct Shadow {
     map: Image,
     sampler: Owned<vk::Sampler>,
-    pass: Owned<vk::RenderPass>,
+    pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
     pipeline: DepthOnly,
     /// What the map shows.
@@ -66,8 +66,8 @@ impl Shadow {
         let pass = gpu.render_pass("scene/shadow", &attachments)?;
         Ok(Self {
             sampler: gpu.sampler("scene/shadow", &info)?,
-            framebuffer: gpu.framebuffer("scene/shadow", pass.handle, map.view, map.extent)?,
-            pipeline: DepthOnly::new(gpu, pass.handle, BIAS)?,
+            framebuffer: gpu.framebuffer("scene/shadow", pass, map.view, map.extent)?,
+            pipeline: DepthOnly::new(gpu, pass, BIAS)?,
             sun: SunView::new(scene, direction),
             pass,
             map,
@@ -79,7 +79,7 @@ impl Shadow {
         let area = self.map.extent.into();
         let view = View { clip: self.sun.clip, far: 1.0 };
         gpu.barriers(cmd, &[access::image(&self.map, NOTHING, DEPTH_ATTACHMENT)], &[]);
-        let (pass, framebuffer) = (self.pass.handle, self.framebuffer.handle);
+        let (pass, framebuffer) = (self.pass, self.framebuffer.handle);
         gpu.begin_pass_with(cmd, pass, framebuffer, area, &[clear_depth(view.far)]);
         self.pipeline.draw(gpu, cmd, geometry, view, geometry.casters);
         gpu.end_pass(cmd);

@@ -1,0 +1,271 @@
+//! What renderers, states, heaps, generators and maps of one device share: the host's Vulkan objects, with the pipelines,
+//! render passes and samplers that were made for one of them and serve the others.
+
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use ash::vk;
+use gpu_allocator::vulkan::Allocator;
+
+use crate::contract::{Enabled, Host};
+use crate::error::{Error, VkContext};
+use crate::gpu::loaded;
+use crate::gpu::pass::Attachments;
+use crate::gpu::pipeline::{self, Made};
+use crate::gpu::requirements::Offer;
+
+/// One device, as everything that is made from it shares it: [`Renderer`](crate::Renderer)s, a [`State`](crate::State)
+/// and the like take a context. A pipeline is made once for all of them, and stays for the next that needs it, as for
+/// a [`reconfigure`](crate::Renderer::reconfigure) back and forth.
+///
+/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and all that was made from
+/// it is destroyed, whichever comes last; that must be before the host frees its device.
+#[derive(Clone)]
+pub struct Context {
+    pub(crate) shared: Arc<Shared>,
+    pub(crate) slots: u32,
+}
+
+impl Context {
+    /// Takes over what the host hands in; makes three samplers and nothing else.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] for a queue family without graphics and compute, or frames in flight that are not 1 to 8;
+    /// [`Error::Missing`] for a function that the instance or the device does not have; what Vulkan reports.
+    ///
+    /// # Safety
+    /// The host's handles are alive, belong together, and outlive the context with all that is made from it; what
+    /// [`Enabled`] and [`requirements`](crate::requirements) name is enabled.
+    pub unsafe fn new(host: &Host<'_>) -> Result<Self, Error> {
+        check_slots(host.frames_in_flight)?;
+        let shared = Arc::new(Shared::new(host)?);
+        Ok(Self { shared, slots: host.frames_in_flight })
+    }
+
+    /// The same context for objects with another number of frames in flight, 1 to 8.
+    ///
+    /// # Errors
+    /// [`Error::BadInput`] for any other number.
+    pub fn with_frames_in_flight(&self, frames_in_flight: u32) -> Result<Self, Error> {
+        check_slots(frames_in_flight)?;
+        Ok(Self { shared: self.shared.clone(), slots: frames_in_flight })
+    }
+
+    /// Frames in flight: slots are 0 .. frames_in_flight.
+    pub fn frames_in_flight(&self) -> u32 {
+        self.slots
+    }
+}
+
+fn check_slots(slots: u32) -> Result<(), Error> {
+    if (1..=8).contains(&slots) {
+        return Ok(());
+    }
+    Err(Error::bad("Host.frames_in_flight", format!("expected 1 to 8, found {slots}")))
+}
+
+/// The samplers there are; they clamp to the edge unless said.
+#[derive(Default)]
+pub struct Samplers {
+    /// Nearest texel, first mip.
+    pub nearest: vk::Sampler,
+    /// Linear in the texels and between the mips.
+    pub linear: vk::Sampler,
+    /// The same, closed on itself from left to right: for maps of all directions.
+    pub around: vk::Sampler,
+}
+
+/// What the clones of a context have in common.
+pub struct Shared {
+    /// Device functions.
+    pub device: ash::Device,
+    /// What the host enabled.
+    pub enabled: Enabled,
+    /// Limits of the physical device.
+    pub limits: vk::PhysicalDeviceLimits,
+    /// Bytes of a buffer at most.
+    pub max_buffer_size: u64,
+    /// What kind of device it is: the defaults of the paths depend on it.
+    pub kind: vk::PhysicalDeviceType,
+    /// Timestamps that the queue family writes; 0 for none.
+    pub timestamp_bits: u32,
+    /// R32G32_SFLOAT can be a blended colour attachment: most devices can, none has to.
+    pub blends_pairs: bool,
+    /// Conditional rendering, when enabled.
+    pub conditional: Option<ash::ext::conditional_rendering::Device>,
+    /// Names and labels, when enabled.
+    pub debug: Option<ash::ext::debug_utils::Device>,
+    /// Samplers of all passes.
+    pub samplers: Samplers,
+    /// The host's, or null.
+    pub pipeline_cache: vk::PipelineCache,
+    /// Pipelines that were made.
+    pub pipelines: Store<pipeline::Key, Arc<Made>>,
+    /// Render passes that were made, by name and attachments.
+    pub passes: Store<(String, Attachments), vk::RenderPass>,
+    instance: ash::Instance,
+    physical_device: vk::PhysicalDevice,
+    allocator: Arc<Mutex<Allocator>>,
+}
+
+impl Shared {
+    fn new(host: &Host<'_>) -> Result<Self, Error> {
+        loaded::check(host)?;
+        // SAFETY: the host guarantees that its handles are alive and belong together.
+        let (properties, families, pairs) = unsafe {
+            let (instance, physical) = (host.instance, host.physical_device);
+            let pairs = vk::Format::R32G32_SFLOAT;
+            (
+                instance.get_physical_device_properties(physical),
+                instance.get_physical_device_queue_family_properties(physical),
+                instance.get_physical_device_format_properties(physical, pairs),
+            )
+        };
+        let blended = vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND;
+        let mut maintenance = vk::PhysicalDeviceMaintenance4Properties::default();
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut maintenance);
+        // SAFETY: as above; the chain is well formed.
+        unsafe {
+            host.instance.get_physical_device_properties2(host.physical_device, &mut chain);
+        }
+        let family = families.get(host.queue_family as usize).ok_or_else(|| {
+            Error::bad(
+                "Host.queue_family",
+                format!("{} of only {} families", host.queue_family, families.len()),
+            )
+        })?;
+        let needed = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+        if !family.queue_flags.contains(needed) {
+            return Err(Error::bad(
+                "Host.queue_family",
+                format!("needs graphics and compute, has {:?}", family.queue_flags),
+            ));
+        }
+        let mut shared = Self {
+            device: host.device.clone(),
+            enabled: host.enabled,
+            limits: properties.limits,
+            max_buffer_size: maintenance.max_buffer_size,
+            kind: properties.device_type,
+            timestamp_bits: family.timestamp_valid_bits,
+            blends_pairs: pairs.optimal_tiling_features.contains(blended),
+            conditional: host
+                .enabled
+                .conditional_rendering
+                .then(|| ash::ext::conditional_rendering::Device::new(host.instance, host.device)),
+            debug: host
+                .enabled
+                .debug_utils
+                .then(|| ash::ext::debug_utils::Device::new(host.instance, host.device)),
+            samplers: Samplers::default(),
+            pipeline_cache: host.pipeline_cache,
+            pipelines: Store::default(),
+            passes: Store::default(),
+            instance: host.instance.clone(),
+            physical_device: host.physical_device,
+            allocator: host.allocator.clone(),
+        };
+        // What was made before a failure goes with `shared`.
+        shared.make_samplers()?;
+        Ok(shared)
+    }
+
+    fn make_samplers(&mut self) -> Result<(), Error> {
+        let clamp = vk::SamplerAddressMode::CLAMP_TO_EDGE;
+        let (nearest, linear) = (vk::Filter::NEAREST, vk::Filter::LINEAR);
+        let make = |shared: &Self, name: &str, filter, mip, max_lod, across| {
+            let info = vk::SamplerCreateInfo::default()
+                .mag_filter(filter)
+                .min_filter(filter)
+                .mipmap_mode(mip)
+                .max_lod(max_lod)
+                .address_mode_u(across)
+                .address_mode_v(clamp)
+                .address_mode_w(clamp);
+            // SAFETY: valid create info.
+            let sampler = unsafe { shared.device.create_sampler(&info, None) }
+                .context(|| format!("vkCreateSampler {name}"))?;
+            shared.name(sampler, name);
+            Ok::<_, Error>(sampler)
+        };
+        let (mips, all) = (vk::SamplerMipmapMode::LINEAR, vk::LOD_CLAMP_NONE);
+        let repeat = vk::SamplerAddressMode::REPEAT;
+        self.samplers.nearest =
+            make(self, "nearest", nearest, vk::SamplerMipmapMode::NEAREST, 0.0, clamp)?;
+        self.samplers.linear = make(self, "linear", linear, mips, all, clamp)?;
+        self.samplers.around = make(self, "around", linear, mips, all, repeat)?;
+        Ok(())
+    }
+
+    /// What the device offers to a configuration with an output of a format.
+    pub fn offer(&self, output: vk::Format) -> Offer {
+        Offer::of(&self.instance, self.physical_device, output)
+    }
+
+    /// The host's allocator. A poisoned lock is taken all the same: the allocator's own state is
+    /// not ours to judge.
+    pub fn lock_allocator(&self) -> MutexGuard<'_, Allocator> {
+        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Names an object for debuggers and validation messages.
+    pub fn name<T: vk::Handle>(&self, handle: T, name: &str) {
+        let (Some(debug), Ok(name)) = (&self.debug, std::ffi::CString::new(name)) else { return };
+        let info =
+            vk::DebugUtilsObjectNameInfoEXT::default().object_handle(handle).object_name(&name);
+        // SAFETY: the handle is alive. A name that could not be set is no error.
+        let _ = unsafe { debug.set_debug_utils_object_name(&info) };
+    }
+}
+
+impl Drop for Shared {
+    fn drop(&mut self) {
+        // SAFETY: whatever used these is destroyed, so the GPU is done with them (what is dropped without that keeps
+        // its context for good); the device is alive, as `Context::new` asks. Null handles are allowed.
+        unsafe {
+            for made in self.pipelines.take() {
+                self.device.destroy_pipeline(made.handle, None);
+                self.device.destroy_pipeline_layout(made.layout, None);
+                self.device.destroy_descriptor_set_layout(made.set_layout, None);
+            }
+            for pass in self.passes.take() {
+                self.device.destroy_render_pass(pass, None);
+            }
+            for sampler in [self.samplers.nearest, self.samplers.linear, self.samplers.around] {
+                self.device.destroy_sampler(sampler, None);
+            }
+        }
+    }
+}
+
+/// What is made once for each key.
+pub struct Store<K, V>(Mutex<HashMap<K, V>>);
+
+impl<K, V> Default for Store<K, V> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl<K: Eq + Hash, V: Clone> Store<K, V> {
+    /// The key's value; where there is none yet, a new one. Who makes it keeps others from making any: two of one
+    /// key never are.
+    ///
+    /// # Errors
+    /// Those of `make`.
+    pub fn get(&self, key: K, make: impl FnOnce() -> Result<V, Error>) -> Result<V, Error> {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(value) = all.get(&key) {
+            return Ok(value.clone());
+        }
+        let value = make()?;
+        all.insert(key, value.clone());
+        Ok(value)
+    }
+
+    fn take(&self) -> Vec<V> {
+        let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        all.drain().map(|(_, value)| value).collect()
+    }
+}
