@@ -1,5 +1,5 @@
 //! Each setting does what it says: a change of any one shows in the picture, where the configuration has what it is of. Those
-//! that only count in a mode are changed in that mode. The shore's have tests of their own ([`super::shore`]).
+//! that only count in a mode are changed in that mode; the shore's in [`super::shore::settings`].
 
 use std::f32::consts::PI;
 
@@ -22,10 +22,10 @@ use crate::support::scenes::{self, Lens, Random};
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 97, height: 61 };
 
-type Change = (&'static str, fn(&mut Settings));
+pub type Change = (&'static str, fn(&mut Settings));
 
 /// Each of the changes shows: in pixels of a picture that is drawn from settings.
-fn all_show(
+pub fn all_show(
     mode: &str,
     base: &Settings,
     changes: &[Change],

@@ -6,6 +6,7 @@ mod flight;
 mod life;
 mod map;
 mod order;
+mod settings;
 mod shade;
 mod shoreline;
 mod slopes;
