@@ -36,9 +36,10 @@ FoamPlane foam_plane(FoamSprite sprite, bool thick) {
     return plane;
 }
 
-// Metres in its middle. As a thickness sprite of water: the integral over the picture's plane is the volume.
+// Metres along z in its middle. As a thickness sprite of water: the integral over the picture's plane is the volume.
+// A slope's square holds z^2 / (n . (slope, 1)) of the sprite's area: n . centre / z, which off the axis is not n.z.
 float foam_amount(FoamSprite sprite, FoamPlane plane) {
-    float facing = max(abs(plane.normal.z), LEAST_FACING);
+    float facing = max(abs(dot(plane.normal, plane.centre) / plane.centre.z), LEAST_FACING);
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     return sprite.centre.w * volume / (plane.axes.x * plane.axes.y * facing);
 }

@@ -344,8 +344,10 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     foam.depth = texels.depth;
     // To the source all is at the frontmost.
     float far = by_source() || frame.medium_a.w > 0.5 || t.x == 0.0 ? 0.0 : min(t.w / t.x, 0.999);
+    // Metres along the ray to one along z, as of water.
+    float along = length(vec3(ray_slope(pixel, frame.slope), 1.0));
     // Of a little nothing: a veil is steam, not foam.
-    foam.kept = exp(-frame.foam.x * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
+    foam.kept = exp(-frame.foam.x * along * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     // A spacing more for what is far: where that becomes the frontmost nothing changes. What hides what is behind
     // it is seen from its front, before its middle by the room that so much foam takes among as much water.
     float middle = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
@@ -353,7 +355,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     // Or the source's other rule.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
-    float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * t.y);
+    float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * along * t.y);
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
     float sun = SHADOW == 1u ? past_scene(vec3(0.0), pixel) : 1.0;
     sun *= (SHADOW > 1u || CAST == 1u) && t.y > 0.0 ? clamp(t.z / t.y, 0.0, 1.0) : 1.0;

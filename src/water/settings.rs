@@ -353,7 +353,7 @@ impl FoamSettings {
 /// How foam looks. Of no effect without [`Config::foam`](crate::Config).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamLook {
-    /// Light that foam takes away, per metre of it, [0, ∞), default 0.4 / spacing: two layers hide
+    /// Light that foam takes away, per metre of it along the ray, [0, ∞), default 0.4 / spacing: two layers hide
     /// half.
     pub extinction: f32,
     /// How fast its colour turns to that of the front with the foam right behind the frontmost, per

@@ -24,21 +24,26 @@ const LOSS: f64 = 0.05;
 /// Degrees high: so few that nothing is seen from the side.
 const HIGH: f32 = 6.0;
 
-/// Width of a pixel a depth of 1.
-fn slope() -> f32 {
-    2.0 * (0.5 * HIGH).to_radians().tan() / SIZE.height as f32
+/// Width of a pixel a depth of 1, where the picture is so many degrees high.
+fn slope(high: f32) -> f32 {
+    2.0 * (0.5 * high).to_radians().tan() / SIZE.height as f32
 }
 
 /// So many particles apart from each other at rest, in a plane across the view, so far away that a pixel is as wide as
 /// some spacings, from `left` pixels on away from the picture's edges.
 fn plane(count: usize, spacings: f32, left: f32) -> Foamy {
+    plane_in(HIGH, count, spacings, left)
+}
+
+/// The same, where the picture is so many degrees high.
+fn plane_in(high: f32, count: usize, spacings: f32, left: f32) -> Foamy {
     let mut random = Random(11);
-    let depth = spacings * SPACING / slope();
-    let half = |pixels: u32| (0.5 * pixels as f32 - left) * slope() * depth;
+    let depth = spacings * SPACING / slope(high);
+    let half = |pixels: u32| (0.5 * pixels as f32 - left) * slope(high) * depth;
     let (x, y) = (half(SIZE.width), half(SIZE.height));
     let mut shot = Shot::new(SIZE, Lens::Infinite, 0.656 * SPACING, &[]);
     let square = SIZE.width as f32 / SIZE.height as f32;
-    let projection = Mat4::perspective_infinite_rh(HIGH.to_radians(), square, 0.1);
+    let projection = Mat4::perspective_infinite_rh(high.to_radians(), square, 0.1);
     shot.camera.projection = Mat4::from_scale(vec3(1.0, -1.0, 1.0)) * projection;
     let points: Vec<_> =
         (0..count).map(|_| [random.between(-x, x), random.between(-y, y), depth]).collect();
@@ -149,6 +154,23 @@ fn far_foam_keeps_its_light() {
                 );
             }
         }
+    }
+}
+
+/// Off the axis of a wide lens, where a sprite that faces the eye is tilted to the picture's plane: by up to 61 degrees.
+#[test]
+fn foam_off_the_axis_keeps_its_volume() {
+    let gpu = Gpu::shared();
+    for splat in [Splat::Compute, Splat::Raster] {
+        let ways = Config { thickness_splat: Some(splat), thickness_level: 1, ..config(SIZE) };
+        let mut rig = Rig::new(&gpu, &Config { foam: true, ..ways });
+        let mut case = plane_in(90.0, 2000, 4.0, 4.0);
+        case.amounts.fill([1.0, 0.0]);
+        let drawn = draw(&case, &mut rig);
+        let foam = &drawn.foam.as_ref().expect("foam").thickness;
+        let part = total(foam.data.iter().map(|t| t[0]), &case, 4.0, 1) / f64::from(SPACING);
+        eprintln!("{splat:?}: {part:.4} of it");
+        assert!((part - 1.0).abs() < LOSS, "{splat:?}: {part}");
     }
 }
 

@@ -54,7 +54,8 @@ fn foam_covers_what_is_behind_it() {
             let [t, front] = found.thickness.data[i].map(f64::from);
             seen += usize::from(t > 0.01);
             let whole = smoothstep(0.0, f64::from(0.05_f32), t);
-            let (kept, back) = ((-3.0 * t * whole).exp(), (-5.0 * front).exp());
+            let long = case.shot.view(size).ray(i % 97, i / 97).length();
+            let (kept, back) = ((-3.0 * t * long * whole).exp(), (-5.0 * front * long).exp());
             for (c, found) in [r, g, b].into_iter().enumerate() {
                 let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                 let foam = thick + (thin - thick) * back;
@@ -89,8 +90,8 @@ fn foam_covers_what_is_behind_it() {
 }
 
 /// Metres of the water behind the frontmost foam that lie before the middle of what is seen of all, by the layers of
-/// a frame at full resolution; `after`: all of it. Of foam without a veil, of an extinction of 2.
-fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f64 {
+/// a frame at full resolution; `long`: metres along the ray to one along z, `after`: all of it. Of foam without a veil, of an extinction of 2.
+fn between(drawn: &Drawn, (x, y): (usize, usize), (spacing, long): (f64, f64), after: f64) -> f64 {
     let found = of(drawn);
     let [all, _] = found.thickness.at(x, y).map(f64::from);
     let [far, frontmost, surface] =
@@ -100,7 +101,7 @@ fn between(drawn: &Drawn, (x, y): (usize, usize), spacing: f64, after: f64) -> f
     }
     let far = far / all;
     let middle = spacing * far * (1.0 + 1.0 / (1.0 - far));
-    let behind = (middle - all * (1.0 - (-2.0 * all).exp())).max(0.0);
+    let behind = (middle - all * (1.0 - (-2.0 * all * long).exp())).max(0.0);
     let wet = (behind - (surface - frontmost - 4.0 * spacing).max(0.0)).max(0.0);
     wet.min(after)
 }
@@ -154,10 +155,10 @@ fn foam_under_a_veil_lies_under_water() {
             let [all, layer] = found.thickness.data[i].map(f64::from);
             let t = f64::from(drawn.thickness.data[i]);
             let before = f64::from(found.before.data[i]).min(t);
-            let between = between(&drawn, (x, y), case.settings().spacing, t - before);
-            deep += usize::from(all > 0.01 && between > 0.5 && before < 0.1);
             let long = view.ray(x, y).length();
-            let back = (-5.0 * layer).exp();
+            let between = between(&drawn, (x, y), (case.settings().spacing, long), t - before);
+            deep += usize::from(all > 0.01 && between > 0.5 && before < 0.1);
+            let back = (-5.0 * layer * long).exp();
             for c in 0..3 {
                 let extinction = f64::from(absorption[c]) + f64::from(scattering[c]);
                 let through = |color: f64, metres: f64| {
@@ -167,7 +168,7 @@ fn foam_under_a_veil_lies_under_water() {
                 };
                 let over = |color: f64, metres: f64| {
                     let foam = [0.9, 0.8, 0.7][c] + [-0.2, -0.2, -0.2][c] * back;
-                    foam + (color - foam) * (-2.0 * metres).exp()
+                    foam + (color - foam) * (-2.0 * metres * long).exp()
                 };
                 let scene = f64::from(case.shot.color[i][c]);
                 let behind = through(scene, t - before - between);
@@ -335,12 +336,13 @@ fn the_ladder_adds_a_layer_a_rung() {
             let before = before.min(all);
             let [t, layer] = found.thickness.at(x, y).map(f64::from);
             let long = view.ray(x, y).length();
-            let kept = (-2.0 * t).exp();
+            let kept = (-2.0 * t * long).exp();
             let much = match power {
-                0.0 => 1.0 - (-3.0 * layer).exp(),
+                0.0 => 1.0 - (-3.0 * layer * long).exp(),
                 p => (layer / 1.5).clamp(1e-6, 1.0).powf(f64::from(p)),
             };
-            let between = between(&whole, (x, y), case.settings().spacing, all - before);
+            let spacing = case.settings().spacing;
+            let between = between(&whole, (x, y), (spacing, long), all - before);
             deep += usize::from(t > 0.01 && between > 0.02);
             let before = before + between;
             parted += usize::from(before > 0.02 && all - before > 0.02 && kept < 0.9);
@@ -369,7 +371,7 @@ fn the_ladder_adds_a_layer_a_rung() {
             }
         }
         assert!(
-            parted > 100 && shone > 100 && deep > 20,
+            parted > 50 && shone > 100 && deep > 20,
             "{power}: {parted} parted, {shone} lit, {deep} deep"
         );
     }

@@ -69,8 +69,8 @@ fn check(case: &Foamy, drawn: &Drawn) -> [usize; 3] {
         let [r, g, b, _] = case.shot.color[i].map(f64::from);
         let layers = Layers {
             water: [t - before, before].map(|metres| metres * long),
-            foam,
-            foam_color: front.lerp(back, (-5.0 * layer).exp()),
+            foam: foam * long,
+            foam_color: front.lerp(back, (-5.0 * layer * long).exp()),
             background: DVec3::new(r, g, b),
             added: f64::from(REFLECTANCE) * Sky::Even.radiance(DVec3::Z),
         };

@@ -113,7 +113,7 @@ impl Ellipse {
     /// The height along z at the middle of the thickness' sprite, world units: its integral is the
     /// particle's volume of foam. Flat ones would reach to any height.
     pub(super) fn amplitude(&self, foam: f64, settings: &Settings) -> f64 {
-        let facing = self.axes.normal().z.abs().max(LEAST_FACING);
+        let facing = self.axes.normal().dot(self.center / self.center.z).abs().max(LEAST_FACING);
         foam * settings.spacing.powi(3) / (PI * J * self.half.x * self.half.y * facing)
     }
 }

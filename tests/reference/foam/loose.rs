@@ -186,10 +186,12 @@ impl LooseEllipse {
         if self.turn > 0.0 { self.turn.min(1.0) * range } else { 0.0 }
     }
 
-    /// See [`Ellipse::amplitude`]. The volume 2u, pi J 3u, the least |n_z| u; a quotient more for
+    /// See [`Ellipse::amplitude`]. The volume 2u, pi J 3u, the least that it faces the eye u; a quotient more for
     /// those that divide twice.
     pub(super) fn amplitude(&self, foam: f64, settings: &Settings) -> Rounded {
-        let facing = Rounded { v: self.n.v.z.abs(), e: self.n.e };
+        let z = Rounded { v: self.center.v.z, e: self.center.e };
+        let facing = self.n.dot(self.center) / z;
+        let facing = Rounded { v: facing.v.abs(), ..facing };
         let facing = facing.clamp(LEAST_FACING, f64::INFINITY);
         let facing = Rounded { e: facing.e + U * LEAST_FACING, ..facing };
         let above = exact(foam) * off(settings.spacing.powi(3), 2.0 + 5.0);

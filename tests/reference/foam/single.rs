@@ -56,7 +56,7 @@ impl Single {
         let torn = settings.noise as f32 * step(1.0, 2.0, b / (1.6 * texel));
         let part = if thickness { 1.0 } else { (8.0 * foam).min(1.0) };
         let half = Vec2::new(b * (1.0 + t), b).max(Vec2::splat(1.5 * texel)) * part;
-        let facing = e1.cross(e2).z.abs().max(0.2);
+        let facing = (e1.cross(e2).dot(c) / c.z).abs().max(0.2);
         let below = std::f32::consts::PI * 0.340003 * half.x * half.y * facing;
         let amplitude = foam * (spacing * spacing * spacing) / below;
         Self { center: c, e1, e2, half, amplitude, torn }

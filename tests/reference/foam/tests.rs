@@ -80,19 +80,15 @@ fn a_sprite_holds_its_particles_volume() {
         let drawn = thickness(&[sprite], &view, 0, &settings, &nothing(&view), &empty);
         let ellipse = Ellipse::new(&sprite, &settings, 1e3);
         let n = ellipse.axes.normal();
-        let mut sums = DVec2::ZERO;
+        let mut sum = 0.0;
         for (x, y) in (0..301).flat_map(|y| (0..401).map(move |x| (x, y))) {
-            // A pixel of the plane at depth k, seen along z and along the ray.
-            let ray = view.ray(x, y);
-            let k = n.dot(sprite.center) / n.dot(ray);
-            let area = drawn.at(x, y)[0] * k * k * view.c_x() * view.c_y();
-            sums += area * DVec2::new(1.0, (n.z / n.dot(ray)).abs());
+            // Metres along z over a pixel of the plane across it at depth k.
+            let k = n.dot(sprite.center) / n.dot(view.ray(x, y));
+            sum += drawn.at(x, y)[0] * k * k * view.c_x() * view.c_y();
         }
+        // k and n . ray change over the sprite by its half-axes over its distance, which cancels but for the square.
         let expected = foam * SPACING.powi(3);
-        assert!((sums.y / expected - 1.0).abs() < 3e-3, "{at:?}, {velocity:?}: {sums}");
-        // Along the axis both are one.
-        let on_axis = at[0] == 0.0;
-        assert!(!on_axis || (sums.x / expected - 1.0).abs() < 1e-2, "{velocity:?}: {sums}");
+        assert!((sum / expected - 1.0).abs() < 3e-3, "{at:?}, {velocity:?}: {sum}");
         assert_eq!(total(&drawn).y, 0.0, "no depth of foam");
     }
 }
