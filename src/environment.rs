@@ -8,6 +8,7 @@ use glam::Vec3;
 
 use crate::contract::{Config, HostImage};
 use crate::error::Error;
+use crate::foam::Irradiance;
 use crate::frame::{check_up, level_axes};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -56,8 +57,7 @@ pub struct Equirectangular {
     pub image: HostImage,
     /// The same picture without the sun, where the sun that [`Light`](crate::Light) tells of is in it; default `None`:
     /// it is not. Light that foam gathers from all around comes of this one, so that the sun, which is added to it with
-    /// its shadows, is not counted twice; mirrored is `image`. (What [`Irradiance::Sampled`](crate::foam::Irradiance) takes
-    /// from all around is `image` all the same.)
+    /// its shadows, is not counted twice; mirrored is `image`.
     pub without_sun: Option<HostImage>,
     /// Factor on the radiance, default 1; the product is cut at 65 000.
     pub scale: f32,
@@ -137,6 +137,8 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
+    /// What [`Irradiance::Sampled`] asks, where that is how foam is lit: the first level without the sun.
+    sunless: Option<Image>,
     /// For explicit levels: without the last, whose seams SwiftShader never writes but filters over.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
@@ -149,22 +151,18 @@ impl Environment {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let size = config.environment_size;
         let mips = size.ilog2() + 1;
-        let cube = Image::new(
-            gpu,
-            &ImageDesc {
-                mips,
-                layers: 6,
-                ..ImageDesc::new(
-                    "environment",
-                    vk::Extent2D { width: size, height: size },
-                    vk::Format::R16G16B16A16_SFLOAT,
-                    vk::ImageUsageFlags::STORAGE
-                        | vk::ImageUsageFlags::SAMPLED
-                        | vk::ImageUsageFlags::TRANSFER_SRC
-                        | vk::ImageUsageFlags::TRANSFER_DST,
-                )
-            },
-        )?;
+        let written = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_DST;
+        let of_size = |name, mips, usage| {
+            let extent = vk::Extent2D { width: size, height: size };
+            let format = vk::Format::R16G16B16A16_SFLOAT;
+            let desc = ImageDesc::new(name, extent, format, written | usage);
+            Image::new(gpu, &ImageDesc { mips, layers: 6, ..desc })
+        };
+        let made = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::TRANSFER_SRC;
+        let cube = of_size("environment", mips, made)?;
+        let asked = config.diffuse.is_some_and(|foam| foam.irradiance == Irradiance::Sampled);
+        let none = vk::ImageUsageFlags::empty();
+        let sunless = asked.then(|| of_size("environment/sunless", 1, none)).transpose()?;
         let array = vk::ImageViewType::TYPE_2D_ARRAY;
         let faces = gpu.view(cube.handle, cube.format, array, 6, 1, "environment/faces")?;
         let faces = gpu.own(faces, Grave::View);
@@ -178,15 +176,14 @@ impl Environment {
                 "environment/irradiance",
                 vk::Extent2D { width: IRRADIANCE + 2, height: IRRADIANCE + 2 },
                 cube.format,
-                vk::ImageUsageFlags::STORAGE
-                    | vk::ImageUsageFlags::SAMPLED
-                    | vk::ImageUsageFlags::TRANSFER_DST,
+                written | vk::ImageUsageFlags::STORAGE,
             ),
         )?;
         Ok(Self {
             sky: Pipeline::compute(gpu, shader::ENVIRONMENT_SKY_COMP, &[])?,
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
             cube,
+            sunless,
             faces,
             levels,
             mips,
@@ -197,12 +194,30 @@ impl Environment {
 
     /// A first, black environment, so that a frame may sample it.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
-        let both = [&self.cube, &self.irradiance];
-        gpu.barriers(cmd, &both.map(|i| access::image(i, access::NOTHING, access::CLEAR)), &[]);
-        for image in both {
+        let change = |from, to| {
+            let barriers: Vec<_> =
+                self.images().map(|image| access::image(image, from, to)).collect();
+            gpu.barriers(cmd, &barriers, &[]);
+        };
+        change(access::NOTHING, access::CLEAR);
+        for image in self.images() {
             gpu.clear_color(cmd, image, [0.0, 0.0, 0.0, 1.0]);
         }
-        gpu.barriers(cmd, &both.map(|i| access::image(i, access::CLEAR, SAMPLED)), &[]);
+        change(access::CLEAR, SAMPLED);
+    }
+
+    fn images(&self) -> impl Iterator<Item = &Image> {
+        [&self.cube, &self.irradiance].into_iter().chain(&self.sunless)
+    }
+
+    /// Bytes of its images.
+    pub fn memory(&self) -> u64 {
+        self.images().map(|image| image.size).sum()
+    }
+
+    /// What foam gathers at its samples' directions.
+    pub fn gathered(&self) -> &Image {
+        self.sunless.as_ref().unwrap_or(&self.cube)
     }
 
     pub fn record(
@@ -310,7 +325,40 @@ impl Environment {
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 1) };
         gpu.barriers(cmd, &[access::image(image, COMPUTE_WRITE, SAMPLED)], &[]);
+        if let Some(sunless) = &self.sunless {
+            self.copy_first_level(gpu, cmd, sunless);
+        }
         Ok(())
+    }
+
+    fn copy_first_level(&self, gpu: &Gpu, cmd: vk::CommandBuffer, to: &Image) {
+        let change = |cube: [Access; 2], copy: [Access; 2]| {
+            let both =
+                [access::image(&self.cube, cube[0], cube[1]), access::image(to, copy[0], copy[1])];
+            gpu.barriers(cmd, &both, &[]);
+        };
+        change([SAMPLED, COPY_READ], [SAMPLED.discarded(), COPY_WRITE]);
+        let level = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            layer_count: 6,
+            ..Default::default()
+        };
+        let region = vk::ImageCopy::default()
+            .src_subresource(level)
+            .dst_subresource(level)
+            .extent(to.extent.into());
+        // SAFETY: both are in their transfer layouts, and of one size and format.
+        unsafe {
+            gpu.device.cmd_copy_image(
+                cmd,
+                self.cube.handle,
+                vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
+                to.handle,
+                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
+                &[region],
+            );
+        }
+        change([COPY_READ, SAMPLED], [COPY_WRITE, SAMPLED]);
     }
 
     /// Each mip is a blit of the one before.

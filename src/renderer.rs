@@ -528,7 +528,7 @@ impl Renderer {
             memory.images += images;
             memory.buffers += buffers;
         }
-        memory.images += self.environment.cube.size + self.environment.irradiance.size;
+        memory.images += self.environment.memory();
         memory.images += self.scene_copy.as_ref().map_or(0, |image| image.size);
         memory.buffers += self.slots.iter().map(|slot| slot.uniforms.size).sum::<u64>();
         memory

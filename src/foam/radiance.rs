@@ -189,7 +189,7 @@ impl Radiance {
             (2, Resource::storage(sprites.normal())),
             (3, Resource::buffer(&self.points)),
             (4, linear(&environment.irradiance)),
-            (5, linear(&environment.cube)),
+            (5, linear(environment.gathered())),
             (6, Resource::storage(image)),
             (9, self.tiles.resource()),
             shadow,
