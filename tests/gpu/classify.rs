@@ -321,6 +321,34 @@ fn tables_in_parts_hold_the_same_state() {
     assert_state("parts", &in_parts, &phases);
 }
 
+/// More than a device of the common 128 MiB to a storage buffer binds at once: 4 473 924 ids, really gone through.
+#[test]
+fn a_step_of_millions_of_ids() {
+    if !crate::support::slow() {
+        return crate::support::skipped::skipped(
+            "millions of particles take long: WHITEWATER_SLOW=1 has them",
+        );
+    }
+    const COUNT: usize = 4_800_000;
+    let gpu = Gpu::shared();
+    let config = StateConfig { max_stride: 20, ..StateConfig::new(COUNT as u32) };
+    let mut body = Body::new(&gpu, config);
+    assert!(body.state().size() > 128 << 20, "{} bytes of state", body.state().size());
+    let (settings, mut phases, mut sea) = (settings(), Phases::default(), Sea::new(COUNT));
+    for step in 0..3 {
+        let mut particles = sea.step().to_vec();
+        // Two steps of it do not make foam of water that begins at rest.
+        particles.iter_mut().for_each(|p| p.velocity = p.velocity.map(|v| 4.0 * v));
+        let expected = phases.step(&twin_settings(&settings), 0.25, &particles);
+        let found = body.step(&settings, 0.25, &particles);
+        let foam = expected.iter().filter(|out| out.foam > 0.0).count();
+        eprintln!("step {step}: {foam} of {COUNT} foam");
+        assert!(step == 0 || foam > COUNT / 100, "step {step}: {foam} foam");
+        assert_foam(&format!("step {step}"), &found, &expected);
+    }
+    assert_state("millions", &body.save(), &phases);
+}
+
 /// A step that was thrown away did not happen.
 #[test]
 fn an_abandoned_step_leaves_the_state_before_it() {
