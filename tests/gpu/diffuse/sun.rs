@@ -1,5 +1,7 @@
 //! The sun of a map, which the light tells of as well.
 
+use whitewater::{EnvironmentSource, Equirectangular, Frame, Recorded, Slot};
+
 use super::*;
 
 /// Foam gathers what the map without the sun gives, to the last bit, though the map shows it: in both ways.
@@ -27,5 +29,63 @@ fn the_sun_of_a_map_is_not_gathered() {
         assert_ne!(without, with, "{irradiance:?}: the sun adds something");
         rig.environment_with_sun(size, [&sunny, &grey]);
         assert!(without == gathered(&mut rig), "{irradiance:?}: the sun of the map is gathered");
+    }
+}
+
+/// An environment that changes while a frame is in flight is to that frame what it was when the frame was recorded.
+#[test]
+fn the_environment_changes_between_frames_in_flight() {
+    let gpu = Gpu::shared();
+    let size = extent(16, 8);
+    let maps = [[0.7, 0.6, 0.5, 1.0], [0.1, 0.9, 0.3, 1.0]].map(|color| [color; 128]);
+    for irradiance in [Irradiance::Prefiltered, Irradiance::Sampled] {
+        let diffuse = Some(DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) });
+        let config = Config { diffuse, ..diffusing(SIZE) };
+        let mut cloud = Diffuse::new(Lens::Standard);
+        cloud.shot.settings.light.shade = cloud.shot.settings.light.irradiance;
+        let alone = maps.each_ref().map(|map| {
+            let mut rig = Rig::lit(&gpu, &config, 1);
+            rig.environment(size, map);
+            cloud.draw(&mut rig).output
+        });
+        assert!(alone[0].data != alone[1].data, "{irradiance:?}: the environment shows");
+        let mut rig = Rig::lit(&gpu, &config, 2);
+        let maps = maps.each_ref().map(|map| rig.map(size, map));
+        for round in 0..3 {
+            let flights = [0, 1].map(|slot| {
+                let (color, depth) = rig.scene(&cloud.shot);
+                let (water, foam) = (rig.particles(&cloud.shot), rig.diffuse(&cloud.input()));
+                let frame = Frame {
+                    slot: Slot(slot),
+                    diffuse: Some(foam.particles()),
+                    ..cloud.shot.frame(color.host_image(), depth.host_image(), water.particles())
+                };
+                let source = EnvironmentSource::Equirectangular(Equirectangular {
+                    image: maps[slot as usize].host_image(),
+                    without_sun: None,
+                    scale: 1.0,
+                    turn: 0.0,
+                    up: [0.0, 1.0, 0.0],
+                });
+                let cmd = rig.stub.begin(slot);
+                let renderer = rig.renderer();
+                // SAFETY: cmd is recording, the slot was waited for, the handles live to the end of the round.
+                let recorded = unsafe {
+                    renderer
+                        .record_environment(cmd, Slot(slot), &source)
+                        .and_then(|()| renderer.record(cmd, &frame))
+                };
+                recorded.expect("record");
+                rig.stub.end(slot);
+                (color, (depth, water, foam))
+            });
+            for (slot, (color, _)) in (0..).zip(&flights) {
+                rig.stub.wait(slot);
+                rig.collect(Slot(slot));
+                let found = rig.read(&color.host_image(), &Recorded::default()).output;
+                let name = format!("environment-{irradiance:?}-{round}-{slot}");
+                compare::same_color(&name, &found, &alone[slot as usize]);
+            }
+        }
     }
 }

@@ -140,7 +140,8 @@ impl<'g> Rig<'g> {
         self.any_environment(&EnvironmentSource::Equirectangular(source));
     }
 
-    fn map(&self, size: vk::Extent2D, texels: &[[f32; 4]]) -> Texture {
+    /// A picture that only compute shaders sample.
+    pub fn map(&self, size: vk::Extent2D, texels: &[[f32; 4]]) -> Texture {
         let after = Access::new(
             vk::PipelineStageFlags2::COMPUTE_SHADER,
             vk::AccessFlags2::SHADER_SAMPLED_READ,
