@@ -137,8 +137,10 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
-    /// What [`Irradiance::Sampled`] asks, where that is how foam is lit: the first level without the sun.
-    sunless: Option<Image>,
+    /// The first level without the sun and its faces, for [`Irradiance::Sampled`], where that is how foam is lit.
+    sunless: Option<(Image, Owned<vk::ImageView>)>,
+    /// The sun is in the cube last recorded, and not in that one.
+    apart: bool,
     /// For explicit levels: without the last, whose seams SwiftShader never writes but filters over.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
@@ -160,12 +162,16 @@ impl Environment {
         };
         let made = vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::TRANSFER_SRC;
         let cube = of_size("environment", mips, made)?;
-        let asked = config.diffuse.is_some_and(|foam| foam.irradiance == Irradiance::Sampled);
-        let none = vk::ImageUsageFlags::empty();
-        let sunless = asked.then(|| of_size("environment/sunless", 1, none)).transpose()?;
         let array = vk::ImageViewType::TYPE_2D_ARRAY;
         let faces = gpu.view(cube.handle, cube.format, array, 6, 1, "environment/faces")?;
         let faces = gpu.own(faces, Grave::View);
+        let sunless = Self::is_sampled(config).then(|| {
+            let own = of_size("environment/sunless", 1, vk::ImageUsageFlags::STORAGE)?;
+            let faces =
+                gpu.view(own.handle, own.format, array, 6, 1, "environment/sunless-faces")?;
+            Ok((own, gpu.own(faces, Grave::View)))
+        });
+        let sunless = sunless.transpose()?;
         let of_cube = vk::ImageViewType::CUBE;
         let levels =
             gpu.view(cube.handle, cube.format, of_cube, 6, mips - 1, "environment/levels")?;
@@ -184,12 +190,18 @@ impl Environment {
             equirect: Pipeline::compute(gpu, shader::ENVIRONMENT_EQUIRECT_COMP, &[])?,
             cube,
             sunless,
+            apart: false,
             faces,
             levels,
             mips,
             gather: Pipeline::compute(gpu, shader::ENVIRONMENT_IRRADIANCE_COMP, &[])?,
             irradiance,
         })
+    }
+
+    /// Foam asks it at its samples' directions.
+    pub fn is_sampled(config: &Config) -> bool {
+        config.diffuse.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
     }
 
     /// A first, black environment, so that a frame may sample it.
@@ -207,7 +219,8 @@ impl Environment {
     }
 
     fn images(&self) -> impl Iterator<Item = &Image> {
-        [&self.cube, &self.irradiance].into_iter().chain(&self.sunless)
+        let sunless = self.sunless.iter().map(|(image, _)| image);
+        [&self.cube, &self.irradiance].into_iter().chain(sunless)
     }
 
     /// Bytes of its images.
@@ -217,17 +230,22 @@ impl Environment {
 
     /// What foam gathers at its samples' directions.
     pub fn gathered(&self) -> &Image {
-        self.sunless.as_ref().unwrap_or(&self.cube)
+        match &self.sunless {
+            Some((image, _)) if self.apart => image,
+            _ => &self.cube,
+        }
     }
 
     pub fn record(
-        &self,
+        &mut self,
         gpu: &Gpu,
         cmd: vk::CommandBuffer,
         descriptors: &Descriptors,
         source: &EnvironmentSource,
     ) -> Result<(), Error> {
         gpu.begin_label(cmd, c"environment");
+        self.apart =
+            matches!(source, EnvironmentSource::Equirectangular(map) if map.without_sun.is_some());
         let recorded = match source {
             EnvironmentSource::Sky(sky) => self
                 .record_sky(gpu, cmd, descriptors, sky)
@@ -237,7 +255,11 @@ impl Environment {
                 self.record_map(gpu, cmd, descriptors, (gathered, map))
                     .and_then(|()| self.record_irradiance(gpu, cmd, descriptors))
                     .and_then(|()| match map.without_sun {
-                        Some(_) => self.record_map(gpu, cmd, descriptors, (&map.image, map)),
+                        Some(_) => {
+                            self.record_sunless(gpu, cmd, descriptors, (gathered, map)).and_then(
+                                |()| self.record_map(gpu, cmd, descriptors, (&map.image, map)),
+                            )
+                        }
                         None => Ok(()),
                     })
             }
@@ -276,8 +298,38 @@ impl Environment {
         descriptors: &Descriptors,
         (image, map): (&HostImage, &Equirectangular),
     ) -> Result<(), Error> {
-        let size = self.cube.extent.width;
         let target = self.begin_cube(gpu, cmd);
+        self.fill_with(gpu, cmd, descriptors, target, (image, map))?;
+        self.record_mips(gpu, cmd);
+        Ok(())
+    }
+
+    /// The first level of an image without the sun, where foam asks it at its samples' directions.
+    fn record_sunless(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        (image, map): (&HostImage, &Equirectangular),
+    ) -> Result<(), Error> {
+        let Some((own, faces)) = &self.sunless else { return Ok(()) };
+        gpu.barriers(cmd, &[access::image(own, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
+        let target = (0, Resource::Storage(faces.handle));
+        self.fill_with(gpu, cmd, descriptors, target, (image, map))?;
+        gpu.barriers(cmd, &[access::image(own, COMPUTE_WRITE, SAMPLED)], &[]);
+        Ok(())
+    }
+
+    /// Faces of an image of the host's.
+    fn fill_with(
+        &self,
+        gpu: &Gpu,
+        cmd: vk::CommandBuffer,
+        descriptors: &Descriptors,
+        target: (u32, Resource),
+        (image, map): (&HostImage, &Equirectangular),
+    ) -> Result<(), Error> {
+        let size = self.cube.extent.width;
         let before = access::raw_image(image.image, image.aspect, image.before, COMPUTE_SAMPLED);
         gpu.barriers(cmd, &[before], &[]);
         let source = (1, Resource::Sampled(image.view, gpu.samplers.around));
@@ -288,7 +340,6 @@ impl Environment {
         self.fill_cube(gpu, cmd);
         let after = access::raw_image(image.image, image.aspect, COMPUTE_SAMPLED, image.after);
         gpu.barriers(cmd, &[after], &[]);
-        self.record_mips(gpu, cmd);
         Ok(())
     }
 
@@ -325,40 +376,7 @@ impl Environment {
         // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
         unsafe { gpu.device.cmd_dispatch(cmd, groups, groups, 1) };
         gpu.barriers(cmd, &[access::image(image, COMPUTE_WRITE, SAMPLED)], &[]);
-        if let Some(sunless) = &self.sunless {
-            self.copy_first_level(gpu, cmd, sunless);
-        }
         Ok(())
-    }
-
-    fn copy_first_level(&self, gpu: &Gpu, cmd: vk::CommandBuffer, to: &Image) {
-        let change = |cube: [Access; 2], copy: [Access; 2]| {
-            let both =
-                [access::image(&self.cube, cube[0], cube[1]), access::image(to, copy[0], copy[1])];
-            gpu.barriers(cmd, &both, &[]);
-        };
-        change([SAMPLED, COPY_READ], [SAMPLED.discarded(), COPY_WRITE]);
-        let level = vk::ImageSubresourceLayers {
-            aspect_mask: vk::ImageAspectFlags::COLOR,
-            layer_count: 6,
-            ..Default::default()
-        };
-        let region = vk::ImageCopy::default()
-            .src_subresource(level)
-            .dst_subresource(level)
-            .extent(to.extent.into());
-        // SAFETY: both are in their transfer layouts, and of one size and format.
-        unsafe {
-            gpu.device.cmd_copy_image(
-                cmd,
-                self.cube.handle,
-                vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-                to.handle,
-                vk::ImageLayout::TRANSFER_DST_OPTIMAL,
-                &[region],
-            );
-        }
-        change([COPY_READ, SAMPLED], [COPY_WRITE, SAMPLED]);
     }
 
     /// Each mip is a blit of the one before.

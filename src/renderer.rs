@@ -496,14 +496,16 @@ impl Renderer {
         Ok(due)
     }
 
-    /// What a configuration needs anew: the environment only where its size changes.
+    /// What a configuration needs anew: the environment only where its size changes, or whether foam asks for it at its
+    /// samples' directions.
     fn make_parts(
         &self,
         config: &Config,
     ) -> Result<(Parts, Option<Environment>, Vec<Descriptors>), Error> {
         let gpu = &*self.gpu;
         let parts = Parts::new(gpu, config, (self.bubbles.as_ref(), self.shore.as_ref()))?;
-        let same_environment = config.environment_size == self.config.environment_size;
+        let of = |config: &Config| (config.environment_size, Environment::is_sampled(config));
+        let same_environment = of(config) == of(&self.config);
         let environment = (!same_environment).then(|| Environment::new(gpu, config)).transpose()?;
         let descriptors =
             (0..gpu.slots).map(|_| Descriptors::new(gpu, SlotState::sets(gpu, config)));

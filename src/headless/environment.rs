@@ -116,7 +116,7 @@ impl Headless {
         lights: Option<&Image>,
     ) -> Result<(), Error> {
         if let Some(lights) = lights {
-            let own = Environment::new(&self.gpu, self.renderer.config())?;
+            let mut own = Environment::new(&self.gpu, self.renderer.config())?;
             let descriptors = Descriptors::new(&self.gpu, SETS)?;
             let source = EnvironmentSource::Equirectangular(of(host(lights)));
             self.run(|this, cmd| {

@@ -32,6 +32,28 @@ fn the_sun_of_a_map_is_not_gathered() {
     }
 }
 
+/// A configuration that begins to sample the environment has it made anew: what it had was not for that.
+#[test]
+fn to_sample_the_environment_makes_it_anew() {
+    let gpu = Gpu::shared();
+    let of = |irradiance| {
+        let diffuse = Some(DiffuseConfig { irradiance, ..DiffuseConfig::new(4096) });
+        Config { diffuse, ..diffusing(SIZE) }
+    };
+    let mut rig = Rig::new(&gpu, &of(Irradiance::Prefiltered));
+    let before = rig.renderer().memory().images;
+    // Six faces of 8 bytes a texel.
+    let faces = 48 * u64::from(rig.config.environment_size).pow(2);
+    for (irradiance, anew, more) in
+        [(Irradiance::Prefiltered, false, 0), (Irradiance::Sampled, true, faces)]
+    {
+        assert_eq!(rig.renderer().reconfigure(&of(irradiance)).expect("reconfigure"), anew);
+        // Its faces at 8 bytes a texel, and what aligns them.
+        let found = rig.renderer().memory().images - before;
+        assert!((more..more + 65_536).contains(&found), "{irradiance:?}: {found} bytes more");
+    }
+}
+
 /// An environment that changes while a frame is in flight is to that frame what it was when the frame was recorded.
 #[test]
 fn the_environment_changes_between_frames_in_flight() {
