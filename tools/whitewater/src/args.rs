@@ -154,7 +154,8 @@ pub struct DemoArgs {
 #[derive(Args, Debug)]
 pub struct DrawArgs {
     /// Picture to write, .exr (linear light, all layers) or .png; may be given twice. A sequence
-    /// puts the frame number where %04d stands, or before the extension
+    /// puts the frame number where %04d stands, or before the extension. Or a film of all frames,
+    /// .mp4 (H.264), at --fps
     #[arg(short, long = "output", required = true, value_name = "OUT")]
     pub outputs: Vec<PathBuf>,
     /// Size in pixels

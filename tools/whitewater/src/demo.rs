@@ -76,6 +76,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         region,
         fps,
         rate,
+        film: crate::reader::DEFAULT_FPS,
         fullest: count,
     };
     let mut progress = Progress::new(1, "frames");

@@ -11,6 +11,7 @@ mod demo;
 mod diffuse;
 mod environment;
 mod failure;
+mod film;
 mod foam;
 mod generate;
 mod info;

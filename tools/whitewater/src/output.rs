@@ -194,6 +194,31 @@ pub enum PictureFormat {
     Png,
 }
 
+impl PictureFormat {
+    /// By the end of a name.
+    fn of(name: &Path) -> Option<Self> {
+        match name.extension()?.to_string_lossy().to_lowercase().as_str() {
+            "exr" => Some(Self::Exr),
+            "png" => Some(Self::Png),
+            _ => None,
+        }
+    }
+}
+
+fn no_such(pattern: &Path, endings: &str) -> Failure {
+    let pattern = pattern.display();
+    Failure::usage(format!("expected an output that ends in {endings}, found {pattern}; rename it"))
+}
+
+/// What frames become.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Output {
+    /// A file each.
+    Picture(PictureFormat),
+    /// One file of all.
+    Film,
+}
+
 /// Where pictures go, or other files of each frame.
 #[derive(Clone, Debug)]
 pub struct Target<F = PictureFormat> {
@@ -218,18 +243,32 @@ impl Target<WriteFormat> {
 impl Target {
     /// Understands the name of an output; `sequence`: there is more than one frame.
     pub fn new(pattern: &Path, sequence: bool) -> Outcome<Self> {
-        let extension = pattern.extension().map(|e| e.to_string_lossy().to_lowercase());
-        let format = match extension.as_deref() {
-            Some("exr") => PictureFormat::Exr,
-            Some("png") => PictureFormat::Png,
-            _ => {
-                let pattern = pattern.display();
-                return Err(Failure::usage(format!(
-                    "expected an output that ends in .exr or .png, found {pattern}; rename it"
-                )));
-            }
+        let Some(format) = PictureFormat::of(pattern) else {
+            return Err(no_such(pattern, ".exr or .png"));
         };
         Self::named(pattern, format, sequence)
+    }
+}
+
+impl Target<Output> {
+    /// The same where all frames may become a film.
+    pub fn of_frames(pattern: &Path, sequence: bool) -> Outcome<Self> {
+        let film = pattern.extension().is_some_and(|end| end.eq_ignore_ascii_case("mp4"));
+        if !film {
+            let Some(format) = PictureFormat::of(pattern) else {
+                return Err(no_such(pattern, ".exr, .png or .mp4"));
+            };
+            let Target { pattern, format, sequence } = Target::named(pattern, format, sequence)?;
+            return Ok(Self { pattern, format: Output::Picture(format), sequence });
+        }
+        let target = Self { pattern: pattern.to_path_buf(), format: Output::Film, sequence: false };
+        if target.name().contains('%') {
+            return Err(Failure::usage(format!(
+                "expected one .mp4 for all frames, found {}; rename it without %",
+                pattern.display()
+            )));
+        }
+        Ok(target)
     }
 }
 
@@ -297,9 +336,21 @@ mod tests {
         assert_eq!(made.display().to_string(), "made.0007.bgeo.gz");
         assert_eq!(path("a/out_%06d.png", true), "a/out_000007.png");
         assert_eq!(path("a/out_%d.png", false), "a/out_7.png");
-        for bad in ["out.jpg", "out", "o%x.png", "%04d_%04d.png", "%4d.png"] {
+        for bad in ["out.mp4", "out.jpg", "out", "o%x.png", "%04d_%04d.png", "%4d.png"] {
             assert_eq!(Target::new(Path::new(bad), true).unwrap_err().kind, Kind::Usage, "{bad}");
         }
+    }
+
+    #[test]
+    fn a_film_is_one_file() {
+        let film = Target::of_frames(Path::new("a/out.MP4"), true).unwrap();
+        assert_eq!((film.format, film.is_numbered()), (Output::Film, false));
+        assert_eq!(film.path(7), Path::new("a/out.MP4"));
+        let picture = Target::of_frames(Path::new("out.png"), true).unwrap();
+        assert_eq!(picture.format, Output::Picture(PictureFormat::Png));
+        assert_eq!(picture.path(7), Path::new("out.0007.png"));
+        let bad = Target::of_frames(Path::new("out_%04d.mp4"), true).unwrap_err();
+        assert_eq!(bad.kind, Kind::Usage);
     }
 
     #[test]

@@ -91,7 +91,15 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         return Ok(());
     }
     let steps = progress.steps();
-    let sequence = Sequence { is: all.len() > 1, motion: session::has_motion(&checked) };
+    let steps_of = |frames: &[Frame]| match frames {
+        [first, .., last] => (last.number - first.number) as f32 / (frames.len() - 1) as f32,
+        _ => 1.0,
+    };
+    let sequence = Sequence {
+        is: all.len() > 1,
+        motion: session::has_motion(&checked),
+        film: session::has_film(&checked.0).then(|| steps_of(&left).max(1.0)),
+    };
     let made = args.whitewater == [Whitewater::Generate];
     let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
     let moving = made || foams || sequence.motion;
@@ -316,6 +324,8 @@ struct Sequence {
     is: bool,
     /// Motion vectors are wanted.
     motion: bool,
+    /// A film is wanted, whose frames are so many numbers apart.
+    film: Option<f32>,
 }
 
 fn look(
@@ -429,7 +439,8 @@ fn look(
     }
     let remembers = sequence.is && (made || foam.is_some() && probes.frames.iter().any(moving));
     let vectors = sequence.is && sequence.motion;
-    let fps = (remembers || vectors).then(|| {
+    let film = fps / sequence.film.unwrap_or(1.0);
+    let fps = (remembers || vectors || sequence.is && sequence.film.is_some()).then(|| {
         if args.fps.is_none() {
             let found = if probes.fps.is_some() { "found; " } else { "" };
             progress.say(&format!("{} frames a second ({found}--fps sets it)", round(fps)));
@@ -465,6 +476,7 @@ fn look(
         region,
         fps,
         rate,
+        film,
         fullest,
     })
 }

@@ -1,6 +1,7 @@
 //! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
 
 use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use whitewater::ash::vk;
 use whitewater::bubbles::BubbleConfig;
@@ -18,8 +19,9 @@ use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome};
+use crate::film::{self, Film};
 use crate::layers;
-use crate::output::{self, PictureFormat, Target};
+use crate::output::{self, Output, PictureFormat, Target};
 use crate::progress::{Progress, Steps};
 use crate::settings::{Found, SettingsFile};
 use crate::shore::Shores;
@@ -51,6 +53,8 @@ pub struct Look {
     pub fps: Option<f32>,
     /// Frames a second by which the motion layer is made; none: nothing moves.
     pub rate: Option<f32>,
+    /// Frames a second of a film.
+    pub film: f32,
     /// Particles of the fullest frame that was looked at: there is room for them from the first one on.
     pub fullest: usize,
 }
@@ -69,7 +73,7 @@ struct Memory {
 /// Draws frames.
 pub struct Session<'a> {
     args: &'a DrawArgs,
-    targets: Vec<Target>,
+    targets: Vec<Target<Output>>,
     wanted: Vec<&'static str>,
     /// Motion vectors are made.
     motion: bool,
@@ -88,13 +92,18 @@ pub struct Session<'a> {
     pub keep: Option<Target<WriteFormat>>,
     /// In which axes.
     pub up: Up,
+    /// What goes into films.
+    film: Option<Arc<Mutex<Film>>>,
     pub times: Times,
 }
 
 /// What can be said about the arguments before anything is read.
-pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target>, Vec<&'static str>)> {
-    let targets: Vec<Target> =
-        args.outputs.iter().map(|o| Target::new(o, sequence)).collect::<Outcome<_>>()?;
+pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target<Output>>, Vec<&'static str>)> {
+    let targets: Vec<Target<Output>> =
+        args.outputs.iter().map(|o| Target::of_frames(o, sequence)).collect::<Outcome<_>>()?;
+    if has_film(&targets) {
+        film::check_size(args.size)?;
+    }
     let wanted = layers::wanted(&args.layers)?;
     if let Some(path) = &args.timings {
         Times::check(path, false)?;
@@ -105,9 +114,14 @@ pub fn check(args: &DrawArgs, sequence: bool) -> Outcome<(Vec<Target>, Vec<&'sta
     Ok((targets, wanted))
 }
 
+/// Whether all frames go into one file.
+pub fn has_film(targets: &[Target<Output>]) -> bool {
+    targets.iter().any(|target| target.format == Output::Film)
+}
+
 /// Whether any picture will hold motion vectors.
-pub fn has_motion((targets, wanted): &(Vec<Target>, Vec<&'static str>)) -> bool {
-    let exr = |target: &Target| target.format == PictureFormat::Exr;
+pub fn has_motion((targets, wanted): &(Vec<Target<Output>>, Vec<&'static str>)) -> bool {
+    let exr = |target: &Target<Output>| target.format == Output::Picture(PictureFormat::Exr);
     wanted.contains(&layers::MOTION) && targets.iter().any(exr)
 }
 
@@ -185,7 +199,7 @@ impl<'a> Session<'a> {
     /// Checks the outputs and opens the device; `steps`: where it says what it does.
     pub fn new(
         args: &'a DrawArgs,
-        checked: (Vec<Target>, Vec<&'static str>),
+        checked: (Vec<Target<Output>>, Vec<&'static str>),
         look: Look,
         steps: Steps,
     ) -> Outcome<Self> {
@@ -202,7 +216,22 @@ impl<'a> Session<'a> {
         let device = Device::new(&options)?;
         let times = Times::new(steps, &device.adapter, &device.driver);
         let (last, timings, trace) = (times.clone(), args.timings.clone(), args.trace.clone());
+        let film = has_film(&targets).then(|| Film::new(args.size, look.film)).transpose()?;
+        let film = film.map(|film| Arc::new(Mutex::new(film)));
+        let films = targets.iter().filter(|target| target.format == Output::Film);
+        let films: Vec<_> = films
+            .map(|target| target.path(0))
+            .zip(film.iter().cycle())
+            .map(|(path, film)| (path, film.clone()))
+            .collect();
+        // Broken off, a film has the frames that were drawn.
         output::at_interrupt(move || {
+            for (path, film) in films {
+                let film = film.lock().unwrap_or_else(PoisonError::into_inner);
+                if !film.is_empty() {
+                    output::write(&path, |to| film.write(to))?;
+                }
+            }
             timings.map_or(Ok(()), |path| last.write(&path))?;
             trace.map_or(Ok(()), |path| last.write_trace(&path))
         });
@@ -220,6 +249,7 @@ impl<'a> Session<'a> {
             full: false,
             keep: None,
             up: Up::Y,
+            film,
             times,
         })
     }
@@ -608,13 +638,21 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn write(&self, format: PictureFormat, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
+    fn write(&self, format: Output, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
         let look = &self.look;
         let exposure = look.environment.exposure() + look.exposure + self.args.exposure;
-        output::write(path, |to| match format {
-            PictureFormat::Exr => picture::write_exr(layers, to),
-            PictureFormat::Png => picture::write_png(layers, exposure, to),
-        })
+        match (format, &self.film) {
+            (Output::Picture(PictureFormat::Exr), _) => {
+                output::write(path, |to| picture::write_exr(layers, to))
+            }
+            (Output::Picture(PictureFormat::Png), _) => {
+                output::write(path, |to| picture::write_png(layers, exposure, to))
+            }
+            (Output::Film, film) => film.iter().try_for_each(|film| {
+                let rgb = layers.display(exposure).unwrap_or_default();
+                film.lock().unwrap_or_else(PoisonError::into_inner).push(&rgb)
+            }),
+        }
     }
 
     fn with_attributes(

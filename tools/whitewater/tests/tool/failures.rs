@@ -68,7 +68,7 @@ fn bad_cameras_settings_and_scenes_are_code_3() {
 fn bad_command_lines_are_code_2() {
     let folder = Folder::new();
     folder.particles("a.ply", block(3));
-    folder.run("render a.ply -o out.jpg").fails(2, &[".exr or .png", "out.jpg"]);
+    folder.run("render a.ply -o out.jpg").fails(2, &[".exr, .png or .mp4", "out.jpg"]);
     folder.run("render a.ply -o out.png --size 200000x10").fails(2, &["400000", "--supersample"]);
     folder.run("render a.ply -o out.png --sun 0,0,0").fails(2, &["--sun"]);
     for arguments in [
@@ -213,7 +213,7 @@ fn an_interrupt_leaves_nothing_half() {
     }
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_whitewater"))
         .args(["render", "f_%d.ply", "-o", "out/a.exr", "--size", "320x180"])
-        .args(["--timings", "t.csv", "--trace", "t.json"])
+        .args(["--timings", "t.csv", "--trace", "t.json", "-o", "film.mp4"])
         .current_dir(folder.path(""))
         .stderr(std::process::Stdio::null())
         .spawn()
@@ -229,6 +229,10 @@ fn an_interrupt_leaves_nothing_half() {
         assert!(!name.starts_with('.'), "{name}");
         folder.picture(&format!("out/{name}"));
     }
+    // A film is of the frames that were drawn, but for those in hand while it was written.
+    let drawn = names(&folder.path("out")).len() as u32;
+    let (frames, _) = folder.film("film.mp4");
+    assert!(frames + 2 >= drawn && frames <= drawn, "{frames} of {drawn}");
     // What was measured is kept.
     let times = std::fs::read_to_string(folder.path("t.csv")).unwrap();
     assert!(times.lines().any(|l| l.starts_with("1,composite,")), "{times}");

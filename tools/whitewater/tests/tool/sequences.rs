@@ -47,6 +47,24 @@ fn a_rerun_draws_only_what_is_missing() {
     assert_eq!(folder.files(), all);
 }
 
+/// A film is one file of all frames, at the rate that is asked for; its frames are those of the range.
+#[test]
+fn a_film_has_all_frames() {
+    let folder = Folder::new();
+    sequence(&folder);
+    let command = format!("render f_*.ply -o film.mp4 {SMALL} --fps 12");
+    let run = folder.run(&command).ok();
+    assert!(run.stderr().contains("film.mp4"), "{}", run.stderr());
+    assert_eq!(folder.film("film.mp4"), (4, 12.0));
+    // It is never there in part: drawn again, whatever there is.
+    folder.run(&format!("{command} --every 2")).ok();
+    assert_eq!(folder.film("film.mp4"), (2, 6.0));
+    folder.run(&command.replace("96x64", "95x64")).fails(2, &["--size", "96x64"]);
+    folder.run(&command.replace("film", "film_%d")).fails(2, &["film_%d.mp4"]);
+    assert_eq!(folder.film("film.mp4"), (2, 6.0), "the one before is kept");
+    assert_eq!(folder.files().len(), 5, "{:?}", folder.files());
+}
+
 #[test]
 fn parts_of_a_sequence_fit_together() {
     let folder = Folder::new();

@@ -65,6 +65,23 @@ impl Folder {
         self.path(name).exists()
     }
 
+    /// Frames of a film and how many a second, by its tables (ISO 14496-12: `stsz`, `mdhd`, `stts`).
+    pub fn film(&self, name: &str) -> (u32, f32) {
+        let bytes = std::fs::read(self.path(name)).unwrap();
+        // The word so many behind the name of a box, its version and flags.
+        let word = |kind: &[u8], at: usize| {
+            let found = bytes.windows(kind.len()).position(|w| w == kind).unwrap();
+            let from = found + 8 + 4 * at;
+            u32::from_be_bytes(bytes[from..from + 4].try_into().unwrap())
+        };
+        let (count, timescale) = (word(b"stsz", 1), word(b"mdhd", 2));
+        let duration: u32 = (0..word(b"stts", 0) as usize)
+            .map(|run| word(b"stts", 1 + 2 * run) * word(b"stts", 2 + 2 * run))
+            .sum();
+        let rate = count as f32 * timescale as f32 / duration as f32;
+        (count, (1000.0 * rate).round() / 1000.0)
+    }
+
     /// Names of all files, hidden ones too.
     pub fn files(&self) -> Vec<String> {
         names(self.0.path())

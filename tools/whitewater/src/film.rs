@@ -1,0 +1,209 @@
+//! A film of all frames in one file: H.264 in MP4, as every player and every browser takes it.
+
+use std::io::{self, Write};
+
+use muxide::api::{MuxerBuilder, VideoCodec};
+use openh264::OpenH264API;
+use openh264::encoder::{
+    BitRate, Complexity, Encoder, EncoderConfig, FrameRate, FrameType, IntraFramePeriod, QpRange,
+    RateControlMode, UsageType, VuiConfig,
+};
+use openh264::formats::YUVBuffer;
+
+use crate::failure::{Failure, Kind, Outcome};
+
+/// The most pixels along an edge that the encoder takes, the longer one and the other: those of level 5.2.
+const MOST: (u32, u32) = (3840, 2160);
+/// Of 0 (lossless) to 51; a step of six is twice the error.
+const QUANTIZER: u8 = 18;
+/// To a pixel; no less than that quantizer asks for.
+const BITS: f32 = 2.0;
+/// Seconds between pictures that stand by themselves, where a player may begin.
+const KEY_SECONDS: f32 = 10.0;
+
+/// Frames that were encoded.
+pub struct Film {
+    encoder: Encoder,
+    size: (usize, usize),
+    fps: f32,
+    /// Each with whether it stands by itself.
+    frames: Vec<(Vec<u8>, bool)>,
+}
+
+/// What of a size cannot be filmed.
+pub fn check_size((width, height): (u32, u32)) -> Outcome<()> {
+    if width % 2 != 0 || height % 2 != 0 {
+        let even = (width.next_multiple_of(2), height.next_multiple_of(2));
+        return Err(Failure::usage(format!(
+            "--size: expected an even width and height for a film, found {width}x{height}; use {}x{}",
+            even.0, even.1
+        )));
+    }
+    let (long, short) = (width.max(height), width.min(height));
+    if long > MOST.0 || short > MOST.1 || short < 16 {
+        return Err(Failure::usage(format!(
+            "--size: expected 16x16 to {}x{} for a film, found {width}x{height}; write numbered .png and encode those",
+            MOST.0, MOST.1
+        )));
+    }
+    Ok(())
+}
+
+impl Film {
+    /// Of frames so wide and high, so many a second.
+    pub fn new((width, height): (u32, u32), fps: f32) -> Outcome<Self> {
+        let bits = (BITS * width as f32 * height as f32 * fps.clamp(1.0, 60.0)) as u32;
+        let config = EncoderConfig::new()
+            .usage_type(UsageType::CameraVideoRealTime)
+            .complexity(Complexity::High)
+            // So high that the quantizer is the least of its range: foam is noise to an encoder, which a rate would blur
+            // where there is most of it. (With one quantizer for all it has its own, 26.)
+            .rate_control_mode(RateControlMode::Quality)
+            .bitrate(BitRate::from_bps(bits))
+            .qp(QpRange::new(QUANTIZER, QUANTIZER + 6))
+            .max_frame_rate(FrameRate::from_hz(fps))
+            .intra_frame_period(IntraFramePeriod::from_num_frames(
+                (KEY_SECONDS * fps).ceil().max(1.0) as u32,
+            ))
+            // Without it the encoder says on stderr that it cannot hold the rate; `push` sees to it that none is.
+            .skip_frames(true)
+            .scene_change_detect(false)
+            .background_detection(false)
+            .vui(VuiConfig::bt709());
+        let encoder = Encoder::with_api_config(OpenH264API::from_source(), config);
+        let encoder = encoder.map_err(|error| failed(&error))?;
+        Ok(Self { encoder, size: (width as usize, height as usize), fps, frames: Vec::new() })
+    }
+
+    /// Adds a frame: its pixels row by row from the top, sRGB 0 to 1.
+    pub fn push(&mut self, rgb: &[[f32; 3]]) -> Outcome<()> {
+        let (width, height) = self.size;
+        let picture = YUVBuffer::from_vec(planes(rgb, width), width, height);
+        // A frame that was skipped would make the film run fast.
+        for again in [false, true] {
+            if again {
+                self.encoder.force_intra_frame();
+            }
+            let encoded = self.encoder.encode(&picture).map_err(|error| failed(&error))?;
+            let key = matches!(encoded.frame_type(), FrameType::IDR | FrameType::I);
+            let bytes = encoded.to_vec();
+            if !bytes.is_empty() {
+                self.frames.push((bytes, key));
+                return Ok(());
+            }
+        }
+        Err(failed(&"a frame was skipped"))
+    }
+
+    /// No frame was added.
+    pub fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
+    /// Writes what there is.
+    pub fn write(&self, to: impl Write) -> io::Result<()> {
+        let (width, height) = (self.size.0 as u32, self.size.1 as u32);
+        let fps = f64::from(self.fps);
+        let box_error = |error: &dyn std::fmt::Display| io::Error::other(error.to_string());
+        let mut muxer = MuxerBuilder::new(to)
+            .video(VideoCodec::H264, width, height, fps)
+            .build()
+            .map_err(|error| box_error(&error))?;
+        for (i, (frame, key)) in self.frames.iter().enumerate() {
+            muxer.write_video(i as f64 / fps, frame, *key).map_err(|error| box_error(&error))?;
+        }
+        muxer.finish().map_err(|error| box_error(&error))
+    }
+}
+
+fn failed(error: &dyn std::fmt::Display) -> Failure {
+    Failure::new(Kind::Output, format!("the film cannot be encoded: {error}"))
+}
+
+/// Luma, then the two of chroma at half the size, of all pixels of a picture: ITU-R BT.709-6, Sec. 3.2 and 3.4, of eight bits,
+/// 16 to 235 and to 240. A chroma sample lies between its two rows and on the left of its two columns (H.264, Fig. E-1,
+/// type 0); the mean of its four pixels is half a pixel beside that, as most encoders have it.
+fn planes(rgb: &[[f32; 3]], width: usize) -> Vec<u8> {
+    let luma = |[r, g, b]: [f32; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    let mut all: Vec<u8> =
+        rgb.iter().map(|pixel| (16.5 + 219.0 * luma(*pixel).clamp(0.0, 1.0)) as u8).collect();
+    let height = rgb.len() / width;
+    for (channel, scale) in [(2, 1.8556), (0, 1.5748)] {
+        for (x, y) in (0..height / 2).flat_map(|y| (0..width / 2).map(move |x| (2 * x, 2 * y))) {
+            let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| rgb[(y + j) * width + x + i]);
+            let difference: f32 = four.iter().map(|p| p[channel] - luma(*p)).sum();
+            let value = 224.0 * 0.25 * difference / scale;
+            all.push((128.5 + value).clamp(16.0, 240.0) as u8);
+        }
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use openh264::decoder::Decoder;
+    use openh264::formats::YUVSource;
+
+    use super::*;
+
+    #[test]
+    fn sizes_that_cannot_be_filmed_are_named() {
+        for good in [(1280, 720), (2160, 3840), (16, 16)] {
+            check_size(good).unwrap();
+        }
+        for (bad, says) in [((1281, 720), "1282x720"), ((8, 8), "8x8"), ((4096, 2160), "3840x2160")]
+        {
+            let failure = check_size(bad).unwrap_err();
+            assert_eq!(failure.kind, Kind::Usage);
+            assert!(failure.message.contains(says), "{}", failure.message);
+        }
+    }
+
+    /// Black, white and the primaries of BT.709: its own tables of eight bits.
+    #[test]
+    fn colours_are_those_of_the_standard() {
+        for (rgb, [y, cb, cr]) in [
+            ([0.0, 0.0, 0.0], [16, 128, 128]),
+            ([1.0, 1.0, 1.0], [235, 128, 128]),
+            ([1.0, 0.0, 0.0], [63, 102, 240]),
+            ([0.0, 1.0, 0.0], [173, 42, 26]),
+            ([0.0, 0.0, 1.0], [32, 240, 118]),
+        ] {
+            assert_eq!(planes(&[rgb; 4], 2), [y, y, y, y, cb, cr], "{rgb:?}");
+        }
+    }
+
+    /// What was filmed comes back from the file, frame by frame, at its rate.
+    #[test]
+    fn a_film_holds_its_frames() {
+        let (width, height) = (64, 32);
+        let picture = |frame: usize| -> Vec<[f32; 3]> {
+            let shade = |i: usize| [(i % width) as f32 / 64.0, frame as f32 / 12.0, 0.25];
+            (0..width * height).map(shade).collect()
+        };
+        let mut film = Film::new((width as u32, height as u32), 24.0).unwrap();
+        for frame in 0..12 {
+            film.push(&picture(frame)).unwrap();
+        }
+        let mut bytes = Vec::new();
+        film.write(&mut bytes).unwrap();
+        assert_eq!(&bytes[4..8], b"ftyp");
+        let mut decoder = Decoder::new().unwrap();
+        let mut seen = 0;
+        for (frame, _) in &film.frames {
+            // As it lies in the file, but for what marks its parts: a start code here, a length there.
+            let part = frame.windows(4).rposition(|w| w == [0, 0, 0, 1]).unwrap();
+            let part = &frame[part + 4..];
+            assert!(bytes.windows(part.len()).any(|w| w == part), "frame {seen} is in the file");
+            let Some(decoded) = decoder.decode(frame).unwrap() else { continue };
+            let expected = planes(&picture(seen), width);
+            let (stride, _, _) = decoded.strides();
+            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+                let off = decoded.y()[y * stride + x].abs_diff(expected[y * width + x]);
+                assert!(off <= 12, "frame {seen}, ({x}, {y}): {off} off");
+            }
+            seen += 1;
+        }
+        assert_eq!(seen, 12);
+    }
+}
