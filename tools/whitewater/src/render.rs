@@ -112,20 +112,22 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
-    let files = diffuse::Files::find(files, args.up_axis, single)?;
+    let spacing = spacing(args, &probes, &settings, &progress);
+    let files =
+        steps.during("reading", || diffuse::Files::find(files, args.up_axis, single, spacing))?;
     if let Some(line) = files.as_ref().and_then(|f| f.missing(all.iter().map(|f| f.number))) {
         progress.say(&line);
     }
-    let files = files.map(diffuse::Diffusing::Files);
+    let found = Found { camera, spacing, files };
     let look = steps.during("finding camera and light", || {
-        look(args, sequence, &mut probes, camera, settings, environment, &progress)
+        look(args, sequence, &mut probes, found, settings, environment, &progress)
     })?;
     let foam = match foam {
         None if settings_of_bubbles.hand_over => Some(Vec::new()),
         foam => foam,
     };
     let foam = foam.map(|blobs| (Blobs { blobs, motion: None }, settings_of_bubbles));
-    let look = Look { diffuse: files.or(look.diffuse), bubbles: foam, shores, ..look };
+    let look = Look { bubbles: foam, shores, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
     session.up = args.up_axis;
@@ -309,25 +311,9 @@ impl Probes {
 /// a layer on a floor reads low.
 const GUESSED_DENSITIES: [f32; 3] = [0.42, 0.5, 0.6];
 
-/// What time is needed for.
-#[derive(Clone, Copy)]
-struct Sequence {
-    /// There is more than one frame.
-    is: bool,
-    /// Motion vectors are wanted.
-    motion: bool,
-}
-
-fn look(
-    args: &RenderArgs,
-    sequence: Sequence,
-    probes: &mut Probes,
-    camera: Option<CameraFile>,
-    file: SettingsFile,
-    environment: Environment,
-    progress: &Progress,
-) -> Outcome<Look> {
-    let spacing = match (args.radius, file.water.spacing) {
+/// The rest spacing: as it is said, or found.
+fn spacing(args: &RenderArgs, probes: &Probes, file: &SettingsFile, progress: &Progress) -> f32 {
+    match (args.radius, file.water.spacing) {
         (Some(radius), _) => 2.0 * radius,
         (None, Some(spacing)) => spacing,
         (None, None) => match probes.spacing() {
@@ -345,7 +331,35 @@ fn look(
                 spacing
             }
         },
-    };
+    }
+}
+
+/// What was found, or said, before the look.
+struct Found {
+    camera: Option<CameraFile>,
+    spacing: f32,
+    files: Option<diffuse::Files>,
+}
+
+/// What time is needed for.
+#[derive(Clone, Copy)]
+struct Sequence {
+    /// There is more than one frame.
+    is: bool,
+    /// Motion vectors are wanted.
+    motion: bool,
+}
+
+fn look(
+    args: &RenderArgs,
+    sequence: Sequence,
+    probes: &mut Probes,
+    found: Found,
+    mut file: SettingsFile,
+    environment: Environment,
+    progress: &Progress,
+) -> Outcome<Look> {
+    let Found { camera, spacing, mut files } = found;
     let mut settings = file.look(spacing, environment.light());
     if let Some(density) = probes.rest_density() {
         if density != settings.water.rest_density && file.water.rest_density.is_none() {
@@ -360,6 +374,22 @@ fn look(
     }
     file.apply(&mut settings);
     settings.water.spacing = spacing;
+    if let Some(files) = &mut files {
+        files.choose(&file, &mut settings);
+        if let Some([foam, spray, bubbles]) = files.radii().filter(|_| file.diffuse.radii.is_none())
+        {
+            progress.say(&format!(
+                "diffuse particles with radii of {}, {} and {} (foam, spray, bubbles) and half = {} (found; table \
+                 [diffuse] sets them)",
+                round(foam),
+                round(spray),
+                round(bubbles),
+                round(settings.diffuse.half),
+            ));
+        }
+        // What a picture was drawn with stands in it.
+        file.diffuse.radii = files.radii();
+    }
 
     let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
     let bounds = probes.bounds().unwrap_or(unit).padded(0.5 * spacing);
@@ -388,8 +418,7 @@ fn look(
                     let sun = stage::side_light(eye - bounds.center());
                     environment = session::environment(&args.draw, Some(sun))?;
                     settings.light = file.in_light(environment.light());
-                    file.apply(&mut settings);
-                    settings.water.spacing = spacing;
+                    file.light.put(&mut settings.light);
                     basin
                 }
                 None => stage::ground_under(&bounds),
@@ -448,7 +477,7 @@ fn look(
             let generate = Generate::new(table, spacing, &bounds, seconds, probes)?;
             Some(diffuse::Diffusing::Made(Box::new(generate)))
         }
-        false => None,
+        false => files.map(diffuse::Diffusing::Files),
     };
     Ok(Look {
         camera,
