@@ -108,7 +108,8 @@ mod tests {
     fn block(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<f32>) {
         let at = |i: u16| [i % 20, i / 20 % 20, i / 400].map(|i| SPACING * (f32::from(i) - 9.5));
         let positions: Vec<_> = (0..8000).map(at).collect();
-        let velocities: Vec<_> = positions.iter().map(|p| velocity((*p).into()).to_array()).collect();
+        let velocities: Vec<_> =
+            positions.iter().map(|p| velocity((*p).into()).to_array()).collect();
         let found = trapped(&positions, &velocities, SPACING);
         (positions, found)
     }
@@ -135,11 +136,14 @@ mod tests {
         let (_, part) = block(towards(-1.0));
         let middle = |p: &[f32; 3]| p[0].abs() < 0.3 && p[2].abs() < 0.3;
         let layer = |speeds: &[f32], y: f32| {
-            let all = positions.iter().zip(speeds).filter(|(p, _)| middle(p) && (p[1] - y).abs() < 0.01);
+            let all =
+                positions.iter().zip(speeds).filter(|(p, _)| middle(p) && (p[1] - y).abs() < 0.01);
             all.map(|(_, speed)| *speed).fold(0.0, f32::max)
         };
         let mut expected = 0.0;
-        for (x, y, z) in (-2..=2).flat_map(|x| (1..=2).flat_map(move |y| (-2..=2).map(move |z| (x, y, z)))) {
+        for (x, y, z) in
+            (-2..=2).flat_map(|x| (1..=2).flat_map(move |y| (-2..=2).map(move |z| (x, y, z))))
+        {
             let distance = Vec3::new(x as f32, y as f32, z as f32).length();
             expected += 2.0 * (1.0 + y as f32 / distance) * (1.0 - 0.5 * distance).max(0.0) / WHOLE;
         }
@@ -153,7 +157,8 @@ mod tests {
     fn odd_particles_change_nothing() {
         let flow = |p: Vec3| Vec3::new((40.0 * p.y).sin(), (30.0 * p.z).cos(), p.x);
         let (mut positions, whole) = block(flow);
-        let mut velocities: Vec<_> = positions.iter().map(|p| flow((*p).into()).to_array()).collect();
+        let mut velocities: Vec<_> =
+            positions.iter().map(|p| flow((*p).into()).to_array()).collect();
         for odd in [[f32::NAN; 3], [1.0e30, 0.0, 0.0], [0.0, -f32::INFINITY, 0.0], [-1.0e12; 3]] {
             positions.push(odd);
             velocities.push([1.0; 3]);

@@ -109,7 +109,8 @@ pub struct RenderArgs {
     pub fps: Option<f32>,
     /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
     /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
-    /// given several times; 'generate': made of the water's particles, by where it traps air, breaks and is fast
+    /// given several times. How large and opaque they are is found by how many there are (table [diffuse] sets it: radius,
+    /// or radii = [foam, spray, bubbles], and half); 'generate': made of the water's particles, by where it traps air, breaks and is fast
     /// (table [generate] of --settings). Foam near the eye becomes blobs of soap bubbles where table [bubbles] has
     /// hand_over = [NEAR, FAR], all of it up to NEAR metres. The water's own foam and spray are drawn beside them only where
     /// --foam and --spray ask for it
@@ -166,7 +167,8 @@ pub struct DrawArgs {
     pub supersample: u32,
     /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
     /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
-    /// [foam] also says by what water foams: weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
+    /// [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
+    /// default where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
     /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,
     /// scene units a second, y up) and seed = 0 (of its times)
     #[arg(long, value_name = "FILE")]
@@ -201,14 +203,14 @@ pub struct DrawArgs {
     /// --look thesis 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: Option<u32>,
-    /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
-    /// most, where there are velocities), none, or the Weber number from which on it does. In a sequence
-    /// with ids foam comes and goes in time; frames before those that are drawn are read for it [default: auto;
-    /// with --whitewater none]
+    /// What of the water foams: auto (where it traps air, as neighbours run into each other: a twentieth of it at most, of
+    /// a sequence three tenths at a time, and none of water that rests, flows or falls as a whole; needs velocities), none,
+    /// or the Weber number from which on it does, by its own speed. In a sequence with ids foam comes and goes in time;
+    /// frames before those that are drawn are read for it [default: auto; with --whitewater none]
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub foam: Option<Foaming>,
-    /// Spray, of particles too few together to be a body of water: auto (where densities are known or
-    /// can be found) or none [default: auto; with --whitewater none]
+    /// Spray, of particles that are alone or nearly: auto (by densities of the file or found, table [spray] densities, in
+    /// shares of the rest density [default: 0.33, 0.4, 0.45]) or none [default: auto; with --whitewater none]
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface

@@ -66,7 +66,8 @@ fn kind_of(number: u32) -> usize {
 /// (1 - x^2.25).
 const SHARE: f32 =
     PI * (1.0 + 1.0 / 4.0 + 1.0 / 9.0 + 1.0 / 16.0 + 1.0 / 25.0) / 5.0 * (1.0 - 2.0 / 4.25);
-/// What a column of the mean number of particles hides, where radii can be chosen so.
+/// What a column of the mean number of particles hides where they lie evenly, and radii can be chosen so. Few that lie
+/// anyhow leave gaps, and hide less on average.
 const HIDDEN: f32 = 0.8;
 /// `half` of few particles: the middle of one alone hides 1 / 1.12, as a drop of white water does.
 const FEW: f32 = 0.12;

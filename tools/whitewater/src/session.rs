@@ -18,10 +18,11 @@ use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome};
+use crate::foam;
 use crate::layers;
 use crate::output::{self, PictureFormat, Target};
 use crate::progress::{Progress, Steps};
-use crate::settings::{Found, SettingsFile};
+use crate::settings::{FoamBy, Found, SettingsFile};
 use crate::shore::Shores;
 use crate::timings::Times;
 
@@ -479,14 +480,29 @@ impl<'a> Session<'a> {
         })?;
         if let (Some(settings), Some(_)) = (&self.look.foam, &particles.velocities) {
             let fps = self.look.fps.filter(|_| particles.ids.is_some());
-            times.step("foam", number, || match (fps, self.memory.stepped) {
-                (None, _) => headless.step(None, settings),
-                (Some(fps), Some(last)) => {
-                    headless.step(Some(number.saturating_sub(last) as f32 / fps), settings)
+            let (ids, spacing) = (particles.ids.as_deref(), self.look.settings.water.spacing);
+            let by_air = self.look.file.foam.by == Some(FoamBy::Air);
+            let drive = by_air
+                .then(|| times.step("trapped air", number, || foam::drive(particles, spacing)));
+            times.step("foam", number, || {
+                let drive = drive.flatten();
+                if let Some(drive) = &drive {
+                    headless.motion(drive, ids)?;
                 }
-                // It was as in the first frame for long enough.
-                (Some(_), None) => {
-                    (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
+                match (fps, self.memory.stepped) {
+                    (None, _) => headless.step(None, settings),
+                    (Some(fps), Some(last)) => {
+                        headless.step(Some(number.saturating_sub(last) as f32 / fps), settings)
+                    }
+                    // It was as in the first frame for long enough.
+                    (Some(_), None) => {
+                        (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
+                    }
+                }?;
+                // It moves as the water does.
+                match (&particles.velocities, drive) {
+                    (Some(velocities), Some(_)) => headless.motion(velocities, ids),
+                    _ => Ok(()),
                 }
             })?;
             self.memory.stepped = Some(number);
