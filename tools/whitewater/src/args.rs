@@ -167,6 +167,7 @@ pub struct DrawArgs {
     pub supersample: u32,
     /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
     /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
+    /// [water] medium is 'clear', 'pool', 'ocean' or 'milk' [default: of particles clear under 2 metres across, else pool]. Table
     /// [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
     /// default where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
     /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,

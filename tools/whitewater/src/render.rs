@@ -4,6 +4,7 @@ use glam::Vec3;
 use whitewater::Settings;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
+use whitewater::water::settings::Medium;
 
 use crate::args::{Foaming, RenderArgs, SprayArg, Whitewater};
 use crate::bounds::{self, Bounds};
@@ -316,6 +317,9 @@ const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
 /// library's extinction makes it steam.)
 const FOAM_RELIEF: f32 = 0.1;
 
+/// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
+const SMALL: f32 = 2.0;
+
 /// The rest spacing: as it is said, or found.
 fn spacing(args: &RenderArgs, probes: &Probes, file: &SettingsFile, progress: &Progress) -> f32 {
     match (args.radius, file.water.spacing) {
@@ -365,6 +369,8 @@ fn look(
     progress: &Progress,
 ) -> Outcome<Look> {
     let Found { camera, spacing, mut files } = found;
+    let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
+    let bounds = probes.bounds().unwrap_or(unit).padded(0.5 * spacing);
     let mut settings = file.look(spacing, environment.light());
     if let Some(density) = probes.rest_density() {
         if density != settings.water.rest_density && file.water.rest_density.is_none() {
@@ -377,6 +383,9 @@ fn look(
     if !file.is_thesis() {
         settings.spray.densities = SPRAY_DENSITIES;
         settings.foam.relief = FOAM_RELIEF;
+        if bounds.size().x.max(bounds.size().z) < SMALL {
+            settings.water.medium = Medium::CLEAR;
+        }
     }
     file.apply(&mut settings);
     settings.water.spacing = spacing;
@@ -397,12 +406,9 @@ fn look(
         file.diffuse.radii = files.radii();
     }
 
-    let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
-    let bounds = probes.bounds().unwrap_or(unit).padded(0.5 * spacing);
     let camera = camera.unwrap_or_else(|| {
-        let positions: Vec<[f32; 3]> =
-            probes.frames.iter().flat_map(|f| f.positions.iter().copied()).collect();
-        let camera = CameraFile::of_particles(&positions, &bounds, args.camera.fov, args.draw.size);
+        let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+        let camera = CameraFile::of_particles(&frames, &bounds, args.camera.fov, args.draw.size);
         progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
         camera
     });

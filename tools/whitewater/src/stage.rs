@@ -110,7 +110,7 @@ pub fn basin_round(
     let floor = bounds.min.y;
     let tile = Pattern::Tiles { size: round_length(longest / 30.0), band: None };
     let tiles =
-        Material { base_color: [0.50, 0.62, 0.63], roughness: 0.22, pattern: tile, texture: None };
+        Material { base_color: [0.66, 0.66, 0.64], roughness: 0.22, pattern: tile, texture: None };
     let concrete = Material::named("concrete")?;
     // Inner faces, where the drawn spheres end.
     let reach = 0.66 * spacing;
