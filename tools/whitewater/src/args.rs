@@ -8,6 +8,7 @@ use crate::pattern::Source;
 use crate::settings::LookWord;
 use crate::shore::Which as Shore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use whitewater::io::picture::Tone;
 use whitewater::water::settings::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
 
@@ -128,6 +129,11 @@ pub struct RenderArgs {
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
+    /// Of what the basin and the ground are that are found: pool (tiles, paving), studio (plain and pale), beach (sand and
+    /// stone) or lab (small white tiles, concrete); or none: nothing but the water, its foam and spray, premultiplied, with
+    /// the share in A that they hide of what is behind them (the mean of three channels), in EXR and PNG [default: pool]
+    #[arg(long, value_enum, conflicts_with = "scene")]
+    pub set: Option<SetArg>,
     #[command(flatten)]
     pub camera: CameraArgs,
     #[command(flatten)]
@@ -191,9 +197,15 @@ pub struct DrawArgs {
     /// down; of the first frame of a sequence 0, of the scene by the camera alone
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
-    /// Brightness of the PNG in stops, on top of what fits the environment
-    #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
+    /// Brightness of the PNG: 'auto', as a meter finds it that is held into the light of the environment, so that it is the
+    /// same in all frames of a sequence; or stops on top of that
+    #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
+    /// How the light of the picture becomes that of the PNG: aces (the Academy's, a film's, by Hill's fit), agx (Sobotka's:
+    /// less contrast, bright colours go pale), neutral (Khronos': dim colours as they are) or linear (clipped). EXR is
+    /// linear light always
+    #[arg(long, value_enum, default_value_t = ToneArg::Aces)]
+    pub tone: ToneArg,
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
     pub smoothing_level: u32,
@@ -370,6 +382,46 @@ impl From<SplatArg> for Splat {
     }
 }
 
+/// What stands round the water.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum SetArg {
+    /// Tiles, concrete and paving.
+    #[default]
+    Pool,
+    /// Plain and pale.
+    Studio,
+    /// Sand and stone.
+    Beach,
+    /// Small white tiles and concrete.
+    Lab,
+    /// Nothing.
+    None,
+}
+
+/// From light to a screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum ToneArg {
+    /// Clipped.
+    Linear,
+    /// Khronos' PBR Neutral.
+    Neutral,
+    /// The Academy's.
+    Aces,
+    /// Sobotka's.
+    Agx,
+}
+
+impl From<ToneArg> for Tone {
+    fn from(tone: ToneArg) -> Self {
+        match tone {
+            ToneArg::Linear => Self::Linear,
+            ToneArg::Neutral => Self::Neutral,
+            ToneArg::Aces => Self::Aces,
+            ToneArg::Agx => Self::Agx,
+        }
+    }
+}
+
 /// What casts shadows on what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ShadowArg {
@@ -424,6 +476,13 @@ fn finite(text: &str) -> Result<f32, String> {
     match text.trim().parse::<f32>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err("expected a number".into()),
+    }
+}
+
+fn exposure(text: &str) -> Result<f32, String> {
+    match text {
+        "auto" => Ok(0.0),
+        stops => finite(stops).map_err(|_| "expected auto, or stops".into()),
     }
 }
 
@@ -483,6 +542,8 @@ mod tests {
         assert_eq!(times_as_large("4"), Ok(4));
         assert!(times_as_large("0").is_err() && times_as_large("3").is_err());
         assert_eq!(foaming("80"), Ok(Foaming::From(80.0)));
+        assert_eq!((exposure("auto"), exposure("-1.5")), (Ok(0.0), Ok(-1.5)));
+        assert!(exposure("bright").is_err());
         assert!(foaming("-1").is_err() && foaming("much").is_err());
         assert_eq!(vector("1,-2, 3e1"), Ok([1.0, -2.0, 30.0]));
         assert!(vector("1,2").is_err() && vector("1,2,nan").is_err());

@@ -69,6 +69,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         file,
         environment,
         scene,
+        matte: false,
         foam,
         diffuse,
         bubbles: None,

@@ -2,11 +2,12 @@
 
 use glam::Vec3;
 use whitewater::Settings;
+use whitewater::headless::scene::Scene;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 use whitewater::water::settings::Medium;
 
-use crate::args::{Foaming, RenderArgs, SprayArg, Whitewater};
+use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Whitewater};
 use crate::bounds::{self, Bounds};
 use crate::bubbles::{self, Blobs};
 use crate::camera::CameraFile;
@@ -413,8 +414,10 @@ fn look(
         camera
     });
     let mut environment = environment;
+    let set = args.set.unwrap_or_default();
     let mut scene = match &args.scene {
-        Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds),
+        None if set == SetArg::None => Scene::default(),
+        Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, set),
         Some(path) => stage::read(path)?,
         None => {
             let frames: Vec<_> =
@@ -422,7 +425,7 @@ fn look(
             let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
             let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
             let eye = view.inverse().transform_point3(Vec3::ZERO);
-            match stage::basin_round(&frames, &bounds, spacing, eye) {
+            match stage::basin_round(&frames, &bounds, spacing, eye, set) {
                 Some(basin) => {
                     progress
                         .say("a basin round the water, which fills a box (--scene ground: none)");
@@ -433,7 +436,7 @@ fn look(
                     file.light.put(&mut settings.light);
                     basin
                 }
-                None => stage::ground_under(&bounds),
+                None => stage::ground_under(&bounds, set),
             }
         }
     };
@@ -501,6 +504,7 @@ fn look(
         file,
         environment,
         scene,
+        matte: set == SetArg::None,
         foam,
         diffuse,
         bubbles: None,

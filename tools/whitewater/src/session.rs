@@ -8,7 +8,7 @@ use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
-use whitewater::io::picture::{self, Layers};
+use whitewater::io::picture::{self, Display, Layers};
 use whitewater::water::{FoamSettings, NoiseLook, Rule, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
@@ -34,6 +34,8 @@ pub struct Look {
     pub file: SettingsFile,
     pub environment: Environment,
     pub scene: Scene,
+    /// Nothing but the water is drawn, with the share that it hides.
+    pub matte: bool,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
     /// Diffuse particles beside the water.
@@ -566,14 +568,19 @@ impl<'a> Session<'a> {
         }
         self.look.settings.foam.time = time;
         self.look.settings.shore.time = time;
+        let background =
+            if self.look.matte { Background::Color([0.0; 3]) } else { Background::Scene };
         for _ in 0..self.args.repeat.get() {
             times.step("draw", number, || {
-                headless.render(&camera, &self.look.settings, &Background::Scene)
+                headless.render(&camera, &self.look.settings, &background)
             })?;
             times.passes(number, headless.timings());
         }
         let layers = times.step("read back", number, || {
             let mut layers = layers::collect(headless, self.args.size, &self.wanted, &lens)?;
+            if self.look.matte {
+                layers::matte(headless, &camera, &self.look.settings, &mut layers)?;
+            }
             if self.wanted.contains(&layers::LADDER) {
                 layers::ladder(headless, &camera, &self.look.settings, &mut layers)?;
             }
@@ -627,9 +634,10 @@ impl<'a> Session<'a> {
     fn write(&self, format: PictureFormat, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
         let look = &self.look;
         let exposure = look.environment.exposure() + look.exposure + self.args.exposure;
+        let display = Display { exposure, tone: self.args.tone.into(), alpha: look.matte };
         output::write(path, |to| match format {
             PictureFormat::Exr => picture::write_exr(layers, to),
-            PictureFormat::Png => picture::write_png(layers, exposure, to),
+            PictureFormat::Png => picture::write_png_as(layers, &display, to),
         })
     }
 
