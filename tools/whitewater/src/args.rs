@@ -129,8 +129,8 @@ pub struct RenderArgs {
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
-    /// Of what the basin and the ground are that are found: pool (tiles, paving), studio (plain and pale), beach (sand and
-    /// stone) or lab (small white tiles, concrete); or none: nothing but the water, its foam and spray, premultiplied, with
+    /// Of what the basin and the ground are that are found: pool (tiles, paving), studio (plain grey), beach (sand and
+    /// stone) or lab (small white tiles, concrete, a grey floor); or none: nothing but the water, its foam and spray, premultiplied, with
     /// the share in A that they hide of what is behind them (the mean of three channels), in EXR and PNG [default: pool]
     #[arg(long, value_enum, conflicts_with = "scene")]
     pub set: Option<SetArg>,
@@ -388,7 +388,7 @@ pub enum SetArg {
     /// Tiles, concrete and paving.
     #[default]
     Pool,
-    /// Plain and pale.
+    /// Plain grey.
     Studio,
     /// Sand and stone.
     Beach,

@@ -55,9 +55,10 @@ pub fn settings(
             let all = moving.flat_map(|frame| numbers(frame, &foam, spray)).map(|(_, n)| n);
             let calm = quantile(all.collect(), CALM)?;
             let calm = calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0));
-            // Nothing will come: a frame by itself foams from half of it on.
-            let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > 0.5 * floor);
-            if frames.len() == 1 && floor > 0.0 && !frames.iter().any(some) {
+            // Nothing will come: a frame by itself foams from half of it on, and between frames at rest nothing does.
+            let least = if frames.len() == 1 { 0.5 * floor } else { 0.0 };
+            let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > least);
+            if floor > 0.0 && !frames.iter().any(some) {
                 return None;
             }
             calm.max(floor)

@@ -32,16 +32,18 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
             concrete,
         ],
         SetArg::Studio => [
-            of([0.42; 3], 0.95, Pattern::Plain),
+            of([0.2; 3], 0.95, Pattern::Plain),
             of([0.62; 3], 0.5, Pattern::Plain),
-            of([0.5; 3], 0.6, Pattern::Plain),
+            of([0.45; 3], 0.6, Pattern::Plain),
         ],
         SetArg::Beach => [
             of([0.62, 0.52, 0.38], 0.95, Pattern::Sand),
             of([0.62, 0.52, 0.38], 0.9, Pattern::Sand),
             of([0.45, 0.42, 0.38], 0.85, Pattern::Stone { course: round_length(longest / 30.0) }),
         ],
-        SetArg::Lab => [concrete.clone(), of([0.74, 0.74, 0.73], 0.15, tiles(60.0)), concrete],
+        SetArg::Lab => {
+            [of([0.3; 3], 0.9, Pattern::Plain), of([0.74, 0.74, 0.73], 0.15, tiles(60.0)), concrete]
+        }
     }
 }
 
