@@ -68,11 +68,14 @@ fn foam_of_a_simulation_does_not_flicker() {
     let cache = data.join("double_dam_pillar");
     let files = format!("{}/ParticleData_Fluid_*.bgeo", cache.display());
     let folder = Folder::new();
-    folder.text("speed.toml", &format!("{RELIEF}by = 'speed'\n"));
-    let by_speed = does_not_flicker(&folder, &format!("{files} --settings speed.toml"), true);
-    // Foam where water churns goes no way: it changes by coming and going. Not more than what runs along.
-    let by_air = does_not_flicker(&folder, &format!("{files} --overwrite"), false);
-    assert!(by_air < 1.1 * by_speed, "{by_air} {by_speed}");
+    let spray = "[spray]\ndensities = [0.6, 0.7, 0.85]\n";
+    folder.text("speed.toml", &format!("{RELIEF}by = 'speed'\n{spray}"));
+    let view = "--eye 2.871,2.567,5.094 --target 0.193,1.177,0.058";
+    does_not_flicker(&folder, &format!("{files} --settings speed.toml {view}"), true);
+    // Where water churns foam goes no way that a vector tells. What it changes by is little: measured, a 75th of a screen's
+    // range from frame to frame where there is any.
+    let churns = does_not_flicker(&folder, &format!("{files} --overwrite"), false);
+    assert!(churns < 0.02, "{churns}");
 }
 
 /// As much shape as a change can be told by: how foam moves is asked, not how flat it is.
