@@ -84,14 +84,14 @@ pub fn aces(c: [f32; 3]) -> [f32; 3] {
 }
 
 /// Troy Sobotka's AgX, by the polynomial of Benjamin Wrensch for its curve: a film's, which takes bright colours to white
-/// by way of pale ones, where [`aces`] and a clipped screen keep them gaudy. Sixteen and a half stops, of which 4 are above
-/// 1. Light counts twice, and what the curve gives to the power of 1.35 (his "punchy" look), so that what is white and lit is
-/// nearly so on the screen.
+/// by way of pale ones, where [`aces`] and a clipped screen keep them gaudy. Its range is sixteen and a half stops, four of
+/// them above white. Light counts twice, and what the curve gives is taken to the power of 1.35 (his "punchy" look), so
+/// that what is white and lit is nearly so on the screen.
 pub fn agx(c: [f32; 3]) -> [f32; 3] {
     const IN: [[f32; 3]; 3] = [
         [0.842_479_06, 0.078_433_6, 0.079_223_745],
         [0.042_328_242, 0.878_468_64, 0.079_166_13],
-        [0.042_375_655, 0.078_433_6, 0.879_142_97],
+        [0.042_375_655, 0.078_433_6, 0.879_143],
     ];
     const OUT: [[f32; 3]; 3] = [
         [1.196_879, -0.098_020_88, -0.099_029_74],
