@@ -104,6 +104,8 @@ mod tests {
 
     const SPACING: f32 = 0.05;
 
+    type Flow = fn(Vec3) -> Vec3;
+
     /// A block of 20 layers of 20 by 20, and what each moves by.
     fn block(velocity: impl Fn(Vec3) -> Vec3) -> (Vec<[f32; 3]>, Vec<f32>) {
         let at = |i: u16| [i % 20, i / 20 % 20, i / 400].map(|i| SPACING * (f32::from(i) - 9.5));
@@ -116,7 +118,7 @@ mod tests {
 
     #[test]
     fn water_that_rests_flows_turns_or_falls_traps_none() {
-        let flows: [(&str, fn(Vec3) -> Vec3); 3] = [
+        let flows: [(&str, Flow); 3] = [
             ("rests", |_| Vec3::ZERO),
             ("flows", |_| Vec3::new(7.0, -3.0, 2.0)),
             ("stretches as a falling jet", |p| Vec3::new(0.0, 2.0 * p.y, 0.0)),
