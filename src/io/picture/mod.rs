@@ -13,7 +13,7 @@ use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 
 pub use normal::normals;
-pub use tone::{neutral, srgb_decode, srgb_encode};
+pub use tone::{Tone, aces, agx, neutral, srgb_decode, srgb_encode};
 
 /// Value of every depth channel where there is nothing.
 pub const EMPTY: f32 = 1.0e10;
@@ -114,14 +114,35 @@ impl Layers {
 
     /// The colour as a screen shows it, sRGB 0 to 1: the tone map of [`write_png`] on linear light.
     pub fn display(&self, exposure: f32) -> Option<Vec<[f32; 3]>> {
+        self.shown(&Display { exposure, ..Display::default() })
+    }
+
+    /// The same by other means.
+    pub fn shown(&self, display: &Display) -> Option<Vec<[f32; 3]>> {
         let mut rgb = self.rgb()?;
+        let alpha = self.channel("A").filter(|_| display.alpha);
         if self.encoding == Encoding::Linear {
-            for c in &mut rgb {
-                *c = neutral(c.map(|v| v * exposure.exp2())).map(srgb_encode);
+            for (i, c) in rgb.iter_mut().enumerate() {
+                let share = alpha.as_ref().map_or(1.0, |alpha| alpha[i]);
+                let whole = if share > 0.0 { share.recip() } else { 0.0 };
+                let lit = c.map(|v| v * whole * display.exposure.exp2());
+                *c = display.tone.map(lit).map(srgb_encode);
             }
         }
         Some(rgb)
     }
+}
+
+/// How linear light is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Display {
+    /// Stops, any, default 0.
+    pub exposure: f32,
+    /// Default [`Tone::Neutral`].
+    pub tone: Tone,
+    /// Channel `A` is the share of a pixel that colours, multiplied by it, are of: in a PNG it is kept, and colours are those
+    /// of that share. Default false: all there is is shown.
+    pub alpha: bool,
 }
 
 /// Why a picture could not be read or put together.
@@ -200,7 +221,15 @@ pub fn write_exr(layers: &Layers, to: impl Write + Seek) -> std::io::Result<()> 
 /// # Errors
 /// What the writer says.
 pub fn write_png(layers: &Layers, exposure: f32, to: impl Write) -> std::io::Result<()> {
-    png::write(layers, exposure, to)
+    write_png_as(layers, &Display { exposure, ..Display::default() }, to)
+}
+
+/// The same by other means.
+///
+/// # Errors
+/// As of [`write_png`].
+pub fn write_png_as(layers: &Layers, display: &Display, to: impl Write) -> std::io::Result<()> {
+    png::write(layers, display, to)
 }
 
 /// Writes numbers from 0 to 1 that are no colours, a texture of distances say, as a 16-bit PNG: `Y` grey, else `R G B A`.
@@ -273,6 +302,29 @@ mod tests {
         for (e, f) in expected.iter().flatten().zip(found.iter().flatten()) {
             assert!((e - f).abs() <= 1.0 / 255.0, "{e} {f}");
         }
+    }
+
+    /// Half of a pixel is grey: the colour of that half, and its share.
+    #[test]
+    fn a_png_keeps_the_share_that_is_covered() {
+        let mut layers = Layers::new(2, 1);
+        for (name, data) in
+            [("R", [0.1, 0.0]), ("G", [0.2, 0.0]), ("B", [0.3, 0.0]), ("A", [0.5, 0.0])]
+        {
+            layers.push(name, 2, 1, data.to_vec()).unwrap();
+        }
+        let mut bytes = Vec::new();
+        let display = Display { alpha: true, tone: Tone::Linear, ..Display::default() };
+        write_png_as(&layers, &display, &mut bytes).unwrap();
+        let back = png::read_png(&bytes).unwrap();
+        for (name, expected) in
+            [("R", srgb_encode(0.2)), ("G", srgb_encode(0.4)), ("B", srgb_encode(0.6)), ("A", 0.5)]
+        {
+            let found = back.channel(name).unwrap();
+            assert!((found[0] - expected).abs() <= 1.0 / 255.0, "{name} {found:?} {expected}");
+        }
+        assert_eq!(back.channel("A").unwrap()[1], 0.0);
+        write_png_as(&layers, &Display::default(), &mut bytes).unwrap();
     }
 
     #[test]

@@ -5,20 +5,24 @@ use std::io::{self, Cursor, Read as _, Write};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError, ImageFormat, ImageReader};
 
-use super::{Encoding, Layers};
+use super::{Display, Encoding, Layers};
 
-pub fn write(layers: &Layers, exposure: f32, to: impl Write) -> io::Result<()> {
+pub fn write(layers: &Layers, display: &Display, to: impl Write) -> io::Result<()> {
     let rgb = layers
-        .display(exposure)
+        .shown(display)
         .ok_or_else(|| io::Error::other("the picture has no channels R, G and B"))?;
-    let mut bytes = Vec::with_capacity(3 * rgb.len());
+    let alpha = layers.channel("A").filter(|_| display.alpha);
+    let mut bytes = Vec::with_capacity(4 * rgb.len());
     for (i, pixel) in rgb.iter().enumerate() {
         let (x, y) = (i % layers.width.max(1), i / layers.width.max(1));
         for (c, value) in pixel.iter().enumerate() {
             bytes.push((value * 255.0 + dither(x, y, c)) as u8);
         }
+        // No dither: none stays none, all all.
+        bytes.extend(alpha.as_ref().map(|alpha| (alpha[i] * 255.0 + 0.5) as u8));
     }
-    encode(layers, &bytes, ExtendedColorType::Rgb8, to)
+    let kind = if alpha.is_some() { ExtendedColorType::Rgba8 } else { ExtendedColorType::Rgb8 };
+    encode(layers, &bytes, kind, to)
 }
 
 fn encode(

@@ -24,6 +24,94 @@ pub fn neutral(c: [f32; 3]) -> [f32; 3] {
     })
 }
 
+/// From scene-referred light to what a screen shows, both linear Rec. 709.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Tone {
+    /// As it is; a screen clips it at 1, each channel by itself.
+    Linear,
+    /// [`neutral`]: what is below 0.72 as it is.
+    #[default]
+    Neutral,
+    /// [`aces`].
+    Aces,
+    /// [`agx`].
+    Agx,
+}
+
+impl Tone {
+    /// A colour in it. Negative and NaN input counts as 0, infinite input as the largest number.
+    pub fn map(self, c: [f32; 3]) -> [f32; 3] {
+        match self {
+            Self::Linear => c.map(light),
+            Self::Neutral => neutral(c),
+            Self::Aces => aces(c),
+            Self::Agx => agx(c),
+        }
+    }
+}
+
+/// A channel that can be reckoned with.
+fn light(v: f32) -> f32 {
+    // NaN goes to 0.
+    if v > 0.0 { v.min(1.0e9) } else { 0.0 }
+}
+
+/// A matrix by its rows.
+fn times(rows: [[f32; 3]; 3], c: [f32; 3]) -> [f32; 3] {
+    rows.map(|row| row[0] * c[0] + row[1] * c[1] + row[2] * c[2])
+}
+
+/// The film curve of the Academy Color Encoding System: Stephen Hill's fit of its reference rendering and output
+/// transforms (RRT and ODT for sRGB). Light counts 1/0.8 times: mid grey is shown a
+/// little darker than it is, and what is white and lit a little darker than white.
+pub fn aces(c: [f32; 3]) -> [f32; 3] {
+    const IN: [[f32; 3]; 3] = [
+        [0.597_19, 0.354_58, 0.048_23],
+        [0.076_00, 0.908_34, 0.015_66],
+        [0.028_40, 0.133_83, 0.837_77],
+    ];
+    const OUT: [[f32; 3]; 3] = [
+        [1.604_75, -0.531_08, -0.073_67],
+        [-0.102_08, 1.108_13, -0.006_05],
+        [-0.003_27, -0.072_76, 1.076_02],
+    ];
+    let fit = |v: f32| {
+        let above = v * (v + 0.024_578_6) - 0.000_090_537;
+        above / (v * (0.983_729 * v + 0.432_951) + 0.238_081)
+    };
+    let c = times(IN, c.map(|v| light(v) / 0.8)).map(fit);
+    times(OUT, c).map(|v| v.clamp(0.0, 1.0))
+}
+
+/// Troy Sobotka's AgX, by the polynomial of Benjamin Wrensch for its curve: a film's, which takes bright colours to white
+/// by way of pale ones, where [`aces`] and a clipped screen keep them gaudy. Its range is sixteen and a half stops, four of
+/// them above white. Light counts twice, and what the curve gives is taken to the power of 1.35 (his "punchy" look), so
+/// that what is white and lit is nearly so on the screen.
+pub fn agx(c: [f32; 3]) -> [f32; 3] {
+    const IN: [[f32; 3]; 3] = [
+        [0.842_479_06, 0.078_433_6, 0.079_223_745],
+        [0.042_328_242, 0.878_468_64, 0.079_166_13],
+        [0.042_375_655, 0.078_433_6, 0.879_143],
+    ];
+    const OUT: [[f32; 3]; 3] = [
+        [1.196_879, -0.098_020_88, -0.099_029_74],
+        [-0.052_896_85, 1.151_903_1, -0.098_961_18],
+        [-0.052_971_635, -0.098_043_45, 1.151_073_7],
+    ];
+    const STOPS: [f32; 2] = [-12.473_93, 4.026_069];
+    const GAIN: f32 = 2.0;
+    const POWER: f32 = 1.35;
+    let curve = |v: f32| {
+        let stops = v.max(1.0e-10).log2().clamp(STOPS[0], STOPS[1]);
+        let x = (stops - STOPS[0]) / (STOPS[1] - STOPS[0]);
+        // Highest power first.
+        let terms = [15.5, -40.14, 31.96, -6.868, 0.429_8, 0.119_1, -0.002_32];
+        terms.into_iter().fold(0.0, |sum, term| sum * x + term).max(0.0).powf(POWER)
+    };
+    let c = times(IN, c.map(|v| GAIN * light(v))).map(curve);
+    times(OUT, c).map(|v| v.clamp(0.0, 1.0).powf(2.2))
+}
+
 /// Linear to sRGB's curve; clamped to 0 to 1.
 pub fn srgb_encode(v: f32) -> f32 {
     if v <= 0.003_130_8 {
@@ -55,6 +143,40 @@ mod tests {
         }
         assert_eq!(neutral([f32::NAN, -1.0, 0.0]), [0.0; 3]);
         assert!(neutral([f32::INFINITY; 3]).iter().all(|v| *v > 0.99 && *v <= 1.0));
+    }
+
+    /// Film curves rise, stay in the range, keep grey grey and mid grey and white about where they are; a bright colour
+    /// ends pale, not gaudy.
+    #[test]
+    fn film_curves_rise_to_white() {
+        for (tone, mid, white) in [(Tone::Aces, 0.16..0.2, 0.7), (Tone::Agx, 0.17..0.3, 0.55)] {
+            let of = |c| tone.map(c);
+            let mut before = -1.0;
+            for i in 0..2400 {
+                let v = 1.0e-4 * 1.01_f32.powi(i);
+                let [r, g, b] = of([v; 3]);
+                assert!(
+                    (0.0..=1.0).contains(&g) && g >= before,
+                    "{tone:?} {v}: {g} after {before}"
+                );
+                assert!((r - g).abs() < 2.0e-3 && (b - g).abs() < 2.0e-3, "{tone:?}: {r} {g} {b}");
+                before = g;
+            }
+            let [_, grey, _] = of([0.2; 3]);
+            let [_, lit, _] = of([1.1; 3]);
+            assert!(
+                mid.contains(&grey) && lit > white && before > 0.97,
+                "{tone:?}: {grey} {lit} {before}"
+            );
+            assert!(of([0.0; 3]).iter().all(|v| *v < 1.0e-3), "{tone:?}");
+            assert_eq!(of([f32::NAN, -1.0, 0.0]), of([0.0; 3]));
+            assert!(of([f32::INFINITY; 3]).iter().all(|v| *v > 0.95 && *v <= 1.0));
+        }
+        // The cyan of light that water gathers.
+        let least = |tone: Tone| tone.map([1.0, 6.0, 6.0])[0];
+        assert!(least(Tone::Agx) > 0.6, "{}", least(Tone::Agx));
+        assert_eq!(Tone::Linear.map([0.5, 7.0, f32::NAN]), [0.5, 7.0, 0.0]);
+        assert_eq!(Tone::default().map([0.9, 3.0, 0.1]), neutral([0.9, 3.0, 0.1]));
     }
 
     #[test]

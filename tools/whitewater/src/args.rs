@@ -8,6 +8,7 @@ use crate::pattern::Source;
 use crate::settings::LookWord;
 use crate::shore::Which as Shore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use whitewater::io::picture::Tone;
 use whitewater::water::settings::{Rule, Splat};
 use whitewater_simulate::{FPS, FRAMES, Scene};
 
@@ -109,7 +110,8 @@ pub struct RenderArgs {
     pub fps: Option<f32>,
     /// Diffuse particles of the same frames (spray, foam, bubbles), as FoamGenerator writes them: files named as the
     /// inputs, with their types and lifetimes, or KIND=FILES of one kind each, foam, spray or bubble; may be
-    /// given several times; 'generate': made of the water's particles, by where it traps air, breaks and is fast
+    /// given several times. How large and opaque they are is found by how many there are (table [diffuse] sets it: radius,
+    /// or radii = [foam, spray, bubbles], and half); 'generate': made of the water's particles, by where it traps air, breaks and is fast
     /// (table [generate] of --settings). Foam near the eye becomes blobs of soap bubbles where table [bubbles] has
     /// hand_over = [NEAR, FAR], all of it up to NEAR metres. The water's own foam and spray are drawn beside them only where
     /// --foam and --spray ask for it
@@ -127,6 +129,11 @@ pub struct RenderArgs {
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
+    /// Of what the basin and the ground are that are found: pool (tiles, paving), studio (plain grey), beach (sand and
+    /// stone) or lab (small white tiles, concrete, a grey floor); or none: nothing but the water, its foam and spray, premultiplied, with
+    /// the share in A that they hide of what is behind them (the mean of three channels), in EXR and PNG [default: pool]
+    #[arg(long, value_enum, conflicts_with = "scene")]
+    pub set: Option<SetArg>,
     #[command(flatten)]
     pub camera: CameraArgs,
     #[command(flatten)]
@@ -167,7 +174,9 @@ pub struct DrawArgs {
     pub supersample: u32,
     /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
     /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
-    /// [foam] also says by what water foams: weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
+    /// [water] medium is 'clear', 'pool', 'ocean' or 'milk' [default: of particles clear under 2 metres across, else pool]. Table
+    /// [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
+    /// default where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
     /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,
     /// scene units a second, y up) and seed = 0 (of its times)
     #[arg(long, value_name = "FILE")]
@@ -189,9 +198,15 @@ pub struct DrawArgs {
     /// down; of the first frame of a sequence 0, of the scene by the camera alone
     #[arg(long, value_name = "NAMES", default_value = "all")]
     pub layers: String,
-    /// Brightness of the PNG in stops, on top of what fits the environment
-    #[arg(long, value_name = "EV", default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
+    /// Brightness of the PNG: 'auto', as a meter finds it that is held into the light of the environment, so that it is the
+    /// same in all frames of a sequence; or stops on top of that
+    #[arg(long, value_name = "auto|STOPS", default_value = "auto", value_parser = exposure, allow_hyphen_values = true)]
     pub exposure: f32,
+    /// How the light of the picture becomes that of the PNG: aces (the Academy's, a film's, by Hill's fit), agx (Sobotka's:
+    /// less contrast, bright colours go pale), neutral (Khronos': dim colours as they are) or linear (clipped). EXR is
+    /// linear light always
+    #[arg(long, value_enum, default_value_t = ToneArg::Aces)]
+    pub tone: ToneArg,
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]
     pub smoothing_level: u32,
@@ -202,14 +217,14 @@ pub struct DrawArgs {
     /// --look thesis 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: Option<u32>,
-    /// What of the water foams: auto (the fastest twentieth of it, of a sequence three tenths at a time at
-    /// most, where there are velocities), none, or the Weber number from which on it does. In a sequence
-    /// with ids foam comes and goes in time; frames before those that are drawn are read for it [default: auto;
-    /// with --whitewater none]
+    /// What of the water foams: auto (where it traps air, as neighbours run into each other: a twentieth of it at most, of
+    /// a sequence three tenths at a time, and none of water that rests, flows or falls as a whole; needs velocities), none,
+    /// or the Weber number from which on it does, by its own speed. In a sequence with ids foam comes and goes in time;
+    /// frames before those that are drawn are read for it [default: auto; with --whitewater none]
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub foam: Option<Foaming>,
-    /// Spray, of particles too few together to be a body of water: auto (where densities are known or
-    /// can be found) or none [default: auto; with --whitewater none]
+    /// Spray, of particles that are alone or nearly: auto (by densities of the file or found, table [spray] densities, in
+    /// shares of the rest density [default: 0.33, 0.4, 0.45]) or none [default: auto; with --whitewater none]
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface
@@ -368,6 +383,46 @@ impl From<SplatArg> for Splat {
     }
 }
 
+/// What stands round the water.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum SetArg {
+    /// Tiles, concrete and paving.
+    #[default]
+    Pool,
+    /// Plain grey.
+    Studio,
+    /// Sand and stone.
+    Beach,
+    /// Small white tiles and concrete.
+    Lab,
+    /// Nothing.
+    None,
+}
+
+/// From light to a screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum ToneArg {
+    /// Clipped.
+    Linear,
+    /// Khronos' PBR Neutral.
+    Neutral,
+    /// The Academy's.
+    Aces,
+    /// Sobotka's.
+    Agx,
+}
+
+impl From<ToneArg> for Tone {
+    fn from(tone: ToneArg) -> Self {
+        match tone {
+            ToneArg::Linear => Self::Linear,
+            ToneArg::Neutral => Self::Neutral,
+            ToneArg::Aces => Self::Aces,
+            ToneArg::Agx => Self::Agx,
+        }
+    }
+}
+
 /// What casts shadows on what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ShadowArg {
@@ -422,6 +477,13 @@ fn finite(text: &str) -> Result<f32, String> {
     match text.trim().parse::<f32>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err("expected a number".into()),
+    }
+}
+
+fn exposure(text: &str) -> Result<f32, String> {
+    match text {
+        "auto" => Ok(0.0),
+        stops => finite(stops).map_err(|_| "expected auto, or stops".into()),
     }
 }
 
@@ -481,6 +543,8 @@ mod tests {
         assert_eq!(times_as_large("4"), Ok(4));
         assert!(times_as_large("0").is_err() && times_as_large("3").is_err());
         assert_eq!(foaming("80"), Ok(Foaming::From(80.0)));
+        assert_eq!((exposure("auto"), exposure("-1.5")), (Ok(0.0), Ok(-1.5)));
+        assert!(exposure("bright").is_err());
         assert!(foaming("-1").is_err() && foaming("much").is_err());
         assert_eq!(vector("1,-2, 3e1"), Ok([1.0, -2.0, 30.0]));
         assert!(vector("1,2").is_err() && vector("1,2,nan").is_err());

@@ -11,6 +11,11 @@ use crate::bounds::Bounds;
 use crate::failure::{Failure, Outcome};
 
 const DEFAULT_FOV: f32 = 40.0;
+/// Degrees that a view that is found looks down by, on a tall splash and on a flat pool: near walls hide little.
+const LOWEST: f32 = 30.0;
+const HIGHEST: f32 = 34.0;
+/// Room above the water, of what of it is above the middle.
+const HEADROOM: f32 = 1.12;
 
 /// A camera as its file has it: the first six, or `view` and `projection`; or `keys`, by which it
 /// moves, and for which the others hold but eye and target.
@@ -199,28 +204,33 @@ impl CameraFile {
         Ok(Camera { view: Mat4::look_at_rh(eye, target, up), projection })
     }
 
-    /// A three-quarter view from a little above, with all of the bulk in the frame.
+    /// A three-quarter view from above, over the walls that may stand round it, with all of the bulk of each frame in the
+    /// picture and room above it.
     pub fn of_particles(
-        positions: &[[f32; 3]],
+        frames: &[&[[f32; 3]]],
         bounds: &Bounds,
         fov: Option<f32>,
         size: (u32, u32),
     ) -> Self {
         let fov = fov.unwrap_or(DEFAULT_FOV);
-        let step = positions.len().div_ceil(20_000).max(1);
-        let mut points: Vec<Vec3> = positions
-            .iter()
-            .step_by(step)
-            .map(|p| Vec3::from(*p))
-            .filter(|p| bounds.contains(*p))
-            .collect();
-        points.extend([bounds.min, bounds.max]);
         let size3 = bounds.size();
+        // What a frame has by its own: a splash that is over in a moment is no stray of the whole sequence.
+        let mut frames: Vec<Vec<Vec3>> = frames
+            .iter()
+            .map(|positions| {
+                let step = positions.len().div_ceil(20_000).max(1);
+                let points = positions.iter().step_by(step).map(|p| Vec3::from(*p));
+                points.filter(|p| bounds.contains(*p)).collect()
+            })
+            .collect();
+        // The floor, with what stands round it.
+        let corner = |x: f32, z: f32| bounds.min + size3 * Vec3::new(x, 0.0, z);
+        frames.push(vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(1.0, 1.0)]);
         // The longer side faces the camera.
         let turn = if size3.x >= size3.z { 28.0_f32 } else { 62.0 }.to_radians();
-        // A flat pool is looked at from higher up than a tall splash, behind which the horizon belongs.
+        // A flat pool is looked at from higher up than a tall splash.
         let tall = (size3.y / size3.x.max(size3.z).max(1.0e-9)).clamp(0.0, 1.0);
-        let rise = (26.0 - 14.0 * tall).to_radians();
+        let rise = (HIGHEST - (HIGHEST - LOWEST) * tall).to_radians();
         let back =
             Vec3::new(turn.sin() * rise.cos(), rise.sin(), turn.cos() * rise.cos()).normalize();
         let right = Vec3::Y.cross(back).normalize();
@@ -231,20 +241,25 @@ impl CameraFile {
         let mut target = bounds.center();
         let mut distance = 0.0_f32;
         // Each round centres what is seen and steps back as far as it needs.
-        for _ in 0..6 {
-            let needs = points.iter().map(|p| {
-                let d = *p - target;
-                (d.dot(right).abs() / tan_x).max(d.dot(up).abs() / tan_y) + d.dot(back)
-            });
-            distance = most(needs);
-            let seen = |axis: Vec3| {
-                points.iter().map(move |p| {
-                    let d = *p - target;
-                    d.dot(axis) / (distance - d.dot(back)).max(1.0e-6)
-                })
+        for _ in 0..8 {
+            let above = |d: Vec3| {
+                let above = d.dot(up);
+                if above > 0.0 { HEADROOM * above } else { -above }
             };
-            let middle = |axis| 0.5 * (most(seen(axis)) - most(seen(axis).map(|v| -v))) * distance;
-            target += right * middle(right) + up * middle(up);
+            let needs = |p: &Vec3| {
+                let d = *p - target;
+                (d.dot(right).abs() / tan_x).max(above(d) / tan_y) + d.dot(back)
+            };
+            distance = most(frames.iter().map(|points| points.iter().map(needs).collect()));
+            let seen = |axis: Vec3, more: f32| {
+                let seen = move |p: &Vec3| {
+                    let d = *p - target;
+                    more * d.dot(axis) / (distance - d.dot(back)).max(1.0e-6)
+                };
+                most(frames.iter().map(|points| points.iter().map(seen).collect()))
+            };
+            let middle = |axis, more| 0.5 * (seen(axis, more) - seen(-axis, 1.0)) * distance;
+            target += right * middle(right, 1.0) + up * middle(up, HEADROOM);
         }
         if !(distance.is_finite() && distance > 0.0) {
             distance = 1.0;
@@ -265,14 +280,16 @@ impl CameraFile {
     }
 }
 
-/// The largest of some values, but for the farthest drops: a picture may lose one in a hundred.
-fn most(values: impl Iterator<Item = f32>) -> f32 {
-    let mut values: Vec<f32> = values.collect();
-    values.sort_unstable_by(f32::total_cmp);
-    let Some(&last) = values.last() else { return 0.0 };
-    let bulk = values[values.len() - 1 - values.len() / 100];
-    let middle = values[values.len() / 2];
-    last.min(bulk + 0.25 * (bulk - middle))
+/// The largest of the values of each frame, but for the farthest drops: a picture may lose one in two hundred.
+fn most(frames: impl Iterator<Item = Vec<f32>>) -> f32 {
+    let of_frame = |mut values: Vec<f32>| {
+        values.sort_unstable_by(f32::total_cmp);
+        let last = *values.last()?;
+        let bulk = values[values.len() - 1 - values.len() / 200];
+        let middle = values[values.len() / 2];
+        Some(last.min(bulk + 0.35 * (bulk - middle).abs()))
+    };
+    frames.filter_map(of_frame).reduce(f32::max).unwrap_or(0.0)
 }
 
 /// A perspective camera taken apart, for what the CPU works out.
@@ -340,7 +357,7 @@ mod tests {
             .collect();
         let bounds = Bounds::of_bulk(&positions).unwrap();
         for size in [(1280, 720), (300, 900), (1, 1)] {
-            let file = CameraFile::of_particles(&positions, &bounds, None, size);
+            let file = CameraFile::of_particles(&[&positions], &bounds, None, size);
             let camera = file.camera(size).unwrap();
             let mut most = 0.0_f32;
             for p in &positions {
@@ -365,12 +382,36 @@ mod tests {
             let foot = camera.projection * camera.view * still.min.extend(1.0);
             (top.y / top.w - foot.y / foot.w).abs()
         };
-        let alone = CameraFile::of_particles(&positions, &still, None, (1280, 720));
+        let alone = CameraFile::of_particles(&[&positions], &still, None, (1280, 720));
         // One in two hundred, spread over three times the height.
         positions.extend((0..20).map(|i| [0.8, 0.8 + 0.1 * i as f32, 0.8]));
         let bounds = Bounds::of_bulk(&positions).unwrap();
-        let splash = CameraFile::of_particles(&positions, &bounds, None, (1280, 720));
+        let splash = CameraFile::of_particles(&[&positions], &bounds, None, (1280, 720));
         assert!(seen(&splash) > 0.7 * seen(&alone), "{} of {}", seen(&splash), seen(&alone));
+    }
+
+    /// One of sixteen frames has a splash: less than one in two hundred of all particles, and a tenth of its own. It is in
+    /// the picture, with room above it, and the view is down on what lies flat.
+    #[test]
+    fn a_moments_splash_is_in_the_picture() {
+        let pool: Vec<[f32; 3]> = (0..4096)
+            .map(|i| [(i % 16) as f32 * 0.1, (i / 16 % 16) as f32 * 0.03, (i / 256) as f32 * 0.1])
+            .collect();
+        let mut splash = pool.clone();
+        let drops = 4096 / 20;
+        splash.truncate(4096 - drops);
+        splash.extend((0..drops).map(|i| [0.8, 0.5 + 1.5 * i as f32 / drops as f32, 0.8]));
+        let mut frames = vec![&pool[..]; 15];
+        frames.push(&splash);
+        let bounds = frames.iter().filter_map(|f| Bounds::of_bulk(f)).reduce(|a, b| a.union(&b));
+        let file = CameraFile::of_particles(&frames, &bounds.unwrap(), None, (1280, 720));
+        let camera = file.camera((1280, 720)).unwrap();
+        let top = camera.projection * camera.view * Vec4::new(0.8, 2.0, 0.8, 1.0);
+        let top = top.y / top.w;
+        assert!((-0.9..-0.5).contains(&top), "{top}");
+        let (eye, target) = (Vec3::from(file.eye.unwrap()), Vec3::from(file.target.unwrap()));
+        let down = (eye - target).normalize().y.asin().to_degrees();
+        assert!((LOWEST - 0.01..HIGHEST).contains(&down), "{down}");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::foam;
 use crate::output;
 use crate::progress::Progress;
 use crate::session::{self, Look, Session};
-use crate::settings::SettingsFile;
+use crate::settings::{FoamBy, SettingsFile};
 
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
 const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
@@ -40,7 +40,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     for target in &checked.0 {
         output::probe(&target.path(0))?;
     }
-    let file = SettingsFile::of_args(&args.draw)?;
+    let mut file = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, Some(SUN))?;
     let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
     let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
@@ -57,7 +57,9 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let foam = args.draw.foam.unwrap_or(Foaming::Auto);
     let spray = args.draw.spray != Some(SprayArg::None);
     let frames = std::slice::from_ref(&particles);
-    let foam = foam::settings(foam, &file.foam, frames, &[0.0], &settings);
+    // Its foam is made for it.
+    let by = *file.foam.by.get_or_insert(FoamBy::Speed);
+    let foam = foam::settings(foam, (&file.foam, by), frames, &[0.0], &settings);
     let bounds = Bounds::of_bulk(&particles.positions);
     let region = bounds.map_or(Region { center: [0.0; 3], radius: 1.0 }, |b| b.region());
     let (diffuse, fps, rate) = (None, None, None);
@@ -67,6 +69,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         file,
         environment,
         scene,
+        matte: false,
         foam,
         diffuse,
         bubbles: None,

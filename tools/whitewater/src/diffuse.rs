@@ -1,8 +1,11 @@
 //! Diffuse particles that lie beside the fluid's: files of the same frames.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::f32::consts::PI;
 use std::path::PathBuf;
 
+use whitewater::Settings;
+use whitewater::foam::DiffuseLook;
 use whitewater::headless::{self, Headless};
 use whitewater::io::particles::{Particles, Parts, sequence};
 
@@ -10,8 +13,9 @@ use crate::args::{Up, Whitewater};
 use crate::failure::{Failure, Outcome};
 use crate::generate::Generate;
 use crate::layers;
+use crate::settings::SettingsFile;
 
-/// Frames in which the longest life is looked for.
+/// Frames in which the longest life is looked for, and how close together particles lie.
 const PROBES: usize = 16;
 
 /// Where the diffuse particles come from.
@@ -26,6 +30,10 @@ pub struct Files {
     up: Up,
     /// The longest life: none where no file says how long they live.
     life: Option<f32>,
+    /// Of each kind, how many a column holds that holds any; none where there are none of it.
+    columns: [Option<f32>; 3],
+    /// Of each kind, where they are not all alike.
+    radii: Option<[f32; 3]>,
 }
 
 /// The diffuse particles of a frame, in files that are open. Nothing needs all of them at once: of the frames before
@@ -34,19 +42,113 @@ pub struct Reading {
     files: Vec<(Parts<'static>, Option<u32>)>,
     up: Up,
     life: Option<f32>,
+    radii: Option<[f32; 3]>,
 }
 
 /// A part of them, as it is uploaded.
 struct Part {
     positions: Vec<[f32; 3]>,
     kinds: Vec<u32>,
+    radii: Option<Vec<f32>>,
     ages: Vec<f32>,
     ids: Option<Vec<u32>>,
 }
 
+/// Kinds: foam, spray and bubbles. What has another number is foam.
+const KINDS: usize = 3;
+
+fn kind_of(number: u32) -> usize {
+    usize::try_from(number).ok().filter(|kind| *kind < KINDS).unwrap_or(0)
+}
+
+/// Thickness that foam of one particle a column adds to it on average, with a radius as long as the column is wide: its
+/// disc, by its mean size squared (a radius is divided by 1 to 5; Akinci et al. 2013, Sec. 2.1) and its mean shape
+/// (1 - x^2.25).
+const SHARE: f32 =
+    PI * (1.0 + 1.0 / 4.0 + 1.0 / 9.0 + 1.0 / 16.0 + 1.0 / 25.0) / 5.0 * (1.0 - 2.0 / 4.25);
+/// What a column of the mean number of particles hides where they lie evenly, and radii can be chosen so. Few that lie
+/// anyhow leave gaps, and hide less on average.
+const HIDDEN: f32 = 0.8;
+/// `half` of few particles: the middle of one alone hides 1 / 1.12, as a drop of white water does.
+const FEW: f32 = 0.12;
+/// Shortest and longest radius in spacings: in smaller spheres their own shadow is not found, larger ones look like balls.
+const RADII: [f32; 2] = [0.1, 0.25];
+
+/// How large and how opaque diffuse particles are. Files hold ten thousand or ten million for the same splash: Akinci's
+/// numbers are for millions, and make a few a haze.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sizes {
+    /// Of foam, spray and bubbles.
+    pub radii: [f32; 3],
+    /// ρ_mod of the intensity.
+    pub half: f32,
+}
+
+impl Sizes {
+    /// By how many a column of one spacing squared holds that holds any. Thickness of a column of `n` with a radius of `r`
+    /// spacings is `SHARE n r^2`; the radius is such that the mean column hides [`HIDDEN`] with `half` of [`FEW`], within
+    /// [`RADII`]. Where that is more, as the least radius makes it of many, `half` rises so that it hides as much, to the
+    /// source's 3 at most: from there on many hide more. By foam and spray: bubbles are seen through water.
+    pub fn of_columns(columns: [Option<f32>; 3], spacing: f32) -> Self {
+        let DiffuseLook { half: most, exponent, .. } = DiffuseLook::of_spacing(spacing);
+        let odds = HIDDEN / (1.0 - HIDDEN);
+        let thickness = (FEW * odds).powf(exponent.recip());
+        let least = RADII[0];
+        let radius = |n: f32| (thickness / (SHARE * n)).sqrt().clamp(least, RADII[1]);
+        let radii = columns.map(|n| n.map_or(RADII[1], radius));
+        let thickest =
+            columns.iter().zip(radii).take(2).filter_map(|(n, r)| Some(SHARE * (*n)? * r * r));
+        let half = thickest.fold(0.0, f32::max).powf(exponent) / odds;
+        Self { radii: radii.map(|r| r * spacing), half: half.clamp(FEW, most) }
+    }
+}
+
+/// How many of each kind lie in columns of one spacing squared.
+#[derive(Default)]
+struct Columns {
+    /// Of the frame that is looked at.
+    here: HashMap<[i64; 2], [u32; KINDS]>,
+    /// Of all: particles, and columns with any.
+    sums: [[u64; 2]; KINDS],
+}
+
+impl Columns {
+    fn add(&mut self, part: &Particles, kind: Option<u32>, up: Up, spacing: f32) {
+        for (i, &[x, y, z]) in part.positions.iter().enumerate() {
+            let gone =
+                part.lifetimes.as_ref().is_some_and(|left| left[i].is_nan() || left[i] <= 0.0);
+            let across = if up == Up::Z { y } else { z };
+            if gone || !(x.is_finite() && across.is_finite()) {
+                continue;
+            }
+            let column = [x, across].map(|c| (c / spacing).floor() as i64);
+            let kind = kind.or_else(|| Some(part.kinds.as_ref()?[i])).map_or(0, kind_of);
+            self.here.entry(column).or_default()[kind] += 1;
+        }
+    }
+
+    fn end_frame(&mut self) {
+        for counts in self.here.drain().map(|(_, counts)| counts) {
+            for (sums, count) in self.sums.iter_mut().zip(counts).filter(|(_, count)| *count > 0) {
+                *sums = [sums[0] + u64::from(count), sums[1] + 1];
+            }
+        }
+    }
+
+    fn means(&self) -> [Option<f32>; KINDS] {
+        self.sums.map(|[all, columns]| (columns > 0).then(|| all as f32 / columns as f32))
+    }
+}
+
 impl Files {
-    /// Finds them; none where none are named. `single`: one frame is drawn, whose file may have any number.
-    pub fn find(named: &[Whitewater], up: Up, single: Option<u64>) -> Outcome<Option<Self>> {
+    /// Finds them; none where none are named. `single`: one frame is drawn, whose file may have any number. `spacing`: of
+    /// the water.
+    pub fn find(
+        named: &[Whitewater],
+        up: Up,
+        single: Option<u64>,
+        spacing: f32,
+    ) -> Outcome<Option<Self>> {
         if named.is_empty() {
             return Ok(None);
         }
@@ -64,28 +166,56 @@ impl Files {
                 frames.entry(number).or_default().push((frame.path, *kind));
             }
         }
-        let mut files = Self { frames, up, life: None };
-        files.life = files.longest_life();
+        let mut files = Self { frames, up, life: None, columns: [None; 3], radii: None };
+        files.look(spacing);
         Ok(Some(files))
     }
 
-    /// Of some frames of the whole sequence, so that it is the same however it is cut into jobs.
-    fn longest_life(&self) -> Option<f32> {
-        let all: Vec<_> = self.frames.values().flatten().collect();
-        let step = all.len().div_ceil(PROBES).max(1);
-        let mut longest: Option<f32> = None;
-        for (path, _) in all.into_iter().step_by(step) {
+    /// At some frames of the whole sequence, so that what is found is the same however it is cut into jobs.
+    fn look(&mut self, spacing: f32) {
+        let step = self.frames.len().div_ceil(PROBES).max(1);
+        let (mut longest, mut columns) = (None, Columns::default());
+        for (path, kind, last) in self.frames.values().step_by(step).flat_map(|files| {
+            let last = files.len() - 1;
+            files.iter().enumerate().map(move |(i, (path, kind))| (path, *kind, i == last))
+        }) {
             let mut most: Option<f32> = None;
             let read = Parts::open_with(path, Parts::USUAL, |part| {
                 let lifetimes = part.lifetimes.iter().flatten().copied();
                 most = lifetimes.filter(|l| l.is_finite()).chain(most).reduce(f32::max);
+                columns.add(part, kind, self.up, spacing);
             });
             // One that can't be read is said when its frame is drawn.
             if read.is_ok() {
                 longest = most.into_iter().chain(longest).reduce(f32::max);
             }
+            if last {
+                columns.end_frame();
+            }
         }
-        longest.filter(|life| *life > 0.0)
+        self.life = longest.filter(|life| *life > 0.0);
+        self.columns = columns.means();
+    }
+
+    /// Chooses radii and opacity by how close together they lie, where the file of settings does not say them. The thesis'
+    /// look has none of its own: it is left as it is.
+    pub fn choose(&mut self, file: &SettingsFile, settings: &mut Settings) {
+        if file.is_thesis() {
+            return;
+        }
+        let found = Sizes::of_columns(self.columns, settings.water.spacing);
+        let table = &file.diffuse;
+        let radii = table.radii.or((table.radius.is_none()).then_some(found.radii));
+        if let Some(radii) = radii {
+            self.radii = Some(radii);
+            settings.diffuse.radius = radii.into_iter().fold(0.0, f32::max);
+        }
+        settings.diffuse.half = table.half.unwrap_or(found.half);
+    }
+
+    /// Radii of foam, spray and bubbles, where they are not all alike.
+    pub fn radii(&self) -> Option<[f32; 3]> {
+        self.radii
     }
 
     /// What to say where some of the frames have no file of their number.
@@ -104,7 +234,7 @@ impl Files {
         let open =
             |(path, kind): &(PathBuf, _)| Outcome::Ok((Parts::open(path, Parts::USUAL)?, *kind));
         let files = named.map(open).collect::<Outcome<_>>()?;
-        Ok(Reading { files, up: self.up, life: self.life })
+        Ok(Reading { files, up: self.up, life: self.life, radii: self.radii })
     }
 }
 
@@ -121,11 +251,11 @@ impl Reading {
         let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
         for (parts, kind) in self.files {
             for part in parts {
-                let part = Part::new(part?, kind, self.up, self.life);
+                let part = Part::new(part?, kind, (self.up, self.life, self.radii));
                 upload.push(&headless::Diffuse {
                     positions: &part.positions,
                     kinds: Some(&part.kinds),
-                    radii: None,
+                    radii: part.radii.as_deref(),
                     ages: Some(&part.ages),
                     ids: part.ids.as_deref().filter(|_| identified),
                 })?;
@@ -136,7 +266,11 @@ impl Reading {
 }
 
 impl Part {
-    fn new(mut read: Particles, kind: Option<u32>, up: Up, life: Option<f32>) -> Self {
+    fn new(
+        mut read: Particles,
+        kind: Option<u32>,
+        (up, life, radii): (Up, Option<f32>, Option<[f32; 3]>),
+    ) -> Self {
         if up == Up::Z {
             layers::turn_up(read.positions.iter_mut());
         }
@@ -148,9 +282,12 @@ impl Part {
             _ => 1.0,
         };
         let ages = read.lifetimes.map(|left| left.into_iter().map(age).collect());
+        let kinds = kinds.unwrap_or_else(|| vec![0; count]);
+        let of_kind = |radii: [f32; 3]| kinds.iter().map(|kind| radii[kind_of(*kind)]).collect();
         Self {
             positions: read.positions,
-            kinds: kinds.unwrap_or_else(|| vec![0; count]),
+            radii: radii.map(of_kind),
+            kinds,
             ages: ages.unwrap_or_else(|| vec![0.0; count]),
             ids: read.ids,
         }
@@ -187,10 +324,80 @@ mod tests {
     #[test]
     fn frames_without_a_file_are_told() {
         let frames = [2, 4].map(|frame| (frame, vec![(PathBuf::new(), None)])).into();
-        let files = Files { frames, up: Up::Y, life: None };
+        let (columns, radii) = ([None; 3], None);
+        let files = Files { frames, up: Up::Y, life: None, columns, radii };
         assert_eq!(files.missing([2, 4].into_iter()), None);
         let said = files.missing(2..=5).expect("a warning");
         assert!(said.contains("2 frames, from 3 on"), "{said}");
+    }
+
+    /// Opacity of a column of `n` particles of foam (Akinci et al. 2013, Sec. 2.3).
+    fn hidden(n: f32, radius: f32, half: f32) -> f32 {
+        let power = (SHARE * n * radius * radius).powf(1.25);
+        power / (half + power)
+    }
+
+    /// The same patch of 40 by 40 columns, resolved by a thousand to ten million particles. With the library's numbers it
+    /// is a hundredth as opaque, or less, where they are ten thousand.
+    #[test]
+    fn ten_thousand_and_ten_million_read_as_foam() {
+        let of = |n: f32, spacing: f32| {
+            let Sizes { radii, half } = Sizes::of_columns([Some(n), None, None], spacing);
+            (hidden(n, radii[0] / spacing, half), radii[0] / spacing, half)
+        };
+        let of_count = |count: f32| of(count / 1600.0, 0.02);
+        let all = [1.0e3, 1.0e4, 1.0e5, 1.0e6, 3.0e6, 1.0e7].map(of_count);
+        assert!(
+            all.windows(2).all(|two| two[0].0 < two[1].0 + 1.0e-5),
+            "more hides no less: {all:?}"
+        );
+        let [thousand, ten, hundred, million, _, most] = all;
+        // Less than one a column: a ball of the longest radius here and there.
+        assert!(thousand.1 == RADII[1] && thousand.2 == FEW, "{thousand:?}");
+        assert!((0.45..0.8).contains(&ten.0) && ten.1 == RADII[1] && ten.2 == FEW, "{ten:?}");
+        assert!((hundred.0 / HIDDEN - 1.0).abs() < 1.0e-4 && hundred.1 < 0.2, "{hundred:?}");
+        assert!((million.0 / HIDDEN - 1.0).abs() < 1.0e-4 && million.2 > FEW, "{million:?}");
+        assert!(most.0 > HIDDEN && most.2 == 3.0, "{most:?}");
+        assert!([million, most].iter().all(|of| (of.1 - RADII[0]).abs() < 1.0e-6));
+        assert!(hidden(1.0e4 / 1600.0, 0.15, 3.0) < 0.02, "as the source's numbers have it");
+        // Whatever the unit.
+        assert!((of(30.0, 0.02).1 - of(30.0, 5.0).1).abs() < 1.0e-6);
+        // Spray is sparse where foam is dense; of what is not there anything may do.
+        let Sizes { radii, .. } = Sizes::of_columns([Some(200.0), Some(2.0), None], 1.0);
+        assert_eq!(radii, [RADII[0], RADII[1], RADII[1]]);
+    }
+
+    #[test]
+    fn columns_are_counted_by_kind() {
+        let mut part = Particles::from_positions(vec![
+            [0.1, 5.0, 0.2],
+            [0.3, -9.0, 0.4],
+            [0.1, 0.0, 0.9],
+            [1.5, 0.0, 0.5],
+            [-0.1, 0.0, 0.5],
+            [0.5, 0.0, f32::NAN],
+            [9.5, 0.0, 0.0],
+        ]);
+        part.kinds = Some(vec![0, 0, 1, 9, 0, 0, 0]);
+        part.lifetimes = Some(vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -2.0]);
+        let mut columns = Columns::default();
+        let counted = |columns: &mut Columns, kind, up| {
+            columns.add(&part, kind, up, 1.0);
+            columns.end_frame();
+            columns.means()
+        };
+        // Four of foam in three columns; what is no number and what is gone in none.
+        assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
+        assert_eq!(counted(&mut columns, None, Up::Y), [Some(4.0 / 3.0), Some(1.0), None]);
+        let mut columns = Columns::default();
+        assert_eq!(counted(&mut columns, Some(2), Up::Y), [None, None, Some(5.0 / 3.0)]);
+        // Of z-up files the second axis is across: of five four lie at y = 0 (one has no z), in four columns with the rest.
+        let mut columns = Columns::default();
+        assert_eq!(counted(&mut columns, Some(0), Up::Z)[0], Some(6.0 / 5.0));
+        // Two files of one frame are in the same columns.
+        let mut columns = Columns::default();
+        columns.add(&part, Some(0), Up::Y, 1.0);
+        assert_eq!(counted(&mut columns, Some(0), Up::Y)[0], Some(10.0 / 3.0));
     }
 
     #[test]

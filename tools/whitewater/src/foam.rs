@@ -7,24 +7,41 @@ use whitewater::Settings;
 use whitewater::io::particles::Particles;
 use whitewater::water::FoamSettings;
 
+use crate::air;
 use crate::args::Foaming;
-use crate::settings::FoamTable;
+use crate::settings::{FoamBy, FoamTable};
 
 /// Share of the water that does not foam.
 const CALM: f64 = 0.95;
 /// Most of a frame's water that foams or has not yet stopped to: what is foam all over shows no water.
 const MOST: f64 = 0.3;
+/// Of trapped air no less than the speed of water that falls through an eighth of a spacing: twice what the particles of
+/// calm water tremble by. So water at rest, and what flows or falls as a whole, stay clear.
+const FALL: f32 = 0.125;
+/// Acceleration of a fall, m/s².
+const GRAVITY: f32 = 9.81;
 
 /// The settings for frames of a sequence and their seconds, where they have velocities. A threshold does not
 /// transfer from one simulation to another: where neither `wanted` nor the table says one it is taken from the frames.
 pub fn settings(
     wanted: Foaming,
-    table: &FoamTable,
+    (table, by): (&FoamTable, FoamBy),
     frames: &[Particles],
     seconds: &[f32],
     settings: &Settings,
 ) -> Option<FoamSettings> {
-    let foam = table.formation(&settings.water);
+    let spacing = settings.water.spacing;
+    let mut foam = table.formation(&settings.water);
+    let (driven, floor): (Vec<Particles>, _) = match by {
+        FoamBy::Speed => (Vec::new(), 0.0),
+        FoamBy::Air => {
+            // Of neighbours: the wind does not matter.
+            foam.air = [0.0; 3];
+            let floor = foam.scale * foam.rest_density * 2.0 * GRAVITY * FALL * spacing;
+            (frames.iter().map(|frame| driven(frame, spacing)).collect(), floor)
+        }
+    };
+    let frames = if by == FoamBy::Air { &driven } else { frames };
     let wanted = match (wanted, table.threshold) {
         (Foaming::Auto, Some(threshold)) => Foaming::From(threshold),
         (wanted, _) => wanted,
@@ -37,11 +54,34 @@ pub fn settings(
             let spray = settings.spray.densities[0] * settings.water.rest_density;
             let all = moving.flat_map(|frame| numbers(frame, &foam, spray)).map(|(_, n)| n);
             let calm = quantile(all.collect(), CALM)?;
-            calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0))
+            let calm = calm.max(of_lifetimes(frames, seconds, &foam, spray).unwrap_or(0.0));
+            // Nothing will come: a frame by itself foams from half of it on, and between frames at rest nothing does.
+            let least = if frames.len() == 1 { 0.5 * floor } else { 0.0 };
+            let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > least);
+            if floor > 0.0 && !frames.iter().any(some) {
+                return None;
+            }
+            calm.max(floor)
         }
     };
     // Water at rest does not foam.
     (threshold > 0.0).then_some(FoamSettings { threshold, ..foam })
+}
+
+/// What water foams by in the place of its velocities, as fast as neighbours run into it.
+pub fn drive(particles: &Particles, spacing: f32) -> Option<Vec<[f32; 3]>> {
+    let speeds = air::trapped(&particles.positions, particles.velocities.as_ref()?, spacing);
+    Some(speeds.into_iter().map(|speed| [speed, 0.0, 0.0]).collect())
+}
+
+/// A frame with that, and without places.
+fn driven(frame: &Particles, spacing: f32) -> Particles {
+    Particles {
+        velocities: drive(frame, spacing),
+        densities: frame.densities.clone(),
+        ids: frame.ids.clone(),
+        ..Particles::from_positions(Vec::new())
+    }
 }
 
 /// The number that a share of them is below.
@@ -152,7 +192,13 @@ mod tests {
         let mut frame = csv();
         let look = Settings::default();
         let of = |wanted, frame: &Particles| {
-            settings(wanted, &FoamTable::default(), std::slice::from_ref(frame), &[0.0], &look)
+            settings(
+                wanted,
+                (&FoamTable::default(), FoamBy::Speed),
+                std::slice::from_ref(frame),
+                &[0.0],
+                &look,
+            )
         };
         let found = of(Foaming::Auto, &frame).unwrap();
         let number = |speed: f32| found.scale * 1000.0 * speed * speed;
@@ -180,7 +226,14 @@ mod tests {
         let of = |air: [f32; 3], weber| {
             let table = FoamTable { air: Some(air), weber, ..FoamTable::default() };
             let look = Settings::default();
-            settings(Foaming::Auto, &table, std::slice::from_ref(&frame), &[0.0], &look).unwrap()
+            settings(
+                Foaming::Auto,
+                (&table, FoamBy::Speed),
+                std::slice::from_ref(&frame),
+                &[0.0],
+                &look,
+            )
+            .unwrap()
         };
         for weber in [None, Some(Weber::Full)] {
             let against = of([-10.0, 0.0, 0.0], weber);
@@ -193,11 +246,63 @@ mod tests {
         let said = FoamTable { threshold: Some(7.0), ..FoamTable::default() };
         let of = |wanted| {
             let look = Settings::default();
-            settings(wanted, &said, std::slice::from_ref(&frame), &[0.0], &look)
+            settings(wanted, (&said, FoamBy::Speed), std::slice::from_ref(&frame), &[0.0], &look)
         };
         assert_eq!(of(Foaming::Auto).unwrap().threshold, 7.0);
         assert_eq!(of(Foaming::From(8.0)).unwrap().threshold, 8.0, "the command line goes first");
         assert!(of(Foaming::None).is_none());
+    }
+
+    /// Two blocks that run into each other foam where they meet; one that flows, however fast, or that trembles, does not.
+    #[test]
+    fn water_foams_where_it_traps_air() {
+        let spacing = Settings::default().water.spacing;
+        let at = |i: u16| [i % 16, i / 16 % 16, i / 256].map(|i| spacing * (f32::from(i) - 7.5));
+        let mut frame = Particles::from_positions((0..4096).map(at).collect());
+        let mut of = |velocity: &dyn Fn(usize, [f32; 3]) -> [f32; 3]| {
+            let each = frame.positions.iter().enumerate().map(|(i, p)| velocity(i, *p));
+            frame.velocities = Some(each.collect());
+            let table = FoamTable::default();
+            let by = (&table, FoamBy::Air);
+            let frames = std::slice::from_ref(&frame);
+            settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()).map(|found| {
+                let numbers = numbers(&driven(&frame, spacing), &found, 0.0);
+                let foam = numbers.iter().filter(|(_, n)| *n >= found.threshold);
+                (
+                    foam.clone().count(),
+                    foam.map(|(i, _)| frame.positions[*i][1].abs()).fold(0.0, f32::max),
+                )
+            })
+        };
+        assert_eq!(of(&|_, _| [0.0; 3]), None, "at rest");
+        assert_eq!(of(&|_, _| [20.0, -7.0, 3.0]), None, "flows");
+        let tremble = |i: usize, _| {
+            [0.05 * ((i * 7919) as f32).sin(), 0.05 * ((i * 104_729) as f32).cos(), 0.0]
+        };
+        assert_eq!(of(&tremble), None, "trembles");
+        let (count, farthest) = of(&|_, p| [0.0, -2.0 * p[1].signum(), 0.0]).unwrap();
+        // Of two layers of 256 on either side those that have neighbours all round.
+        assert!((100..=512).contains(&count) && farthest < 1.6 * spacing, "{count} {farthest}");
+        frame.velocities = None;
+        let by = (&FoamTable::default(), FoamBy::Air);
+        let frames = std::slice::from_ref(&frame);
+        assert_eq!(settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()), None);
+    }
+
+    #[test]
+    fn numbers_that_are_said_are_of_the_own_speed() {
+        let of = |table: FoamTable, wanted| table.by(wanted, false);
+        assert_eq!(of(FoamTable::default(), Foaming::Auto), FoamBy::Air);
+        assert_eq!(FoamTable::default().by(Foaming::Auto, true), FoamBy::Speed, "as in the thesis");
+        assert_eq!(of(FoamTable::default(), Foaming::From(80.0)), FoamBy::Speed);
+        let threshold = || FoamTable { threshold: Some(80.0), ..FoamTable::default() };
+        assert_eq!(of(threshold(), Foaming::Auto), FoamBy::Speed);
+        let wind = FoamTable { air: Some([3.0, 0.0, 0.0]), ..FoamTable::default() };
+        assert_eq!(of(wind, Foaming::Auto), FoamBy::Speed);
+        assert_eq!(
+            of(FoamTable { by: Some(FoamBy::Air), ..threshold() }, Foaming::Auto),
+            FoamBy::Air
+        );
     }
 
     /// Other four of a hundred are fast in each of ten frames: less than a twentieth. All that were within a
@@ -217,7 +322,8 @@ mod tests {
             let seconds: Vec<f32> = (0..10_u8).map(|i| apart * f32::from(i)).collect();
             let table = FoamTable::default();
             let look = Settings::default();
-            let found = settings(Foaming::Auto, &table, frames, &seconds, &look).unwrap();
+            let found =
+                settings(Foaming::Auto, (&table, FoamBy::Speed), frames, &seconds, &look).unwrap();
             (found.threshold / (found.scale * 1000.0)).sqrt()
         };
         assert!((of(&frames, 0.1) - 9.0).abs() < 1.0e-3, "{}", of(&frames, 0.1));

@@ -257,6 +257,27 @@ pub fn ladder(
     Ok(())
 }
 
+/// Draws the frame, which was drawn before black, again before white: what it lets through is the difference, and the share
+/// that it hides goes to channel A (Smith and Blinn 1996, whose two backgrounds these are). Of water, which takes more of
+/// red than of blue, it is the mean of the channels.
+pub fn matte(
+    headless: &mut Headless,
+    camera: &Camera,
+    settings: &Settings,
+    layers: &mut Layers,
+) -> Outcome<()> {
+    headless.render(camera, settings, &Background::Color([1.0; 3]))?;
+    let color = headless.color()?;
+    let white = [0, 1, 2].map(|c| merged(&color.map(|v| v[c]), layers.width, Merge::Mean).data);
+    let Some(black) = layers.rgb() else { return Ok(()) };
+    let through = |i: usize| (0..3).map(|c| white[c][i] - black[i][c]).sum::<f32>() / 3.0;
+    let hidden: Vec<f32> = (0..black.len()).map(|i| (1.0 - through(i)).clamp(0.0, 1.0)).collect();
+    if let Some(alpha) = layers.channels.iter_mut().find(|channel| channel.name == "A") {
+        alpha.data = hidden;
+    }
+    Ok(())
+}
+
 /// Vectors of a z-up world, turned to y up.
 pub fn turn_up<'a>(vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
     for p in vectors {

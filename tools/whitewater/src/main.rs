@@ -1,6 +1,7 @@
 //! The command line of `whitewater`: particle caches in, pictures out.
 #![cfg_attr(test, allow(clippy::unwrap_used))] // a test may
 
+mod air;
 mod args;
 mod bench;
 mod bounds;

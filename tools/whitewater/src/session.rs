@@ -9,7 +9,7 @@ use whitewater::foam::{DiffuseConfig, GenerateSettings};
 use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
-use whitewater::io::picture::{self, Layers};
+use whitewater::io::picture::{self, Display, Layers};
 use whitewater::water::{FoamSettings, NoiseLook, Rule, WaterSettings};
 use whitewater::{Config, Error, Previous, Region, Settings};
 
@@ -20,10 +20,11 @@ use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome};
 use crate::film::{self, Film};
+use crate::foam;
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
 use crate::progress::{Progress, Steps};
-use crate::settings::{Found, SettingsFile};
+use crate::settings::{FoamBy, Found, SettingsFile};
 use crate::shore::Shores;
 use crate::timings::Times;
 
@@ -35,6 +36,8 @@ pub struct Look {
     pub file: SettingsFile,
     pub environment: Environment,
     pub scene: Scene,
+    /// Nothing but the water is drawn, with the share that it hides.
+    pub matte: bool,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
     /// Diffuse particles beside the water.
@@ -509,14 +512,29 @@ impl<'a> Session<'a> {
         })?;
         if let (Some(settings), Some(_)) = (&self.look.foam, &particles.velocities) {
             let fps = self.look.fps.filter(|_| particles.ids.is_some());
-            times.step("foam", number, || match (fps, self.memory.stepped) {
-                (None, _) => headless.step(None, settings),
-                (Some(fps), Some(last)) => {
-                    headless.step(Some(number.saturating_sub(last) as f32 / fps), settings)
+            let (ids, spacing) = (particles.ids.as_deref(), self.look.settings.water.spacing);
+            let by_air = self.look.file.foam.by == Some(FoamBy::Air);
+            let drive = by_air
+                .then(|| times.step("trapped air", number, || foam::drive(particles, spacing)));
+            times.step("foam", number, || {
+                let drive = drive.flatten();
+                if let Some(drive) = &drive {
+                    headless.motion(drive, ids)?;
                 }
-                // It was as in the first frame for long enough.
-                (Some(_), None) => {
-                    (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
+                match (fps, self.memory.stepped) {
+                    (None, _) => headless.step(None, settings),
+                    (Some(fps), Some(last)) => {
+                        headless.step(Some(number.saturating_sub(last) as f32 / fps), settings)
+                    }
+                    // It was as in the first frame for long enough.
+                    (Some(_), None) => {
+                        (0..WARM_UP).try_for_each(|_| headless.step(Some(WARM_STEP), settings))
+                    }
+                }?;
+                // It moves as the water does.
+                match (&particles.velocities, drive) {
+                    (Some(velocities), Some(_)) => headless.motion(velocities, ids),
+                    _ => Ok(()),
                 }
             })?;
             self.memory.stepped = Some(number);
@@ -580,14 +598,19 @@ impl<'a> Session<'a> {
         }
         self.look.settings.foam.time = time;
         self.look.settings.shore.time = time;
+        let background =
+            if self.look.matte { Background::Color([0.0; 3]) } else { Background::Scene };
         for _ in 0..self.args.repeat.get() {
             times.step("draw", number, || {
-                headless.render(&camera, &self.look.settings, &Background::Scene)
+                headless.render(&camera, &self.look.settings, &background)
             })?;
             times.passes(number, headless.timings());
         }
         let layers = times.step("read back", number, || {
             let mut layers = layers::collect(headless, self.args.size, &self.wanted, &lens)?;
+            if self.look.matte {
+                layers::matte(headless, &camera, &self.look.settings, &mut layers)?;
+            }
             if self.wanted.contains(&layers::LADDER) {
                 layers::ladder(headless, &camera, &self.look.settings, &mut layers)?;
             }
@@ -641,15 +664,18 @@ impl<'a> Session<'a> {
     fn write(&self, format: Output, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
         let look = &self.look;
         let exposure = look.environment.exposure() + look.exposure + self.args.exposure;
+        let display = Display { exposure, tone: self.args.tone.into(), alpha: look.matte };
         match (format, &self.film) {
             (Output::Picture(PictureFormat::Exr), _) => {
                 output::write(path, |to| picture::write_exr(layers, to))
             }
             (Output::Picture(PictureFormat::Png), _) => {
-                output::write(path, |to| picture::write_png(layers, exposure, to))
+                output::write(path, |to| picture::write_png_as(layers, &display, to))
             }
             (Output::Film, film) => film.iter().try_for_each(|film| {
-                let rgb = layers.display(exposure).unwrap_or_default();
+                // A film has no alpha: over black.
+                let display = Display { alpha: false, ..display };
+                let rgb = layers.shown(&display).unwrap_or_default();
                 film.lock().unwrap_or_else(PoisonError::into_inner).push(&rgb)
             }),
         }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene};
 
+use crate::args::SetArg;
 use crate::bounds::Bounds;
 use crate::failure::{Failure, Outcome};
 
@@ -13,16 +14,44 @@ pub fn read(path: &Path) -> Outcome<Scene> {
     Scene::load(path).map_err(|error| Failure::input(format!("{error}; mend the file")))
 }
 
-/// A paved ground under the bulk of the water.
-pub fn ground_under(bounds: &Bounds) -> Scene {
-    let size = bounds.size();
-    let longest = size.max_element().max(f32::MIN_POSITIVE);
-    let material = Material {
-        base_color: [0.36, 0.34, 0.31],
-        roughness: 0.9,
-        pattern: Pattern::Paving { size: round_length(longest / 10.0) },
+/// Of what the ground, the inside of a basin and its walls are, for water so long.
+fn materials(set: SetArg, longest: f32) -> [Material; 3] {
+    let of = |base_color: [f32; 3], roughness: f32, pattern: Pattern| Material {
+        base_color,
+        roughness,
+        pattern,
         texture: None,
     };
+    let tiles = |part: f32| Pattern::Tiles { size: round_length(longest / part), band: None };
+    let concrete = Material::named("concrete").unwrap_or_default();
+    match set {
+        // White: the water's colour is its own.
+        SetArg::Pool | SetArg::None => [
+            of([0.36, 0.34, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 10.0) }),
+            of([0.66, 0.66, 0.64], 0.22, tiles(30.0)),
+            concrete,
+        ],
+        SetArg::Studio => [
+            of([0.2; 3], 0.95, Pattern::Plain),
+            of([0.62; 3], 0.5, Pattern::Plain),
+            of([0.45; 3], 0.6, Pattern::Plain),
+        ],
+        SetArg::Beach => [
+            of([0.62, 0.52, 0.38], 0.95, Pattern::Sand),
+            of([0.62, 0.52, 0.38], 0.9, Pattern::Sand),
+            of([0.45, 0.42, 0.38], 0.85, Pattern::Stone { course: round_length(longest / 30.0) }),
+        ],
+        SetArg::Lab => {
+            [of([0.3; 3], 0.9, Pattern::Plain), of([0.74, 0.74, 0.73], 0.15, tiles(60.0)), concrete]
+        }
+    }
+}
+
+/// The ground of a set under the bulk of the water.
+pub fn ground_under(bounds: &Bounds, set: SetArg) -> Scene {
+    let size = bounds.size();
+    let longest = size.max_element().max(f32::MIN_POSITIVE);
+    let [material, ..] = materials(set, longest);
     // A sheet just under the ground, which hides it: it tells how large the scene is.
     let y = bounds.min.y - 1.0e-3 * longest;
     let corner = |x: f32, z: f32| {
@@ -94,24 +123,22 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
     Some([side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?])
 }
 
-/// A tiled basin round water that fills a box: low walls towards the eye, high ones behind. `None`
+/// A basin round water that fills a box: low walls towards the eye, high ones behind. `None`
 /// where the particles fill no box.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
     bounds: &Bounds,
     spacing: f32,
     eye: glam::Vec3,
+    set: SetArg,
 ) -> Option<Scene> {
     let sides = sides(frames, bounds, spacing)?;
-    let mut scene = ground_under(bounds);
+    let mut scene = ground_under(bounds, set);
     let longest = bounds.size().max_element();
     let wide = bounds.size().x.max(bounds.size().z);
     let (thick, lining) = (0.03 * wide, 0.006 * wide);
     let floor = bounds.min.y;
-    let tile = Pattern::Tiles { size: round_length(longest / 30.0), band: None };
-    let tiles =
-        Material { base_color: [0.50, 0.62, 0.63], roughness: 0.22, pattern: tile, texture: None };
-    let concrete = Material::named("concrete")?;
+    let [_, tiles, concrete] = materials(set, longest);
     // Inner faces, where the drawn spheres end.
     let reach = 0.66 * spacing;
     let face = |side: &Side| side.at + side.sign * reach;
@@ -187,7 +214,7 @@ mod tests {
         let eye = glam::Vec3::new(9.0, 5.0, 9.0);
         let basin = |points: &[[f32; 3]]| {
             let bounds = Bounds::of_bulk(points).unwrap();
-            basin_round(&[points], &bounds, 0.1, eye)
+            basin_round(&[points], &bounds, 0.1, eye, SetArg::Pool)
         };
         let scene = basin(&block(false)).unwrap();
         let top = |mesh: &Mesh| {
@@ -201,6 +228,10 @@ mod tests {
         // The far ones, at -x and -z, are as high as the water at least; the near ones hide little.
         assert!(walls[0] > 0.5 && walls[2] > 0.5, "{walls:?}");
         assert!(walls[1] < 0.4 && walls[3] < 0.4, "{walls:?}");
+        // Its tiles have no colour of their own: the water's is seen.
+        let [r, g, b] =
+            scene.meshes.iter().find(|m| m.name == "basin floor").unwrap().material.base_color;
+        assert!(r.max(g).max(b) < 1.05 * r.min(g).min(b), "{r} {g} {b}");
         assert!(basin(&block(true)).is_none(), "a wedge fills no box");
         assert!(basin(&[[0.0; 3]]).is_none());
     }

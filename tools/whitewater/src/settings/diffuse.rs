@@ -35,6 +35,8 @@ table! {
     optional {}
     not {}
     beside {
+        /// Radii of foam, spray and bubbles of files, in the place of `radius`.
+        radii: [f32; 3],
         /// Not of the look, as the next: they choose passes.
         occlusion: OcclusionWord,
         splat: SplatWord,
@@ -108,6 +110,7 @@ impl DiffuseTable {
 
     /// The table that says all of a look, and of the passes as this table does.
     pub fn all(&self, look: &DiffuseLook) -> Self {
-        Self { occlusion: Some(self.occlusion().into()), splat: self.splat, ..Self::of(look) }
+        let Self { radii, splat, .. } = *self;
+        Self { occlusion: Some(self.occlusion().into()), radii, splat, ..Self::of(look) }
     }
 }

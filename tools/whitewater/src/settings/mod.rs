@@ -18,9 +18,9 @@ use whitewater::{Light, Settings};
 use crate::args::DrawArgs;
 use crate::failure::{Failure, Outcome};
 
-pub use water::FoamTable;
 #[cfg(test)]
 pub use water::Weber;
+pub use water::{FoamBy, FoamTable};
 
 /// The file.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]

@@ -100,6 +100,7 @@ fn everything() -> SettingsFile {
         [foam]
         threshold = 30.0
         [diffuse]
+        radii = [0.1, 0.2, 0.3]
         splat = 'raster'
         [bubbles]
         hand_over = [3.0, 5.0]

@@ -8,6 +8,7 @@ use whitewater::water::settings::{
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
 
 use super::table::{table, words};
+use crate::args::Foaming;
 
 table! {
     /// Table `[water]`.
@@ -177,7 +178,9 @@ table! {
     optional {}
     not { time }
     beside {
-        /// Not of the look, as all below: of which water foams. In which unit the Weber number is.
+        /// Not of the look, as all below: of which water foams. Whose speed the Weber number is of.
+        by: FoamBy,
+        /// In which unit it is.
         weber: Weber,
         /// From which Weber number on, where the command line does not say.
         threshold: f32,
@@ -200,7 +203,25 @@ pub enum Weber {
     Full,
 }
 
+/// Whose speed the Weber number is of, by which water foams.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FoamBy {
+    /// Of the neighbours that run into a particle: where air is trapped (Ihmsen et al. 2012).
+    Air,
+    /// Of the particle through the air (Bagar 2010).
+    Speed,
+}
+
 impl FoamTable {
+    /// Whose speed water foams by: by trapped air, but where the table says otherwise, or a number that is of the particles'
+    /// own speed through the wind is said.
+    pub fn by(&self, wanted: Foaming, thesis: bool) -> FoamBy {
+        let own = thesis || self.threshold.is_some() || self.air.is_some();
+        let own = own || matches!(wanted, Foaming::From(_));
+        self.by.unwrap_or(if own { FoamBy::Speed } else { FoamBy::Air })
+    }
+
     /// Which water foams; the threshold is the table's, or 1.
     pub fn formation(&self, water: &WaterSettings) -> FoamSettings {
         let threshold = self.threshold.unwrap_or(1.0);
@@ -223,6 +244,7 @@ impl FoamTable {
         let FoamSettings { scale: _, threshold: _, foam_lifetime, air, rest_density: _, seed } =
             *found.unwrap_or(&said);
         Self {
+            by: Some(self.by.unwrap_or(FoamBy::Speed)),
             weber: Some(self.weber.unwrap_or(Weber::Reduced)),
             threshold: found.map_or(self.threshold, |found| Some(found.threshold)),
             lifetime: Some(foam_lifetime),

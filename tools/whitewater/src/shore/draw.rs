@@ -299,6 +299,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         file,
         environment,
         scene,
+        matte: false,
         foam: None,
         diffuse: None,
         bubbles: None,

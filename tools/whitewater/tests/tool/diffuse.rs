@@ -80,6 +80,66 @@ fn files_of_one_kind_are_that_kind() {
     assert!(folder.picture("a_1.exr").channel("water.spray").is_some(), "as it was asked for");
 }
 
+/// Foam that fills a box, by few particles and by many: it is drawn as thick as radii say that are found by how many there
+/// are, and hides what is behind it. What a picture was drawn with draws it again; what the file of settings says holds.
+#[test]
+fn few_particles_and_many_read_as_foam() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(2));
+    let unit = |i: u32, salt: u32| {
+        (i.wrapping_mul(2_654_435_761).rotate_left(salt) >> 8) as f32 / 16_777_216.0
+    };
+    // 20 by 10 columns.
+    for (name, count) in [("few", 2_000), ("many", 200_000)] {
+        let at = |i: u32| [2.0 * unit(i, 0) - 1.0, unit(i, 11) - 0.15, unit(i, 22) - 0.5];
+        let mut foam = Particles::from_positions((0..count).map(at).collect());
+        foam.ids = Some((0..count).collect());
+        folder.write(&format!("{name}.ply"), &foam);
+    }
+    let common = format!("render a.ply {SMALL} {FRONT} --supersample 1");
+    let middle = |name: &str, channel: &str| {
+        let picture = folder.picture(name);
+        let data = picture.channel(channel).unwrap();
+        let inside = (24..40).flat_map(|y| (30..66).map(move |x| y * 96 + x));
+        inside.map(|i| data[i]).sum::<f32>() / (16.0 * 36.0)
+    };
+    let setting = |name: &str, key: &str| {
+        let attributes = folder.picture(name).attributes;
+        let text = attributes.into_iter().find(|(name, _)| name == "settings").unwrap().1;
+        let table = text.parse::<toml::Table>().unwrap();
+        table["diffuse"].as_table().unwrap().get(key).cloned()
+    };
+    // Discs of the longest radius, ten a column of which 0.293 is the mean square of 1 to 1/5, cover 1 - exp(-0.57) = 0.44;
+    // their rims hide less. Many small ones are a field, of which Sizes speaks.
+    for (name, hides) in [("few", 0.33), ("many", 0.7)] {
+        let run =
+            folder.run(&format!("{common} -o {name}.exr --whitewater {name}.ply --validate")).ok();
+        assert!(run.stderr().contains("diffuse particles with radii of"), "{}", run.stderr());
+        let exr = format!("{name}.exr");
+        let intensity = middle(&exr, "foam.intensity");
+        assert!(intensity > hides, "{name}: {intensity}");
+        // The mean over the discs that Sizes goes by, of what is seen from 1.85 to 2.85 away; a few at the borders.
+        let radius = setting(&exr, "radii").unwrap()[0].as_float().unwrap() as f32;
+        let n = if name == "few" { 10.0 } else { 1000.0 };
+        let expected = 0.486_7 * n * (radius / 0.1).powi(2);
+        let thickness = middle(&exr, "foam.thickness") + middle(&exr, "foam.submerged");
+        assert!((thickness / expected - 1.0).abs() < 0.1, "{name}: {thickness} {expected}");
+        let attributes = folder.picture(&exr).attributes;
+        let settings = attributes.into_iter().find(|(name, _)| name == "settings").unwrap().1;
+        folder.text("again.toml", &settings);
+        let again = "--settings again.toml -o again.exr";
+        folder.run(&format!("{common} {again} --whitewater {name}.ply")).ok();
+        folder.run(&format!("compare {exr} again.exr --tolerance 0")).ok();
+    }
+    folder.text("own.toml", "[diffuse]\nradius = 0.02\nhalf = 2.0\n");
+    folder.run(&format!("{common} --settings own.toml -o own.exr --whitewater few.ply")).ok();
+    assert_eq!(setting("own.exr", "radii"), None);
+    for (key, value) in [("radius", 0.02), ("half", 2.0)] {
+        let found = setting("own.exr", key).unwrap().as_float().unwrap();
+        assert!((found - value).abs() < 1.0e-6, "{key} {found}");
+    }
+}
+
 /// More than a part of them, in formats that are read in parts and in one that is not: the same pictures. One of the
 /// files has no ids, or all have, and the kinds are those of the files or of their names.
 #[test]

@@ -115,6 +115,12 @@ impl Run {
         self
     }
 
+    /// The command line was not understood.
+    #[track_caller]
+    pub fn fails_at_once(self) {
+        assert_eq!(self.0.status.code(), Some(2), "{}{}", self.stdout(), self.stderr());
+    }
+
     /// Ended with this code, and its last line has these parts.
     #[track_caller]
     pub fn fails(self, code: i32, parts: &[&str]) -> Self {
