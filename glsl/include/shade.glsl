@@ -185,7 +185,28 @@ struct Sheet {
     float mirror;  // share of what it mirrors
     vec3 mirrored;
     vec3 shine;    // the sun's highlight
+    float wet;     // how much of the scene behind it lies under it
+    float down;    // metres of water above that, upright
+    float sun;     // share of the sun's light that comes to its surface
 };
+
+const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+
+// Share of the room before the scene from which on water lies on it, and which it fills at most with air behind it:
+// a thickness of particles is right to a fifth.
+const vec2 FILLED = vec2(0.5, 0.8);
+
+// The way through water to what lies under it, over the way straight on: that of the bent ray to the same depth below a
+// level surface. A surface that stands upright leaves it as it is.
+float bent_way(vec3 n, vec3 v, vec3 up) {
+    float ratio = frame.bed.w;
+    float facing = max(dot(n, v), 0.0);
+    float inside = sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+    float level = max(dot(n, up), 0.0);
+    float rise = dot(v, up);
+    float steep = ratio * rise + (inside - ratio * facing) * level;
+    return mix(1.0, clamp(rise / max(steep, 1.0e-6), 0.0, 1.0), level);
+}
 
 // ripple: noise on the surface, and its rise a pixel.
 Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
@@ -204,12 +225,19 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     // where it meets the scene, and bends nothing that it touches.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     // A mean of EMPTY may round to less.
-    t = scene > 0.0 && surface.z < 0.5 * EMPTY ? min(t, max(scene - surface.z, 0.0)) : t;
+    bool ends = scene > 0.0 && surface.z < 0.5 * EMPTY;
+    float room = max(scene - surface.z, 0.0);
+    t = ends ? min(t, room) : t;
 
     Sheet sheet;
     float away = length(position);
     vec3 v = -position / away;
     sheet.path = t * away / surface.z;
+    float filled = t / max(room, 1.0e-6 * frame.particle.y);
+    sheet.wet = ends && frame.bed.w > 0.0 ? smoothstep(FILLED.x, FILLED.y, filled) : 0.0;
+    vec3 up = frame.up.xyz * mat3(frame.world);
+    sheet.down = sheet.path * max(dot(v, up), 0.0);
+    sheet.path *= mix(1.0, bent_way(n, v, up), sheet.wet);
     // Light bends towards the water's normal: the look-up moves against it (the source has it the
     // other way, which shows things smaller under a bump).
     // Of a torn surface as of a thin sheet: what hangs together with nothing round it is no lens.
@@ -229,6 +257,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     // pow() by hand: of tiny bases some drivers make NaN.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
+    sheet.sun = sun;
     sun = DIFFUSED == 1u ? sun * past_diffuse(light_texels(position)) : sun;
     sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
     if (NOISE == 1u) {
@@ -245,6 +274,27 @@ Sheet on_ladder(Sheet sheet) {
     sheet.mirror *= whole;
     sheet.shine *= whole;
     return sheet;
+}
+
+// Colour of what lies under a sheet, of its colour without (Lekner and Dorf 1988, "Why some things are darker when
+// wet", with the light that water takes; not in the source). Of the light on the surface comes in 1 - F; a part (1 - F)/n^2
+// of what is diffuse goes out again, the rest is thrown back to the bed, whose reflectance A tells how much of that comes
+// up once more: (1 - F)/n^2 / (1 - A (1 - (1 - F)/n^2)), 1 for white. Each eye's own 1 - F is in what it mirrors. On its
+// way down light is lost over the sun's bent way and the mean one of an even sky's; up and down again inside over five
+// times that, mostly totally reflected: both over sin^2, without losses. What it loses on its way to the eye is
+// `over`'s.
+vec3 under_water(Sheet sheet, vec3 dry) {
+    vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
+    vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));
+    vec3 sun = exp(-extinction * (frame.bed.z * sheet.down));
+    vec3 lit = (1.0 - frame.shade.rgb) * sheet.sun;
+    // Pass `lit` took the sun's part already.
+    vec3 came = frame.shade.rgb * sky + lit * sun * frame.bed_light.w;
+    came /= max(frame.shade.rgb + (CAST == 1u ? lit * sun : lit), vec3(1.0e-9));
+    vec3 albedo = clamp(dry * frame.bed_light.rgb, 0.0, 1.0);
+    vec3 back = sky * sky * sky * sky * sky * (1.0 - frame.bed.x);
+    vec3 wet = dry * came * frame.bed.x / (1.0 - albedo * back);
+    return mix(dry, wet, frame.target.z >= BACK_WATER ? sheet.wet : 0.0);
 }
 
 // Light with what a surface mirrors, and its highlight; through: of the water before foam, and of the foam.
@@ -270,6 +320,7 @@ Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
     sheet.offset *= share;
     sheet.mirror *= share * apart;
     sheet.shine *= share * apart;
+    sheet.wet *= share * apart;
     return sheet;
 }
 
@@ -418,7 +469,9 @@ Sheet among(Foam foam, float t, Sheet sheet) {
 Sheet between(Foam foam, vec2 pixel, float t) {
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     t = scene > 0.0 && foam.depth < 0.5 * EMPTY ? min(t, max(scene - foam.depth, 0.0)) : t;
-    return Sheet(t * length(vec3(ray_slope(pixel, frame.slope), 1.0)), vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
+    Sheet sheet = NO_SHEET;
+    sheet.path = t * length(vec3(ray_slope(pixel, frame.slope), 1.0));
+    return sheet;
 }
 
 // A surface on the way to the same one at the next coarser level.
@@ -456,7 +509,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         fading = false;
     }
 
-    Sheet back = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
+    Sheet back = NO_SHEET;
     float beyond = 0.0; // depth of the back sheet
     float boundary = SHEETS == 2u ? boundary_at(ivec2(pixel)) : EMPTY;
     bool covers = false;
@@ -526,6 +579,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         foam = with_submerged(foam, ivec2(pixel), front);
     }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
+    c = under_water(back, under_water(sheet, c));
     sheet = on_ladder(sheet);
     back = on_ladder(back);
     face.mirror = front < EMPTY && !by_source() ? sheet.mirror : 0.0;

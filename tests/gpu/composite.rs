@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::water::{Fresnel, Medium, Shading, Splat};
+use whitewater::water::{Bed, Fresnel, Medium, Shading, Splat};
 
 use crate::harness::fails;
 use crate::reduce::wide;
@@ -79,6 +79,16 @@ impl Sky {
 pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     let (water, light) = (&shot.settings.water, &shot.settings.light);
     let rgb = |c: [f32; 3]| c.map(f64::from);
+    let fresnel = match water.fresnel {
+        Fresnel::Schlick { f0 } => twin::Fresnel::Schlick { f0: f64::from(f0) },
+        Fresnel::Source { bias, scale, power } => twin::Fresnel::Source {
+            bias: f64::from(bias),
+            scale: f64::from(scale),
+            power: f64::from(power),
+        },
+    };
+    let sun = DVec3::from(rgb(light.direction)).normalize();
+    let bed = || twin::Bed::new(fresnel, sun.y, rgb(light.irradiance), rgb(light.shade));
     twin::Settings {
         radius: f64::from(water.radius()),
         falloff: f64::from(water.depth_falloff),
@@ -93,14 +103,8 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
                 twin::Medium::Source { base: rgb(base), k: falloff.map(f64::from) }
             }
         },
-        fresnel: match water.fresnel {
-            Fresnel::Schlick { f0 } => twin::Fresnel::Schlick { f0: f64::from(f0) },
-            Fresnel::Source { bias, scale, power } => twin::Fresnel::Source {
-                bias: f64::from(bias),
-                scale: f64::from(scale),
-                power: f64::from(power),
-            },
-        },
+        fresnel,
+        bed: (water.bed == Bed::Submerged).then(bed),
         specular: [f64::from(water.specular); 3],
         shininess: f64::from(water.shininess),
         sun_direction: view.view.transform_vector3(rgb(light.direction).into()).normalize(),
@@ -419,6 +423,110 @@ fn a_hundredth_is_seen() {
         });
         assert!(seen, "{name} off by a hundredth");
     }
+}
+
+/// Water on a bed that falls away from it: from all of it lies under water to none.
+fn on_bed(size: ash::vk::Extent2D, lens: Lens) -> Shot {
+    let mut shot = shot(size, lens);
+    shot.scene_depth(|x, _| Some(4.6 + 0.02 * f64::from(x)));
+    shot
+}
+
+#[test]
+fn the_bed_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for way in [Shading::Raster, Shading::Compute] {
+        let config = Config { coarsening: 0, composite: Some(way), ..config(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            for (medium_name, medium) in [("pool", Medium::POOL), ("source", Medium::source(0.3))] {
+                for flat in [true, false] {
+                    let mut shot = on_bed(size, lens);
+                    shot.settings.water.medium = medium;
+                    if medium == Medium::POOL && flat {
+                        let fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
+                        shot.settings.water.fresnel = fresnel;
+                    }
+                    if flat {
+                        shot.color.fill(FLAT);
+                    }
+                    let name = format!("composite-bed-{lens:?}-{medium_name}-{flat}-{way:?}");
+                    check(&name, &mut rig, &shot, Sky::Even);
+                    // And dry.
+                    shot.settings.water.bed = Bed::Source;
+                    check(&format!("{name}-dry"), &mut rig, &shot, Sky::Even);
+                }
+            }
+        }
+    }
+    // Each number of it counts; none of a hundredth is lost.
+    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let mut shot = on_bed(size, Lens::Standard);
+    shot.settings.water.medium = Medium::OCEAN;
+    shot.color.fill(FLAT);
+    type Fault = fn(&mut twin::Bed);
+    let faults: [(&str, Fault); 7] = [
+        ("index", |bed| bed.index *= 1.01),
+        ("what comes in", |bed| bed.comes_in *= 0.99),
+        ("the sky's way", |bed| bed.sky_way *= 1.01),
+        ("the sun's way", |bed| bed.sun_way *= 1.01),
+        ("what of the sun comes in", |bed| bed.sun *= 0.99),
+        ("the irradiance", |bed| bed.irradiance = bed.irradiance.map(|e| e * 1.01)),
+        ("the shade", |bed| bed.shade = bed.shade.map(|e| e * 1.01)),
+    ];
+    for (name, fault) in faults {
+        let seen = fails(|| {
+            check_other("planted-bed", &mut rig, &shot, Sky::Even, |settings| {
+                fault(settings.bed.as_mut().expect("a bed"));
+            });
+        });
+        assert!(seen, "{name} off by a hundredth");
+    }
+}
+
+/// A white furnace: clear water over a white bed, in an environment as bright from everywhere, is not seen: what comes out
+/// of the bed and what is mirrored are all there is. A grey bed is darker for it, a black one as black.
+#[test]
+fn clear_water_in_a_white_furnace_is_not_seen() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    let radiance = 0.5_f32;
+    rig.environment(extent(4, 2), &[[radiance, radiance, radiance, 1.0]; 8]);
+    let mut shot = shot(size, Lens::Standard);
+    shot.scene_depth(|_, _| Some(4.6));
+    let settings = &mut shot.settings;
+    settings.water.medium = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
+    settings.water.specular = 0.0;
+    let even = [std::f32::consts::PI * radiance; 3];
+    (settings.light.irradiance, settings.light.shade) = (even, even);
+    let mut middle = |reflectance: f32| {
+        let bed = reflectance * radiance;
+        shot.color.fill([bed, bed, bed, 1.0]);
+        let drawn = rig.draw(&shot);
+        let water = (0..size.height as usize)
+            .flat_map(|y| (0..size.width as usize).map(move |x| (x, y)))
+            .filter(|&(x, y)| is_surface(f64::from(drawn.depth.at(x, y))));
+        let found: Vec<_> = water.map(|(x, y)| drawn.output.at(x, y)[0]).collect();
+        assert!(found.len() > 300, "{} pixels", found.len());
+        let (low, high) =
+            found.iter().fold((f32::MAX, 0.0_f32), |(low, high), c| (low.min(*c), high.max(*c)));
+        [low / radiance, high / radiance]
+    };
+    // The twin's roundings, 64 of them.
+    let [low, high] = middle(1.0);
+    let off = 64.0 * U as f32;
+    assert!(low > 1.0 - off && high < 1.0 + off, "{low} to {high} of the radiance");
+    // From all wet, at a rim that mirrors nothing, to all dry or all mirrored.
+    let q = (1.0 - (0.02 + 0.98 / 21.0)) / (1.141_421_4_f32 / 0.858_578_6).powi(2);
+    let wet = 0.4 * q / (1.0 - 0.4 * (1.0 - q));
+    let [low, high] = middle(0.4);
+    assert!((low - wet).abs() < 64.0 * off && high < 1.0, "{low} to {high}, not from {wet}");
+    let [low, high] = middle(0.0);
+    assert!(low == 0.0 && high < 1.0, "{low} to {high} of a black bed");
 }
 
 /// Refraction never looks at what stands before the water; the scene's depth may be of another size.

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::composite::{
-    Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
+    Bed, Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
@@ -86,6 +86,65 @@ struct Lit {
     shine: Rounded,
     /// Of the baseline's foam.
     foam: [Rounded; 3],
+    /// How much of the scene lies under it, and metres of water above that, upright.
+    wet: Rounded,
+    down: Rounded,
+}
+
+/// How much of the room before the scene water fills, as a share of the scene under it.
+fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
+    if limited || room.v == 0.0 {
+        // The same number over itself, or no room; rounding may take either.
+        let v = f64::from(u8::from(room.v > 0.0));
+        return Rounded { v, e: if room.v <= room.e { room.e.min(1.0).ceil() } else { 0.0 } };
+    }
+    if room.v <= 2.0 * room.e {
+        let v = crate::reference::smoothstep(0.5, 0.8, t.v / room.v);
+        return Rounded { v, e: 1.0 };
+    }
+    smoothstep(off(0.5, 1.0), off(0.8, 1.0), t / room)
+}
+
+/// The bent way to the eye over the straight one.
+fn bent_way(bed: &Bed, n: [Rounded; 3], v: [Rounded; 3], up: [Rounded; 3]) -> Rounded {
+    // A root and two quotients.
+    let ratio = off(bed.index.recip(), 8.0);
+    let facing = dot(n, v).clamp(0.0, f64::MAX);
+    let inside = (exact(1.0) - ratio * ratio * (exact(1.0) - facing * facing)).sqrt();
+    let (level, rise) = (dot(n, up).clamp(0.0, f64::MAX), dot(v, up));
+    let steep = ratio * rise + (inside - ratio * facing) * level;
+    let bent = if steep.v > steep.e + 1e-6 {
+        (rise / steep).clamp(0.0, 1.0)
+    } else {
+        Rounded { v: (rise.v / steep.v.max(1e-6)).clamp(0.0, 1.0), e: 1.0 }
+    };
+    mix(exact(1.0), bent, level)
+}
+
+/// The colour of what lies under water, of which a part is there.
+fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3]) -> [Rounded; 3] {
+    let Some(bed) = settings.bed.filter(|_| lit.wet.v + lit.wet.e > 0.0) else { return dry };
+    // Sums and products of a few numbers that were rounded, and their quotients; a power.
+    let leaves = off(bed.comes_in / bed.index.powi(2), 16.0);
+    let (sky_way, sun_way) = (off(bed.sky_way, 16.0), off(bed.sun_way, 16.0));
+    let one = exact(1.0);
+    [0, 1, 2].map(|i| {
+        let extinction = match settings.medium {
+            Medium::Physical { absorption, scattering, .. } => {
+                exact(absorption[i]) + exact(scattering[i])
+            }
+            Medium::Source { k, .. } => exact(k[i]),
+        };
+        let sky = (-extinction * (sky_way * lit.down)).exp();
+        let sun = (-extinction * (sun_way * lit.down)).exp();
+        let shade = off(bed.shade[i], 5.0);
+        let came = shade * sky + (one - shade) * sun * off(bed.sun, 24.0);
+        let came = came / (shade + (one - shade));
+        let albedo = dry[i] * off(std::f64::consts::PI / bed.irradiance[i], 4.0);
+        let back = sky * sky * sky * sky * sky * (one - leaves);
+        let wet = dry[i] * came * leaves / (one - albedo.clamp(0.0, 1.0) * back);
+        mix(dry[i], wet, part * lit.wet)
+    })
 }
 
 /// By how many pixels the look-up may be off. What brings the offset below the farthest does not
@@ -164,7 +223,15 @@ fn lit(
     }
     let away = dot(position, position).sqrt();
     let v = position.map(|c| -c / away);
-    let path = t * away / z;
+    let straight = t * away / z;
+    let up = view.view.transform_vector3(DVec3::Y).to_array();
+    let up = up.map(|v| Rounded { v, e: 16.0 * U });
+    let down = straight * dot(v, up).clamp(0.0, f64::MAX);
+    let (wet, way) = match &settings.bed {
+        Some(bed) => (wet(t, room, limited && !near), bent_way(bed, n, v, up)),
+        None => (exact(0.0), exact(1.0)),
+    };
+    let path = straight * mix(exact(1.0), way, wet);
     let torn = exact(2.0) * spacing;
     let torn = if t.v < torn.v { t } else { torn };
     let lens = exact(settings.refraction) * mix(torn, t, off(surface.parts.found, means));
@@ -200,7 +267,7 @@ fn lit(
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
     // Of the mean's weights 13u, a product; the radiance is two products and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
-    Lit { z, path, offset, share, turned, shine: w * shine, foam: grey }
+    Lit { z, path, offset, share, turned, shine: w * shine, foam: grey, wet, down }
 }
 
 /// What a surface makes of the colour behind it.
@@ -253,6 +320,7 @@ pub fn shaded(
     let q = look_up(settings, surface, view, pixel);
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
+    let behind = under_water(settings, &lit, exact(1.0), behind);
     Shaded { color: over(settings, &lit, behind, env, filter), moved }
 }
 
@@ -324,13 +392,17 @@ pub fn shaded_both(
         if back.covered > 0.0 {
             offset = [0, 1].map(|i| offset[i] + covered * found.offset[i]);
         }
-        found
+        (found, covered * apart)
     });
     let moved = moved(offset, view);
     let (q, z) = look_up_both(settings, shown, view, pixel);
     let (q, _) = cut_look_up(inputs, z, pixel, q);
     let mut color = scene(inputs, q, moved, background, filter);
-    if let Some(back) = back {
+    color = under_water(settings, &front, exact(1.0), color);
+    if let Some((back, part)) = &back {
+        color = under_water(settings, back, *part, color);
+    }
+    if let Some((back, _)) = back {
         color = over(settings, &back, color, envs[1], filter);
     }
     Shaded { color: over(settings, &front, color, envs[0], filter), moved }

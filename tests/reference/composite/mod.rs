@@ -7,6 +7,7 @@
 //! C <- mix(C, env(R), w F) + w specular sun max(n.h, 0)^shininess,   w = smoothstep(0, r/4, T)
 //! ```
 
+mod bed;
 mod sheets;
 pub mod source;
 #[cfg(test)]
@@ -18,6 +19,7 @@ use super::noise::Ripples;
 use super::surface::{Surface, Surfaces};
 use super::{Image, View, smoothstep};
 
+pub use bed::{Bed, Under, under_water};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
 /// What light meets inside the water.
@@ -127,6 +129,8 @@ pub struct Settings {
     pub sun_direction: DVec3,
     /// The sun's colour.
     pub sun_color: [f64; 3],
+    /// What water does to the scene under it; without: nothing but what the medium takes straight on.
+    pub bed: Option<Bed>,
 }
 
 /// By how many pixels a surface displaces the background. Light bends towards the water's normal, so
@@ -271,7 +275,7 @@ fn before(
 ) -> DVec3 {
     let Surface { position, normal: n, thickness, .. } = *surface;
     let v = -position.normalize();
-    let path = thickness * position.length() / -position.z;
+    let path = Under::of(settings, surface, view).path;
     let mut color = through(&settings.medium, behind, path);
 
     let w = part * smoothstep(0.0, settings.radius / 4.0, thickness);
@@ -311,6 +315,7 @@ pub fn shade(
     over_scene(inputs, view, |x, y, pixel| {
         let surface = surfaces.at(x, y)?;
         let behind = background(inputs, settings, &surface, view, pixel);
+        let behind = under_water(settings, &Under::of(settings, &surface, view), behind);
         Some(before(settings, &surface, 1.0, behind, &env, view))
     })
 }

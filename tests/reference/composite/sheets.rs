@@ -6,7 +6,10 @@ use glam::{DVec2, DVec3};
 use super::super::surface::{Surface, Surfaces};
 use super::super::{Image, View, is_surface, smoothstep};
 
-use super::{Inputs, Settings, before, bent, cut_look_up, displacement, over_scene, scene_at};
+use super::{
+    Inputs, Settings, Under, before, bent, cut_look_up, displacement, over_scene, scene_at,
+    under_water,
+};
 
 /// What a frame with two sheets has besides the [`Inputs`], whose thickness is that of all water.
 #[derive(Clone, Copy, Debug)]
@@ -179,6 +182,11 @@ pub fn shade_shown(
     let (displaced, z) = look_up_both(settings, shown, view, pixel);
     let (q, _) = cut_look_up(inputs, z, pixel, displaced);
     let mut color = scene_at(inputs, q);
+    color = under_water(settings, &Under::of(settings, &shown.front, view), color);
+    if let Some(back) = &shown.back {
+        let under = Under::of(settings, &back.surface, view);
+        color = under_water(settings, &Under { wet: under.wet * back.part(), ..under }, color);
+    }
     if let Some(back) = &shown.back {
         color = before(settings, &back.surface, back.part(), color, &env, view);
     }

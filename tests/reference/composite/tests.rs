@@ -5,7 +5,7 @@ use super::super::tests::{Depth, projection, view};
 use super::*;
 use glam::DMat4;
 
-const PLAIN: Settings = Settings {
+pub const PLAIN: Settings = Settings {
     radius: 0.5,
     falloff: 5.3,
     refraction: 0.25,
@@ -19,7 +19,25 @@ const PLAIN: Settings = Settings {
     shininess: 80.0,
     sun_direction: DVec3::Z,
     sun_color: [1.0; 3],
+    bed: None,
 };
+
+/// A surface at a point with a normal, and so much water in so much room.
+pub fn facing(position: DVec3, normal: DVec3, thickness: f64, room: f64) -> Surface {
+    let parts = super::super::surface::Parts {
+        case: super::super::surface::Case::Whole,
+        smooth: [DVec2::ZERO; 2],
+        sphere: [DVec2::ZERO; 2],
+        full: thickness,
+        drop: 0.0,
+        borrowed: false,
+        found: 1.0,
+        mixed: 0.0,
+        margin: f64::INFINITY,
+    };
+    let ripple = super::super::noise::Ripple::default();
+    Surface { position, normal, thickness, room, lens: thickness, ripple, parts }
+}
 
 /// The images of one water surface before a scene at depth 50.
 struct Scene {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use whitewater::Light;
 use whitewater::water::settings::{
-    Amplitude, Compositing, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
 };
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
 
@@ -22,6 +22,7 @@ table! {
         amplitude: AmplitudeWord,
         fresnel: FresnelTable,
         compositing: CompositingWord,
+        bed: BedWord,
         refraction: f32,
         specular: f32,
         shininess: f32,
@@ -33,6 +34,7 @@ table! {
 
 words!(AmplitudeWord of Amplitude { Volume, Source });
 words!(CompositingWord of Compositing { Mixed, Source });
+words!(BedWord of Bed { Submerged, Source });
 
 /// A medium by name or by its numbers.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
