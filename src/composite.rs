@@ -100,6 +100,7 @@ fn pipelines(
         (20, u32::from(config.diffuse.is_some())),
         (22, u32::from(config.bubbles.is_some())),
         (24, u32::from(config.shore.is_some())),
+        (25, config.mirror_steps),
     ];
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();

@@ -3,6 +3,7 @@
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
+// What it mirrors: the environment and, by a march over the screen, the scene.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
 // light of diffuse particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
@@ -12,6 +13,8 @@
 layout(constant_id = 0) const uint THICKNESS = 1;
 // 1: coarser levels of the smoothing may show. A pipeline each, not a branch: a CPU would run both sides.
 layout(constant_id = 2) const uint NEAR = 0;
+// Steps of the march for what of the scene the front surface mirrors; 0: the environment alone.
+layout(constant_id = 25) const uint MIRROR = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -24,6 +27,7 @@ layout(set = 0, binding = 23) uniform sampler2D diffuse_light;
 layout(set = 0, binding = 26) uniform sampler2D soap;
 
 #include "ripples.glsl"
+#include "march.glsl"
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -208,8 +212,8 @@ float bent_way(vec3 n, vec3 v, vec3 up) {
     return mix(1.0, clamp(rise / max(steep, 1.0e-6), 0.0, 1.0), level);
 }
 
-// ripple: noise on the surface, and its rise a pixel.
-Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
+// ripple: noise on the surface, and its rise a pixel. marched: it mirrors the scene too, if anything does.
+Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
     vec3 n;
@@ -246,11 +250,22 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
 
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
-    vec3 reflected = mat3(frame.world) * reflect(-v, n);
-    // What is mirrored from below the horizon is more water, not the environment's ground.
+    vec3 to = reflect(-v, n);
+    vec3 reflected = mat3(frame.world) * to;
+    // What is mirrored from below the horizon is more water, not the environment's ground: it looks like what is behind.
     float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, dot(reflected, frame.up.xyz));
-    sheet.mirror = w * sky * fresnel(dot(n, v));
+    sheet.mirror = w * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
+    if (MIRROR > 0u && marched) {
+        // The scene in the way of it, whatever its direction.
+        bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
+        Met met = march(position, to, asked ? int(MIRROR) : 0);
+        float free = (1.0 - met.share) * sky;
+        sky = free + met.share;
+        vec3 c = met.share * scene_at(met.at) + free * sheet.mirrored;
+        sheet.mirrored = sky > 0.0 ? c / sky : sheet.mirrored;
+    }
+    sheet.mirror *= sky;
     // Straight against the sun there is none.
     vec3 h = v + frame.sun_direction.xyz;
     h *= inversesqrt(max(dot(h, h), 1.0e-12));
@@ -313,7 +328,7 @@ vec3 over(Sheet sheet, vec3 background) {
 // The back sheet where the front one covers it. Near its edge, and where it is no other sheet for
 // want of air, less of its surface; its thickness knows by itself.
 Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
-    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0));
+    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0), false);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     bool there = surface.covered > 0.0 && !(scene > 0.0 && surface.z >= scene);
     float share = there ? surface.found : 0.0;
@@ -556,7 +571,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     // On the front sheet: the noise is of the particles at its surface.
     vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
-    Sheet sheet = sheet_of(surface, pixel, t, ripple);
+    Sheet sheet = sheet_of(surface, pixel, t, ripple, true);
     Foam foam;
     bool past = false;
     bool behind_boundary = false;

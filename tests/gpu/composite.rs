@@ -105,6 +105,7 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
         },
         fresnel,
         bed: (water.bed == Bed::Submerged).then(bed),
+        mirror_steps: 0,
         specular: [f64::from(water.specular); 3],
         shininess: f64::from(water.shininess),
         sun_direction: view.view.transform_vector3(rgb(light.direction).into()).normalize(),
@@ -140,6 +141,7 @@ pub struct Cases {
     drop: usize,
     part_drop: usize,
     borrowed: usize,
+    mirrored: usize,
 }
 
 impl Cases {
@@ -172,6 +174,7 @@ impl std::ops::AddAssign for Cases {
         self.drop += other.drop;
         self.part_drop += other.part_drop;
         self.borrowed += other.borrowed;
+        self.mirrored += other.mirrored;
     }
 }
 
@@ -203,6 +206,7 @@ pub fn check_told(
     let drawn: Drawn = rig.draw(shot);
     let view = shot.view(size);
     let mut settings = twin_settings(shot, &view);
+    settings.mirror_steps = rig.config.mirror_steps;
     other(&mut settings);
     let (width, height) = (size.width as usize, size.height as usize);
     let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
@@ -236,7 +240,7 @@ pub fn check_told(
         let found = surfaces.at(x, y).expect("a surface");
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
         let seen = twin::seen(&inputs, &settings, &found, |d| sky.radiance(d), &view, pixel);
-        let Shaded { color, moved } =
+        let Shaded { color, moved, met, sure } =
             shaded(&inputs, &settings, &found, &view, (x, y), seen, &filter);
         for (i, c) in color.iter().enumerate() {
             let twin = expected.at(x, y)[i];
@@ -247,6 +251,8 @@ pub fn check_told(
             );
         }
         cases.count(&found);
+        cases.mirrored += usize::from(met.share == 1.0);
+        decisions += rig.config.mirror_steps as usize;
         // A look-up as near to the next texel as it is uncertain may meet another scene.
         let q = look_up(&settings, &found, &view, pixel);
         let z = -found.position.z;
@@ -262,7 +268,7 @@ pub fn check_told(
         };
         // Depths are means of 13u, the falloff a product.
         let undecided = 16.0 * U * (z + settings.falloff * settings.radius);
-        if found.parts.margin <= undecided || asked.iter().any(unsure) {
+        if found.parts.margin <= undecided || !sure || asked.iter().any(unsure) {
             skipped += 1;
             *expected.at_mut(x, y) = drawn.output.at(x, y).map(f64::from);
         }
@@ -487,13 +493,52 @@ fn the_bed_is_the_twins() {
     }
 }
 
+/// A wall behind and beside the water, of a gradient, that it mirrors at its limbs.
+#[test]
+fn what_of_the_scene_is_mirrored_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut mirrored = 0;
+    for (way, steps) in [(Shading::Raster, 10), (Shading::Compute, 10), (Shading::Raster, 2)] {
+        let config =
+            Config { coarsening: 0, composite: Some(way), mirror_steps: steps, ..config(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::Reversed, Lens::LeftHanded] {
+            let mut shot = Shot::new(size, lens, 0.6, &[[-0.9, 0.2, 5.0], [0.9, -0.4, 5.5]]);
+            shot.scene_depth(|x, _| Some(6.2 + 0.01 * f64::from(x)));
+            shot.settings.water.fresnel = Fresnel::Source { bias: 0.5, scale: 0.4, power: 2.0 };
+            shot.settings.water.spacing = 1.6;
+            let name = format!("composite-mirror-{steps}-{lens:?}-{way:?}");
+            mirrored += check(&name, &mut rig, &shot, Sky::Even).mirrored;
+            shot.color.fill(FLAT);
+            check(&format!("{name}-flat"), &mut rig, &shot, Sky::Even);
+            // One step fewer meets it elsewhere.
+            if steps == 10 && lens == Lens::Standard {
+                let other = fails(|| {
+                    check_other(&name, &mut rig, &shot, Sky::Even, |s| s.mirror_steps = 0);
+                });
+                assert!(other, "the environment alone is another picture");
+            }
+        }
+    }
+    assert!(mirrored > 500, "{mirrored} pixels mirror the wall alone");
+}
+
 /// A white furnace: clear water over a white bed, in an environment as bright from everywhere, is not seen: what comes out
 /// of the bed and what is mirrored are all there is. A grey bed is darker for it, a black one as black.
 #[test]
 fn clear_water_in_a_white_furnace_is_not_seen() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    for mirror_steps in [0, 10] {
+        furnace(&gpu, Config { coarsening: 0, mirror_steps, ..config(size) });
+    }
+}
+
+fn furnace(gpu: &Gpu, config: Config) {
+    let size = config.extent;
+    let mut rig = Rig::new(gpu, &config);
     let radiance = 0.5_f32;
     rig.environment(extent(4, 2), &[[radiance, radiance, radiance, 1.0]; 8]);
     let mut shot = shot(size, Lens::Standard);

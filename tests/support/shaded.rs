@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::composite::{
-    Bed, Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
+    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, cut_look_up, look_up, look_up_both,
+    met_about, scene_at,
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
@@ -28,6 +29,9 @@ pub struct Shaded {
     pub color: [Rounded; 3],
     /// By how many pixels the look-up of the background may be off.
     pub moved: f64,
+    /// What of the scene is mirrored, and whether rounding may not meet something else.
+    pub met: Met,
+    pub sure: bool,
 }
 
 /// The most that a channel of the scene changes from texel to texel round a position, x and y.
@@ -82,6 +86,8 @@ struct Lit {
     offset: [Rounded; 2],
     /// Of what is mirrored, with the error of its direction, and of the sun's highlight.
     share: Rounded,
+    /// How much of it there is where the scene is not met.
+    sky: Rounded,
     turned: f64,
     shine: Rounded,
     /// Of the baseline's foam.
@@ -258,7 +264,7 @@ fn lit(
         }
     };
     let turned = reflected.iter().map(|c| c.e).fold(0.0, f64::max);
-    let share = w * sky * fresnel;
+    let share = w * fresnel;
 
     let sun = settings.sun_direction.to_array().map(|v| Rounded { v, e: 16.0 * U });
     let half = normalize([0, 1, 2].map(|i| v[i] + sun[i]));
@@ -267,7 +273,7 @@ fn lit(
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
     // Of the mean's weights 13u, a product; the radiance is two products and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
-    Lit { z, path, offset, share, turned, shine: w * shine, foam: grey, wet, down }
+    Lit { z, path, offset, share, sky, turned, shine: w * shine, foam: grey, wet, down }
 }
 
 /// What a surface makes of the colour behind it.
@@ -276,15 +282,50 @@ fn over(
     lit: &Lit,
     behind: [Rounded; 3],
     env: DVec3,
+    (met, scene): (Rounded, [Rounded; 3]),
     filter: &Filter,
 ) -> [Rounded; 3] {
+    let free = lit.sky * (exact(1.0) - met);
+    let all = if met.v + met.e > 0.0 { free + met } else { lit.sky };
     [0, 1, 2].map(|i| {
         let water = through(&settings.medium, behind[i], lit.path, i);
         let seen = filter.sky_slope * lit.turned + filter.sky_error + 4.0 * U * env[i];
-        let c = mix(water, Rounded { v: env[i], e: seen }, lit.share);
+        let seen = Rounded { v: env[i], e: seen };
+        let mirrored = if met.v + met.e == 0.0 || all.v == 0.0 {
+            seen
+        } else {
+            (met * scene[i] + free * seen) / all
+        };
+        let c = mix(water, mirrored, lit.share * all);
         c + (exact(settings.specular[i]) * lit.shine * exact(settings.sun_color[i]) + lit.foam[i])
     })
 }
+
+/// What of the scene the front surface mirrors: how much, and its colour; and what the march found.
+fn mirrored(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    lit: &Lit,
+    view: &View,
+    filter: &Filter,
+) -> ((Rounded, [Rounded; 3]), Met, bool) {
+    if settings.mirror_steps == 0 || surface.thickness == 0.0 && lit.share.e == 0.0 {
+        return (NOTHING, Met::default(), true);
+    }
+    // The direction in the world is off by as much as that in eye space, and the turn.
+    let off_by = (4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
+    let (met, moved, sure) = met_about(inputs, settings, surface, view, off_by);
+    if met.share == 0.0 {
+        return (NOTHING, met, sure);
+    }
+    let at = scene(inputs, met.at, moved, scene_at(inputs, met.at), filter);
+    let share = Rounded { v: met.share, e: moved * 16.0 / view.extent().y + 16.0 * U };
+    ((share, at), met, sure)
+}
+
+const NOTHING: (Rounded, [Rounded; 3]) =
+    (Rounded { v: 0.0, e: 0.0 }, [Rounded { v: 0.0, e: 0.0 }; 3]);
 
 /// The scene's colour where it is looked up, which may be so many pixels off.
 fn scene(
@@ -321,7 +362,8 @@ pub fn shaded(
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
     let behind = under_water(settings, &lit, exact(1.0), behind);
-    Shaded { color: over(settings, &lit, behind, env, filter), moved }
+    let (of_scene, met, sure) = mirrored(inputs, settings, surface, &lit, view, filter);
+    Shaded { color: over(settings, &lit, behind, env, of_scene, filter), moved, met, sure }
 }
 
 /// Thickness of the front sheet, T2 and `apart`, as rounded as they are.
@@ -403,7 +445,8 @@ pub fn shaded_both(
         color = under_water(settings, back, *part, color);
     }
     if let Some((back, _)) = back {
-        color = over(settings, &back, color, envs[1], filter);
+        color = over(settings, &back, color, envs[1], NOTHING, filter);
     }
-    Shaded { color: over(settings, &front, color, envs[0], filter), moved }
+    let (of_scene, met, sure) = mirrored(inputs, settings, &shown.front, &front, view, filter);
+    Shaded { color: over(settings, &front, color, envs[0], of_scene, filter), moved, met, sure }
 }

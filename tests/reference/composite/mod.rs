@@ -8,6 +8,7 @@
 //! ```
 
 mod bed;
+mod mirror;
 mod sheets;
 pub mod source;
 #[cfg(test)]
@@ -20,6 +21,7 @@ use super::surface::{Surface, Surfaces};
 use super::{Image, View, smoothstep};
 
 pub use bed::{Bed, Under, under_water};
+pub use mirror::{Met, met, met_about};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
 /// What light meets inside the water.
@@ -131,6 +133,8 @@ pub struct Settings {
     pub sun_color: [f64; 3],
     /// What water does to the scene under it; without: nothing but what the medium takes straight on.
     pub bed: Option<Bed>,
+    /// Steps of the march for what of the scene is mirrored.
+    pub mirror_steps: u32,
 }
 
 /// By how many pixels a surface displaces the background. Light bends towards the water's normal, so
@@ -227,6 +231,17 @@ pub fn scene_at(inputs: &Inputs<'_>, at: DVec2) -> DVec3 {
     inputs.scene_color.bilinear(at).iter().map(color).sum()
 }
 
+/// How much of the scene a surface mirrors, and the colour there.
+fn of_scene(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+) -> (f64, DVec3) {
+    let Met { at, share } = met(inputs, settings, surface, view);
+    (share, if share > 0.0 { scene_at(inputs, at) } else { DVec3::ZERO })
+}
+
 /// The direction in the world in which a surface mirrors.
 pub fn mirrored(surface: &Surface, view: &View) -> DVec3 {
     let (n, v) = (surface.normal, -surface.position.normalize());
@@ -264,13 +279,14 @@ pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
 }
 
 /// A surface before what is behind it: through the water, then what it mirrors and the highlight,
-/// of which a part is there.
+/// of which a part is there. Of what it mirrors, the scene has a share, with its colour.
 fn before(
     settings: &Settings,
     surface: &Surface,
     part: f64,
     behind: DVec3,
     env: impl Fn(DVec3) -> DVec3,
+    (met, scene): (f64, DVec3),
     view: &View,
 ) -> DVec3 {
     let Surface { position, normal: n, thickness, .. } = *surface;
@@ -282,7 +298,10 @@ fn before(
     let reflected = mirrored(surface, view);
     // What is mirrored from below the horizon is more water, not the environment's ground.
     let sky = smoothstep(-0.3, 0.0, reflected.y);
-    color = color.lerp(env(reflected), w * sky * settings.fresnel.reflectance(n.dot(v)));
+    let reflectance = w * settings.fresnel.reflectance(n.dot(v));
+    let free = sky * (1.0 - met);
+    color = color * (1.0 - reflectance * (free + met))
+        + reflectance * (free * env(reflected) + met * scene);
 
     let h = (v + settings.sun_direction).normalize_or_zero();
     let highlight = n.dot(h).max(0.0).powf(settings.shininess);
@@ -316,6 +335,7 @@ pub fn shade(
         let surface = surfaces.at(x, y)?;
         let behind = background(inputs, settings, &surface, view, pixel);
         let behind = under_water(settings, &Under::of(settings, &surface, view), behind);
-        Some(before(settings, &surface, 1.0, behind, &env, view))
+        let mirrored = of_scene(inputs, settings, &surface, view);
+        Some(before(settings, &surface, 1.0, behind, &env, mirrored, view))
     })
 }

@@ -7,8 +7,8 @@ use super::super::surface::{Surface, Surfaces};
 use super::super::{Image, View, is_surface, smoothstep};
 
 use super::{
-    Inputs, Settings, Under, before, bent, cut_look_up, displacement, over_scene, scene_at,
-    under_water,
+    Inputs, Settings, Under, before, bent, cut_look_up, displacement, of_scene, over_scene,
+    scene_at, under_water,
 };
 
 /// What a frame with two sheets has besides the [`Inputs`], whose thickness is that of all water.
@@ -188,9 +188,12 @@ pub fn shade_shown(
         color = under_water(settings, &Under { wet: under.wet * back.part(), ..under }, color);
     }
     if let Some(back) = &shown.back {
-        color = before(settings, &back.surface, back.part(), color, &env, view);
+        // What it mirrors of the scene is not looked for.
+        let none = (0.0, DVec3::ZERO);
+        color = before(settings, &back.surface, back.part(), color, &env, none, view);
     }
-    before(settings, &shown.front, 1.0, color, &env, view)
+    let mirrored = of_scene(inputs, settings, &shown.front, view);
+    before(settings, &shown.front, 1.0, color, &env, mirrored, view)
 }
 
 /// The picture of two sheets.

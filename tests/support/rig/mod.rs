@@ -39,6 +39,8 @@ pub fn config(size: vk::Extent2D) -> Config {
         depth_splat: Some(Splat::Compute),
         thickness_splat: Some(Splat::Compute),
         sheets: 1,
+        // Most twins see no more of the scene than what is behind.
+        mirror_steps: 0,
         coarsening: if slow() { Config::new(size, OUTPUT, 1).coarsening } else { 0 },
         ..Config::new(size, OUTPUT, 4096)
     }

@@ -1,11 +1,11 @@
 //! Tables `[water]`, `[foam]`, `[spray]`, `[shadow]`, `[noise]` and `[light]`.
 
 use serde::{Deserialize, Serialize};
-use whitewater::Light;
 use whitewater::water::settings::{
     Amplitude, Bed, Compositing, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
 };
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
+use whitewater::{Config, Light};
 
 use super::table::{table, words};
 
@@ -29,7 +29,11 @@ table! {
     }
     optional {}
     not { medium }
-    beside { medium: MediumTable }
+    beside {
+        medium: MediumTable,
+        /// Not of the settings, but of the passes.
+        mirror_steps: u32,
+    }
 }
 
 words!(AmplitudeWord of Amplitude { Volume, Source });
@@ -150,9 +154,19 @@ impl WaterTable {
         water.medium = self.medium.map_or(water.medium, |medium| medium.medium(water.spacing));
     }
 
-    /// The table that says all of them.
-    pub fn all(water: &WaterSettings) -> Self {
-        Self { medium: Some(water.medium.into()), ..Self::of(water) }
+    /// Steps of the march for what is mirrored of the scene, in the thesis' look or ours.
+    pub fn mirror_steps(&self, thesis: bool) -> u32 {
+        let standard = Config::new(Default::default(), Default::default(), 0).mirror_steps;
+        self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
+    }
+
+    /// The table that says all of them, and of the passes as this table does.
+    pub fn all(&self, water: &WaterSettings, thesis: bool) -> Self {
+        Self {
+            medium: Some(water.medium.into()),
+            mirror_steps: Some(self.mirror_steps(thesis)),
+            ..Self::of(water)
+        }
     }
 }
 
