@@ -483,7 +483,7 @@ impl FrameUniforms {
             diffuse_sun: sun_on(frame.settings),
             shore_color,
             contact_color,
-            up: frame.settings.upward().extend(0.0).to_array(),
+            up: frame.settings.upward().extend(index(water).recip()).to_array(),
             bed: bed(water, light, frame.settings.upward()).0,
             bed_light: bed(water, light, frame.settings.upward()).1,
         }
@@ -631,6 +631,17 @@ fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {
     [part(0), part(1), part(2), foam.shadow]
 }
 
+/// Index of refraction: facing the surface Schlick's reflectance is ((n - 1)/(n + 1))^2.
+fn index(water: &WaterSettings) -> f32 {
+    match water.fresnel {
+        Fresnel::Schlick { f0 } => {
+            let root = f0.clamp(0.0, 1.0).sqrt();
+            (1.0 + root) / (1.0 - root).max(1.0e-3)
+        }
+        Fresnel::Source { .. } => WATER_INDEX,
+    }
+}
+
 /// Uniforms `bed` and `bed_light`: what a surface does to the light of what lies under it.
 fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let per_light = |e: f32| std::f32::consts::PI / e.max(1.0e-9);
@@ -638,15 +649,12 @@ fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     if water.bed == Bed::Source {
         return ([1.0, 0.0, 0.0, 0.0], [r, g, b, 1.0]);
     }
-    // Schlick's reflectance facing the surface is ((n - 1)/(n + 1))^2; over an even sky its mean is F0 + (1 - F0)/21, of
-    // the other form bias + 2 scale/((p + 1)(p + 2)).
-    let (n, mean) = match water.fresnel {
-        Fresnel::Schlick { f0 } => {
-            let root = f0.clamp(0.0, 1.0).sqrt();
-            ((1.0 + root) / (1.0 - root).max(1.0e-3), f0 + (1.0 - f0) / 21.0)
-        }
+    let n = index(water);
+    // Over an even sky the mean of Schlick's reflectance is F0 + (1 - F0)/21, of the other form bias + 2 scale/((p + 1)(p + 2)).
+    let mean = match water.fresnel {
+        Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
         Fresnel::Source { bias, scale, power } => {
-            (WATER_INDEX, bias + 2.0 * scale / ((power + 1.0) * (power + 2.0)))
+            bias + 2.0 * scale / ((power + 1.0) * (power + 2.0))
         }
     };
     let comes_in = (1.0 - mean).clamp(1.0e-3, 1.0);

@@ -15,6 +15,9 @@ layout(constant_id = 0) const uint THICKNESS = 1;
 layout(constant_id = 2) const uint NEAR = 0;
 // Steps of the march for what of the scene the front surface mirrors; 0: the environment alone.
 layout(constant_id = 25) const uint MIRROR = 0;
+// Steps of the march for what is seen through water with air behind it, by both of its surfaces; 0: what is behind, bent by
+// the front one alone.
+layout(constant_id = 26) const uint EXIT = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -192,13 +195,19 @@ struct Sheet {
     float wet;     // how much of the scene behind it lies under it
     float down;    // metres of water above that, upright
     float sun;     // share of the sun's light that comes to its surface
+    vec3 at;       // its surface in eye space
+    vec3 normal;   // towards the eye
+    float thick;   // metres along z
 };
 
-const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0);
 
 // Share of the room before the scene from which on water lies on it, and which it fills at most with air behind it:
-// a thickness of particles is right to a fifth.
-const vec2 FILLED = vec2(0.5, 0.8);
+// a thickness of particles is right to a quarter.
+const vec2 FILLED = vec2(0.5, 0.7);
+
+// Least cosine to the view's axis of a ray through a sheet.
+const float FLATTEST = 0.25;
 
 // The way through water to what lies under it, over the way straight on: that of the bent ray to the same depth below a
 // level surface. A surface that stands upright leaves it as it is.
@@ -234,6 +243,9 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
     t = ends ? min(t, room) : t;
 
     Sheet sheet;
+    sheet.at = position;
+    sheet.normal = n;
+    sheet.thick = t;
     float away = length(position);
     vec3 v = -position / away;
     sheet.path = t * away / surface.z;
@@ -261,9 +273,13 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
         Met met = march(position, to, asked ? int(MIRROR) : 0);
         float free = (1.0 - met.share) * sky;
-        sky = free + met.share;
-        vec3 c = met.share * scene_at(met.at) + free * sheet.mirrored;
-        sheet.mirrored = sky > 0.0 ? c / sky : sheet.mirrored;
+        // An end of a loop, not a branch: a CPU runs branches whole.
+        bool any = met.share > 0.0;
+        while (any) {
+            sky = free + met.share;
+            sheet.mirrored = (met.share * scene_at(met.at) + free * sheet.mirrored) / sky;
+            any = false;
+        }
     }
     sheet.mirror *= sky;
     // Straight against the sun there is none.
@@ -349,32 +365,35 @@ struct Foam {
     vec2 water;   // where no sphere shows any, metres of water, all and before the frontmost
 };
 
-// Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
-// 1 where it is turned away. Not in the source, whose foam is flat. The slope is that of quadratic
-// B-splines through the texels about a place h: differences of neighbours alone change from texel to texel,
-// which stays where it is on the screen while the foam moves.
-float relief(vec2 pixel, float z, float sun) {
-    vec2 h = pixel / frame.thick_extent.z - 0.5;
-    vec2 middle = floor(h + 0.5);
-    vec2 f = h - middle;
+// Rise a texel, right and down, of the quadratic B-splines through the nine texels about a place h of an image of the
+// thickness' size, f from their middle: differences of neighbours alone change from texel to texel, which stays where it is
+// on the screen while the water moves. From gathers before the middle, right of it, below, and after; texels beyond the
+// frame repeat its edge, the image may be larger.
+vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 after) {
     vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
     vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
     vec3 down = vec3(0.5 * (0.5 - f.y) * (0.5 - f.y), 0.75 - f.y * f.y, 0.5 * (0.5 + f.y) * (0.5 + f.y));
     vec3 falls = vec3(f.y - 0.5, -2.0 * f.y, f.y + 0.5);
-    // The nine about it, of the front layer: four gathers. Those beyond the frame repeat its edge; the image may
-    // be larger.
+    bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
+    vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
+    vec3 mid = vec3(before.xy, ends.x ? before.y : right.y);
+    vec3 high = ends.y ? mid : vec3(below.xy, ends.x ? below.y : after.y);
+    return vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
+         + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
+         + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
+}
+
+// Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
+// 1 where it is turned away. Not in the source, whose foam is flat.
+float relief(vec2 pixel, float z, float sun) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    vec2 middle = floor(h + 0.5);
     vec2 texel = 1.0 / vec2(textureSize(foam_thickness, 0));
     vec4 before = textureGather(foam_thickness, middle * texel, 1);
     vec4 right = textureGather(foam_thickness, (middle + vec2(1.0, 0.0)) * texel, 1);
     vec4 below = textureGather(foam_thickness, (middle + vec2(0.0, 1.0)) * texel, 1);
     vec4 after = textureGather(foam_thickness, (middle + 1.0) * texel, 1);
-    bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
-    vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
-    vec3 mid = vec3(before.xy, ends.x ? before.y : right.y);
-    vec3 high = ends.y ? mid : vec3(below.xy, ends.x ? below.y : after.y);
-    vec2 rise = vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
-              + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
-              + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
+    vec2 rise = spline_rise(middle, h - middle, before, right, below, after);
     vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
     vec3 normal = normalize(vec3(-slope, 1.0));
     float turned = dot(normal, frame.sun_direction.xyz) - frame.sun_direction.z;
@@ -489,6 +508,79 @@ Sheet between(Foam foam, vec2 pixel, float t) {
     return sheet;
 }
 
+// Light that comes into the front sheet from behind it, by both of its surfaces, where there is air (Wyman 2005, "An
+// Approximate Image-Space Approach for Interactive Refraction"; not in the thesis). Differs: the far surface is the front one
+// and as much deeper as the water is thick, with the slope of both; a march over the screen finds the scene.
+struct Exit {
+    float kept; // of what is seen of the scene through what else is behind
+    vec3 free;  // all other light
+    vec3 scene;
+    float path; // metres through the sheet
+};
+
+// The slope of the thickness, per pixel of the picture.
+vec2 thickness_slope(vec2 pixel) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    vec2 middle = floor(h + 0.5);
+    vec2 texel = 1.0 / vec2(textureSize(thickness, 0));
+    vec4 before = textureGather(thickness, middle * texel, 0);
+    vec4 right = textureGather(thickness, (middle + vec2(1.0, 0.0)) * texel, 0);
+    vec4 below = textureGather(thickness, (middle + vec2(0.0, 1.0)) * texel, 0);
+    vec4 after = textureGather(thickness, (middle + 1.0) * texel, 0);
+    return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
+}
+
+// behind: what is seen by the front surface alone. parallel: the far surface has the slope of the front one, as where the
+// thickness is that of two sheets.
+Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
+    vec3 v = normalize(-sheet.at);
+    float ratio = frame.up.w;
+    // A normal of a ripple may be turned away.
+    float facing = max(dot(sheet.normal, v), 0.0);
+    vec3 inside = ratio * (sheet.normal * facing - v)
+                - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+    Exit result;
+    result.path = sheet.thick / max(-inside.z, FLATTEST);
+    vec3 from = sheet.at + inside * result.path;
+
+    Surface far = surface;
+    far.z += sheet.thick;
+    vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
+    far.dz += parallel ? vec2(0.0) : thickness_slope(pixel);
+    far.dz = clamp(far.dz, -steepest, steepest);
+    vec3 there;
+    vec3 n;
+    surface_frame(far, ray_slope(pixel, frame.slope), there, n);
+    float inner = clamp(-dot(inside, n), 0.0, 1.0);
+    float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
+    bool total = square <= 0.0;
+    float outer = sqrt(max(square, 0.0));
+    vec3 along = inside / ratio + n * (inner / ratio - outer);
+    along = total ? inside + 2.0 * inner * n : along;
+    along = normalize(along);
+
+    Met met = march(from, along, int(EXIT));
+    vec3 world = mat3(frame.world) * along;
+    // What leaves downwards and meets nothing that is seen: as if it went straight on.
+    float sky = (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    float thrown = total ? 0.0 : fresnel(outer);
+    // Thin films are what they are by their front; of what lies under water there is no air.
+    float air = (1.0 - sheet.wet) * smoothstep(0.0, 0.25 * frame.particle.x, sheet.thick);
+    vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
+    result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
+                         + thrown * sheet.mirrored);
+    vec3 scene = (1.0 - air) * behind + air * (1.0 - thrown) * seen;
+    result.kept = 1.0 - air + air * (1.0 - thrown) * (1.0 - sky);
+    result.scene = result.kept > 0.0 ? scene / result.kept : behind;
+    result.path = mix(sheet.path, result.path, air);
+    return result;
+}
+
+// With all that does not come through what is behind.
+vec3 opened(Exit e, vec3 c) {
+    return c * e.kept + e.free;
+}
+
 // A surface on the way to the same one at the next coarser level.
 Surface towards(Surface surface, Surface other, float fade) {
     surface.z = mix(surface.z, other.z, fade);
@@ -595,6 +687,15 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
     c = under_water(back, under_water(sheet, c));
+    Exit way = Exit(1.0, vec3(0.0), c, sheet.path);
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
+    while (open) {
+        way = exit_of(sheet, surface, pixel, c, covers);
+        c = way.scene;
+        sheet.path = way.path;
+        open = false;
+    }
     sheet = on_ladder(sheet);
     back = on_ladder(back);
     face.mirror = front < EMPTY && !by_source() ? sheet.mirror : 0.0;
@@ -608,7 +709,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         if (back.path > 0.0) {
             c = over(back, c);
         }
-        return over(sheet, c);
+        return over(sheet, opened(way, c));
     }
     foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
     bool dry = front >= EMPTY;
@@ -617,6 +718,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     if (dry) {
         c = scene_at(pixel);
+        way = Exit(1.0, vec3(0.0), c, 0.0);
         all = foam.water;
         t = all.x;
         sheet = between(foam, pixel, t);
@@ -630,14 +732,14 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         Sheet behind = sheet;
         behind.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
         Sheet first = between(foam, pixel, share.y);
-        apart = over_with(first, foam.depth, min(all.y, share.y), share.y, foam, over(behind, c));
+        apart = over_with(first, foam.depth, min(all.y, share.y), share.y, foam, over(behind, opened(way, c)));
     } else if (behind_air > 0.0) {
         Sheet whole = sheet;
         whole.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
-        apart = over(whole, over_with(back, beyond, max(all.y - t, 0.0), share.y, foam, c));
+        apart = over(whole, opened(way, over_with(back, beyond, max(all.y - t, 0.0), share.y, foam, c)));
     }
     back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
-    c = back.path > 0.0 ? over(back, c) : c;
+    c = opened(way, back.path > 0.0 ? over(back, c) : c);
     vec3 seen = mix(over_with(sheet, surface.z, min(all.y, t), t, foam, c), apart, behind_air);
     return dry && foam.depth >= EMPTY ? c : seen;
 }

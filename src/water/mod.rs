@@ -47,7 +47,7 @@ pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use foam::word_bytes as foam_bytes;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, Bed, Compositing, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder,
+    Amplitude, Bed, Compositing, Convolution, Exit, FoamLook, FoamSettings, Fresnel, Gate, Ladder,
     Medium, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook,
     WaterSettings,
 };

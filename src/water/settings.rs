@@ -219,8 +219,8 @@ pub enum Compositing {
     Source,
 }
 
-/// How the scene looks where it lies under the water: where that fills four fifths or more of the room before it, the less
-/// the nearer to a half.
+/// How the scene looks where it lies under the water: where that fills seven tenths or more of the room before it, the
+/// less the nearer to a half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Bed {
     /// As darker as it is for being wet (Lekner and Dorf 1988): by the reflectance of the surface on the way in, its radiance
@@ -232,6 +232,20 @@ pub enum Bed {
     /// As if it were dry, behind the water straight on (the thesis).
     Source,
 }
+
+/// What is seen through water with air behind it: jets, crowns, drops, sheets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Exit {
+    /// Light is bent where it enters the water and where it leaves it, by the slope of both surfaces and the index of
+    /// refraction n that [`Bed`] says, or totally reflected there; what it meets of the scene is looked for on the screen, in 4
+    /// steps, and the rest is the environment (Wyman 2005). Of a front sheet before another both surfaces are parallel.
+    TwoInterfaces,
+    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis), as that is under water with both.
+    Straight,
+}
+
+/// Steps of the march of [`Exit::TwoInterfaces`].
+pub(crate) const EXIT_STEPS: u32 = 4;
 
 /// Index of refraction of water.
 pub(crate) const WATER_INDEX: f32 = 1.333;

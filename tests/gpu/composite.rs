@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::water::{Bed, Fresnel, Medium, Shading, Splat};
+use whitewater::water::{Bed, Exit, Fresnel, Medium, Shading, Splat};
 
 use crate::harness::fails;
 use crate::reduce::wide;
@@ -106,6 +106,7 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
         fresnel,
         bed: (water.bed == Bed::Submerged).then(bed),
         mirror_steps: 0,
+        exit: None,
         specular: [f64::from(water.specular); 3],
         shininess: f64::from(water.shininess),
         sun_direction: view.view.transform_vector3(rgb(light.direction).into()).normalize(),
@@ -207,6 +208,9 @@ pub fn check_told(
     let view = shot.view(size);
     let mut settings = twin_settings(shot, &view);
     settings.mirror_steps = rig.config.mirror_steps;
+    // The index of a bed.
+    let index = settings.bed.map_or(1.333, |bed| bed.index);
+    settings.exit = (rig.config.exit == Exit::TwoInterfaces).then_some(index);
     other(&mut settings);
     let (width, height) = (size.width as usize, size.height as usize);
     let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
@@ -525,14 +529,63 @@ fn what_of_the_scene_is_mirrored_is_the_twins() {
     assert!(mirrored > 500, "{mirrored} pixels mirror the wall alone");
 }
 
+/// Drops, a block and a layer with air behind them, before a wall that is seen through them, or the environment.
+#[test]
+fn what_comes_through_both_surfaces_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for (way, thickness_level) in
+        [(Shading::Raster, 2), (Shading::Compute, 0), (Shading::Raster, 1)]
+    {
+        let config = Config {
+            coarsening: 0,
+            composite: Some(way),
+            exit: Exit::TwoInterfaces,
+            mirror_steps: if thickness_level == 1 { 10 } else { 0 },
+            thickness_level,
+            ..config(size)
+        };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            for wall in [true, false] {
+                let mut drops = Shot::new(size, lens, 0.6, &[[-0.9, 0.2, 5.0], [0.9, -0.4, 5.5]]);
+                drops.settings.water.spacing = 1.6;
+                let shots = [("drops", drops), ("block", shot(size, lens))];
+                for (kind, mut shot) in shots {
+                    if wall {
+                        shot.scene_depth(|x, _| Some(12.0 + 0.02 * f64::from(x)));
+                    }
+                    let name = format!("composite-exit-{kind}-{lens:?}-{way:?}-{wall}");
+                    check(&name, &mut rig, &shot, Sky::Even);
+                    let other = fails(|| {
+                        check_other(&name, &mut rig, &shot, Sky::Even, |s| s.exit = None);
+                    });
+                    assert!(other, "{name}: the front alone shows another picture");
+                    // Of an even environment alone, hardly.
+                    let other = !wall
+                        || fails(|| {
+                            check_other(&name, &mut rig, &shot, Sky::Even, |s| {
+                                s.exit = s.exit.map(|index| index * 1.01);
+                            });
+                        });
+                    assert!(other, "{name}: another index shows another picture");
+                }
+            }
+        }
+    }
+}
+
 /// A white furnace: clear water over a white bed, in an environment as bright from everywhere, is not seen: what comes out
 /// of the bed and what is mirrored are all there is. A grey bed is darker for it, a black one as black.
 #[test]
 fn clear_water_in_a_white_furnace_is_not_seen() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
-    for mirror_steps in [0, 10] {
-        furnace(&gpu, Config { coarsening: 0, mirror_steps, ..config(size) });
+    for (mirror_steps, exit) in
+        [(0, Exit::Straight), (10, Exit::Straight), (10, Exit::TwoInterfaces)]
+    {
+        furnace(&gpu, Config { coarsening: 0, mirror_steps, exit, ..config(size) });
     }
 }
 
@@ -569,9 +622,9 @@ fn furnace(gpu: &Gpu, config: Config) {
     let q = (1.0 - (0.02 + 0.98 / 21.0)) / (1.141_421_4_f32 / 0.858_578_6).powi(2);
     let wet = 0.4 * q / (1.0 - 0.4 * (1.0 - q));
     let [low, high] = middle(0.4);
-    assert!((low - wet).abs() < 64.0 * off && high < 1.0, "{low} to {high}, not from {wet}");
+    assert!((low - wet).abs() < 64.0 * off && high < 1.0 + off, "{low} to {high}, not from {wet}");
     let [low, high] = middle(0.0);
-    assert!(low == 0.0 && high < 1.0, "{low} to {high} of a black bed");
+    assert!(low == 0.0 && high < 1.0 + off, "{low} to {high} of a black bed");
 }
 
 /// Refraction never looks at what stands before the water; the scene's depth may be of another size.

@@ -27,6 +27,8 @@ pub struct Surface {
     pub thickness: f64,
     /// That room.
     pub room: f64,
+    /// Its slope, depth per pixel of the picture.
+    pub slope: DVec2,
     /// What of it refracts: where the surface is torn no more than two spacings.
     pub lens: f64,
     /// The noise on it, which has turned the normal.
@@ -419,6 +421,7 @@ impl<'a> Surfaces<'a> {
         let thickness = full.min(room);
         let torn = thickness.min(2.0 * spacing);
         let lens = torn + (thickness - torn) * found;
-        Surface { position: ray * z, normal: turned, thickness, room, lens, ripple, parts }
+        let slope = slope / texel;
+        Surface { position: ray * z, normal: turned, thickness, room, slope, lens, ripple, parts }
     }
 }

@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::composite::{
-    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, cut_look_up, look_up, look_up_both,
-    met_about, scene_at,
+    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, all_mirrored, cut_look_up,
+    exit_about, look_up, look_up_both, met_about, scene_at,
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
@@ -95,6 +95,8 @@ struct Lit {
     /// How much of the scene lies under it, and metres of water above that, upright.
     wet: Rounded,
     down: Rounded,
+    /// Metres of water along z.
+    thick: Rounded,
 }
 
 /// How much of the room before the scene water fills, as a share of the scene under it.
@@ -105,10 +107,10 @@ fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
         return Rounded { v, e: if room.v <= room.e { room.e.min(1.0).ceil() } else { 0.0 } };
     }
     if room.v <= 2.0 * room.e {
-        let v = crate::reference::smoothstep(0.5, 0.8, t.v / room.v);
+        let v = crate::reference::smoothstep(0.5, 0.7, t.v / room.v);
         return Rounded { v, e: 1.0 };
     }
-    smoothstep(off(0.5, 1.0), off(0.8, 1.0), t / room)
+    smoothstep(off(0.5, 1.0), off(0.7, 1.0), t / room)
 }
 
 /// The bent way to the eye over the straight one.
@@ -273,7 +275,7 @@ fn lit(
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
     // Of the mean's weights 13u, a product; the radiance is two products and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
-    Lit { z, path, offset, share, sky, turned, shine: w * shine, foam: grey, wet, down }
+    Lit { z, path, offset, share, sky, turned, shine: w * shine, foam: grey, wet, down, thick: t }
 }
 
 /// What a surface makes of the colour behind it.
@@ -355,14 +357,49 @@ pub fn shaded(
 ) -> Shaded {
     let texel = f64::from(1 << inputs.level);
     let t = off(surface.parts.full, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
-    let lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
+    let mut lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
     let moved = moved(lit.offset, view);
     let q = look_up(settings, surface, view, pixel);
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
     let behind = under_water(settings, &lit, exact(1.0), behind);
-    let (of_scene, met, sure) = mirrored(inputs, settings, surface, &lit, view, filter);
+    let (of_scene, met, mut sure) = mirrored(inputs, settings, surface, &lit, view, filter);
+    let mut behind = behind;
+    if settings.exit.is_some() && surface.thickness > 0.0 {
+        // Of an even environment: what is mirrored of it is the same in all directions.
+        let of = (of_scene.0.v, DVec3::from(of_scene.1.map(|c| c.v)));
+        let color = DVec3::from(behind.map(|c| c.v));
+        let colors = (color, all_mirrored(surface, |_| env, of, view));
+        // Four times what normals are off by; the thickness' slope is a difference of numbers that are no more than all of
+        // it, over the width of a pixel.
+        let width = view.slope_step().abs().min_element() * lit.z.v;
+        let around = surface.parts.full.max(surface.thickness) + settings.radius;
+        let turned = 4.0 * (lit.turned + 16.0 * U * (1.0 + around / width));
+        let share = 4.0 * (lit.z.e / lit.z.v + lit.thick.e / lit.thick.v + 32.0 * U);
+        let (seen, light, path, same) = exit_about(
+            inputs,
+            settings,
+            surface,
+            view,
+            (x, y),
+            colors,
+            |_| env,
+            (turned, share.min(0.5)),
+        );
+        sure &= same;
+        let by = 1.0 / f64::from(1 << filter.bits);
+        let changes = changes(inputs, seen.met.at);
+        behind = [0, 1, 2].map(|i| Rounded {
+            v: seen.light[i],
+            e: light[i]
+                + behind[i].e
+                + of_scene.1[i].e
+                + by * (changes[0][i] + changes[1][i])
+                + 64.0 * U * (seen.light[i].abs() + env[i]),
+        });
+        lit.path = Rounded { v: seen.path, e: path + lit.path.e + 64.0 * U * seen.path };
+    }
     Shaded { color: over(settings, &lit, behind, env, of_scene, filter), moved, met, sure }
 }
 

@@ -84,7 +84,7 @@ impl Under {
             return Self { wet: 0.0, down: 0.0, path: straight };
         };
         let filled = if room > 0.0 { thickness / room } else { 0.0 };
-        let wet = smoothstep(0.5, 0.8, filled);
+        let wet = smoothstep(0.5, 0.7, filled);
         let (level, rise) = (n.dot(up).max(0.0), v.dot(up));
         // Along the surface light keeps n sin; what it has along the normal is the rest of its length.
         let facing = n.dot(v).max(0.0);

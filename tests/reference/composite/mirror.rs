@@ -29,12 +29,15 @@ fn on_screen(view: &View, eye: DVec3) -> DVec3 {
     ((slope - view.ray_at(DVec2::ZERO).truncate()) / view.slope_step()).extend(-1.0 / eye.z)
 }
 
-fn depth(inputs: &Inputs<'_>, at: DVec2) -> f64 {
+/// The scene's depth in a pixel; what lies at the far plane is nothing.
+fn depth(inputs: &Inputs<'_>, view: &View, at: DVec2) -> f64 {
     let (scene, depth) = (inputs.scene_depth, inputs.depth);
     let texel = |at: f64, texels: usize, pixels: usize| {
         ((at.max(0.0) * texels as f64 / pixels as f64) as usize).min(texels - 1)
     };
-    scene.at(texel(at.x, scene.width, depth.width), texel(at.y, scene.height, depth.height))
+    let z =
+        scene.at(texel(at.x, scene.width, depth.width), texel(at.y, scene.height, depth.height));
+    if z < 0.9999 * view.far().unwrap_or(EMPTY).min(EMPTY) { z } else { EMPTY }
 }
 
 fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
@@ -58,7 +61,7 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
     let growth = first.min(1.0).recip().powf(1.0 / (f64::from(steps) - 1.0).max(1.0));
     let gap = |part: f64| {
         let at = start + way * part;
-        let scene = depth(inputs, at.truncate());
+        let scene = depth(inputs, view, at.truncate());
         (at.z.recip() - scene, scene)
     };
     let (mut free, mut front, mut before) = ((0.0, -1.0), true, z);
@@ -93,6 +96,16 @@ fn march(inputs: &Inputs<'_>, view: &View, ray: Ray, steps: u32) -> Met {
         (free, front, before) = ((part, by), by <= 0.0, here);
     }
     Met::default()
+}
+
+/// What a ray from a place in a direction meets in so many steps, the first of them by a factor longer.
+pub fn march_from(
+    inputs: &Inputs<'_>,
+    view: &View,
+    (from, along, stretch): (DVec3, DVec3, f64),
+    steps: u32,
+) -> Met {
+    march(inputs, view, Ray { from, along, stretch }, steps)
 }
 
 /// What a surface mirrors of the scene.

@@ -8,6 +8,7 @@
 //! ```
 
 mod bed;
+mod exit;
 mod mirror;
 mod sheets;
 pub mod source;
@@ -21,6 +22,7 @@ use super::surface::{Surface, Surfaces};
 use super::{Image, View, smoothstep};
 
 pub use bed::{Bed, Under, under_water};
+pub use exit::{Off, exit, exit_about};
 pub use mirror::{Met, met, met_about};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
@@ -135,6 +137,8 @@ pub struct Settings {
     pub bed: Option<Bed>,
     /// Steps of the march for what of the scene is mirrored.
     pub mirror_steps: u32,
+    /// The index of refraction where light comes through both surfaces; without: what is behind, displaced.
+    pub exit: Option<f64>,
 }
 
 /// By how many pixels a surface displaces the background. Light bends towards the water's normal, so
@@ -242,6 +246,18 @@ fn of_scene(
     (share, if share > 0.0 { scene_at(inputs, at) } else { DVec3::ZERO })
 }
 
+/// What a surface mirrors of scene and environment, if it is of any.
+pub fn all_mirrored(
+    surface: &Surface,
+    env: impl Fn(DVec3) -> DVec3,
+    (met, scene): (f64, DVec3),
+    view: &View,
+) -> DVec3 {
+    let reflected = mirrored(surface, view);
+    let free = (1.0 - met) * smoothstep(-0.3, 0.0, reflected.y);
+    if met > 0.0 { (met * scene + free * env(reflected)) / (met + free) } else { env(reflected) }
+}
+
 /// The direction in the world in which a surface mirrors.
 pub fn mirrored(surface: &Surface, view: &View) -> DVec3 {
     let (n, v) = (surface.normal, -surface.position.normalize());
@@ -280,6 +296,7 @@ pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
 
 /// A surface before what is behind it: through the water, then what it mirrors and the highlight,
 /// of which a part is there. Of what it mirrors, the scene has a share, with its colour.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn before(
     settings: &Settings,
     surface: &Surface,
@@ -287,11 +304,11 @@ fn before(
     behind: DVec3,
     env: impl Fn(DVec3) -> DVec3,
     (met, scene): (f64, DVec3),
+    path: f64,
     view: &View,
 ) -> DVec3 {
     let Surface { position, normal: n, thickness, .. } = *surface;
     let v = -position.normalize();
-    let path = Under::of(settings, surface, view).path;
     let mut color = through(&settings.medium, behind, path);
 
     let w = part * smoothstep(0.0, settings.radius / 4.0, thickness);
@@ -336,6 +353,9 @@ pub fn shade(
         let behind = background(inputs, settings, &surface, view, pixel);
         let behind = under_water(settings, &Under::of(settings, &surface, view), behind);
         let mirrored = of_scene(inputs, settings, &surface, view);
-        Some(before(settings, &surface, 1.0, behind, &env, mirrored, view))
+        let colors = (behind, all_mirrored(&surface, &env, mirrored, view));
+        let off = Off::default();
+        let seen = exit(inputs, settings, &surface, view, (x, y), colors, &env, &off);
+        Some(before(settings, &surface, 1.0, seen.light, &env, mirrored, seen.path, view))
     })
 }

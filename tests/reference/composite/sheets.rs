@@ -183,17 +183,19 @@ pub fn shade_shown(
     let (q, _) = cut_look_up(inputs, z, pixel, displaced);
     let mut color = scene_at(inputs, q);
     color = under_water(settings, &Under::of(settings, &shown.front, view), color);
+    let mut under = Under { wet: 0.0, down: 0.0, path: 0.0 };
     if let Some(back) = &shown.back {
-        let under = Under::of(settings, &back.surface, view);
+        under = Under::of(settings, &back.surface, view);
         color = under_water(settings, &Under { wet: under.wet * back.part(), ..under }, color);
     }
     if let Some(back) = &shown.back {
         // What it mirrors of the scene is not looked for.
         let none = (0.0, DVec3::ZERO);
-        color = before(settings, &back.surface, back.part(), color, &env, none, view);
+        color = before(settings, &back.surface, back.part(), color, &env, none, under.path, view);
     }
     let mirrored = of_scene(inputs, settings, &shown.front, view);
-    before(settings, &shown.front, 1.0, color, &env, mirrored, view)
+    let path = Under::of(settings, &shown.front, view).path;
+    before(settings, &shown.front, 1.0, color, &env, mirrored, path, view)
 }
 
 /// The picture of two sheets.

@@ -22,6 +22,7 @@ pub const PLAIN: Settings = Settings {
     sun_color: [1.0; 3],
     bed: None,
     mirror_steps: 0,
+    exit: None,
 };
 
 /// A surface at a point with a normal, and so much water in so much room.
@@ -38,7 +39,16 @@ pub fn facing(position: DVec3, normal: DVec3, thickness: f64, room: f64) -> Surf
         margin: f64::INFINITY,
     };
     let ripple = super::super::noise::Ripple::default();
-    Surface { position, normal, thickness, room, lens: thickness, ripple, parts }
+    Surface {
+        position,
+        normal,
+        thickness,
+        room,
+        slope: DVec2::ZERO,
+        lens: thickness,
+        ripple,
+        parts,
+    }
 }
 
 /// The images of one water surface before a scene at depth 50.
@@ -349,7 +359,7 @@ fn the_offsets_of_both_sheets_add_up() {
 #[test]
 fn a_wall_is_mirrored_where_it_stands() {
     let (far, above) = (6.0, 2.0);
-    for unit in [1.0, 1e-3, 1e3] {
+    for unit in [1.0, 1e-3, 100.0] {
         let pitch = DMat4::from_rotation_x(20.0_f64.to_radians());
         let p = projection(DVec2::new(1.2, -1.2), DVec2::ZERO, Depth::Standard);
         let view = View::new(pitch, p, 160, 120).expect("a valid view");

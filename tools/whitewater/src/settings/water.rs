@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use whitewater::water::settings::{
-    Amplitude, Bed, Compositing, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Exit, Fresnel, Medium, ShadowFilter, Shadows,
+    WaterSettings,
 };
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
 use whitewater::{Config, Light};
@@ -33,11 +34,13 @@ table! {
         medium: MediumTable,
         /// Not of the settings, but of the passes.
         mirror_steps: u32,
+        exit: ExitWord,
     }
 }
 
 words!(AmplitudeWord of Amplitude { Volume, Source });
 words!(CompositingWord of Compositing { Mixed, Source });
+words!(ExitWord of Exit { TwoInterfaces, Straight });
 words!(BedWord of Bed { Submerged, Source });
 
 /// A medium by name or by its numbers.
@@ -160,11 +163,18 @@ impl WaterTable {
         self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
     }
 
+    /// What is seen through water with air behind it, in the thesis' look or ours.
+    pub fn exit(&self, thesis: bool) -> Exit {
+        let standard = if thesis { Exit::Straight } else { Exit::TwoInterfaces };
+        self.exit.map_or(standard, Into::into)
+    }
+
     /// The table that says all of them, and of the passes as this table does.
     pub fn all(&self, water: &WaterSettings, thesis: bool) -> Self {
         Self {
             medium: Some(water.medium.into()),
             mirror_steps: Some(self.mirror_steps(thesis)),
+            exit: Some(self.exit(thesis).into()),
             ..Self::of(water)
         }
     }
