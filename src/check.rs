@@ -374,6 +374,9 @@ pub fn config(config: &Config) -> Result<(), Error> {
     if config.coarsening > MOST_COARSENING {
         return bad("Config.coarsening", format!("{} of 0 to 3", config.coarsening));
     }
+    if config.mirror_steps > 64 {
+        return bad("Config.mirror_steps", format!("{} of 0 to 64", config.mirror_steps));
+    }
     if !(1..=2).contains(&config.sheets) {
         return bad("Config.sheets", format!("{} of 1, 2", config.sheets));
     }

@@ -20,7 +20,7 @@ use crate::gpu::pipeline::{Graphics, Pipeline, no_blend};
 use crate::gpu::shader;
 use crate::shore::{COAT_DISPATCH, Shore};
 use crate::water::coarsening;
-use crate::water::settings::Shading;
+use crate::water::settings::{EXIT_STEPS, Exit, Shading};
 use crate::water::split::{DISPATCHES, KINDS};
 use crate::water::{Recording, WaterLayers};
 
@@ -100,6 +100,8 @@ fn pipelines(
         (20, u32::from(config.diffuse.is_some())),
         (22, u32::from(config.bubbles.is_some())),
         (24, u32::from(config.shore.is_some())),
+        (25, config.mirror_steps),
+        (26, if config.exit == Exit::TwoInterfaces { EXIT_STEPS } else { 0 }),
     ];
     let light = crate::light::constants(config);
     let mut all = Pipelines::default();

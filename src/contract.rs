@@ -21,8 +21,8 @@ use crate::frame::level_axes;
 pub use crate::gpu::access::Access;
 use crate::shore::settings::{ShoreConfig, ShoreLook};
 use crate::water::settings::{
-    FoamLook, FoamSettings, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing,
-    Splat, SprayLook, WaterSettings,
+    Exit, FoamLook, FoamSettings, Ladder, NoiseLook, Rule, Shading, ShadowFilter, Shadows,
+    Smoothing, Splat, SprayLook, WaterSettings,
 };
 
 /// The host's Vulkan objects, for [`Context::new`](crate::Context::new). All must outlive the context and what is made
@@ -107,6 +107,13 @@ pub struct Config {
     /// its format be one that the device stores to without being told which; R16G16B16A16_SFLOAT
     /// is nearly everywhere, those of sRGB are not. [`Offer`](crate::Offer) knows.
     pub composite: Option<Shading>,
+    /// Steps in which the composite looks for what of the scene the water's surface mirrors, on the screen, 0 to 64;
+    /// 0: it mirrors the environment alone, as the thesis. Default 8: they grow from a 128th of the picture's height to its
+    /// edge, by 2.2 on a wide picture. What is not on the screen is the environment; with [`Compositing::Source`](
+    /// crate::water::Compositing) all is.
+    pub mirror_steps: u32,
+    /// What is seen through water with air behind it. Default [`Exit::TwoInterfaces`].
+    pub exit: Exit,
     /// Iteration rule of the smoothing.
     pub rule: Rule,
     /// Most iterations of the smoothing, 1 to 256 (default 256, as the source).
@@ -176,6 +183,8 @@ impl Config {
             thickness_splat: None,
             smoothing: None,
             composite: None,
+            mirror_steps: 8,
+            exit: Exit::TwoInterfaces,
             rule: Rule::ConstantWidth,
             max_iterations: 256,
             coarsening: 3,
@@ -778,7 +787,7 @@ impl Default for Settings {
 impl Settings {
     /// The look of the thesis' demo (Bagar 2010) for particles of a spacing: its composite, colours, unit of the
     /// thickness, foam, spray and light on foam. With it go [`Rule::Source`](crate::water::Rule) of [`Config::rule`],
-    /// [`Config::sheets`] of 1, [`Config::cast`] of `None` and [`Shadows::Convolution`](crate::water::Shadows).
+    /// [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`], [`Config::cast`] of `None` and [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {
             water: WaterSettings::thesis(spacing),

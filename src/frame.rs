@@ -10,7 +10,8 @@ use crate::error::Error;
 use crate::foam::settings::{Mixing, Reach, Submerged};
 use crate::gpu::shader;
 use crate::water::settings::{
-    Amplitude, Compositing, FoamLook, Fresnel, GREATEST, Medium, Rule, SprayLook, WaterSettings,
+    Amplitude, Bed, Compositing, FoamLook, Fresnel, GREATEST, Medium, Rule, SprayLook, WATER_INDEX,
+    WaterSettings,
 };
 
 /// Empty depth: farther than any surface (a MIN blend wants positive depth).
@@ -87,6 +88,8 @@ pub struct FrameUniforms {
     pub shore_color: [f32; 4],
     pub contact_color: [f32; 4],
     pub up: [f32; 4],
+    pub bed: [f32; 4],
+    pub bed_light: [f32; 4],
 }
 
 shader::assert_layout!(
@@ -159,6 +162,8 @@ shader::assert_layout!(
         shore_color,
         contact_color,
         up,
+        bed,
+        bed_light,
     }
 );
 
@@ -478,7 +483,9 @@ impl FrameUniforms {
             diffuse_sun: sun_on(frame.settings),
             shore_color,
             contact_color,
-            up: frame.settings.upward().extend(0.0).to_array(),
+            up: frame.settings.upward().extend(index(water).recip()).to_array(),
+            bed: bed(water, light, frame.settings.upward()).0,
+            bed_light: bed(water, light, frame.settings.upward()).1,
         }
     }
 }
@@ -622,6 +629,46 @@ fn shade(light: &Light, foam: &FoamLook) -> [f32; 4] {
         if whole > 0.0 { (light.shade[i] / whole).clamp(0.0, 1.0) } else { 1.0 }
     };
     [part(0), part(1), part(2), foam.shadow]
+}
+
+/// Index of refraction: facing the surface Schlick's reflectance is ((n - 1)/(n + 1))^2.
+fn index(water: &WaterSettings) -> f32 {
+    match water.fresnel {
+        Fresnel::Schlick { f0 } => {
+            let root = f0.clamp(0.0, 1.0).sqrt();
+            (1.0 + root) / (1.0 - root).max(1.0e-3)
+        }
+        Fresnel::Source { .. } => WATER_INDEX,
+    }
+}
+
+/// Uniforms `bed` and `bed_light`: what a surface does to the light of what lies under it.
+fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
+    let per_light = |e: f32| std::f32::consts::PI / e.max(1.0e-9);
+    let [r, g, b] = light.irradiance.map(per_light);
+    if water.bed == Bed::Source {
+        return ([1.0, 0.0, 0.0, 0.0], [r, g, b, 1.0]);
+    }
+    let n = index(water);
+    // Over an even sky the mean of Schlick's reflectance is F0 + (1 - F0)/21, of the other form bias + 2 scale/((p + 1)(p + 2)).
+    let mean = match water.fresnel {
+        Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
+        Fresnel::Source { bias, scale, power } => {
+            bias + 2.0 * scale / ((power + 1.0) * (power + 2.0))
+        }
+    };
+    let comes_in = (1.0 - mean).clamp(1.0e-3, 1.0);
+    let leaves = (comes_in / (n * n)).max(1.0e-3);
+    // 2 n^2 (1 - sqrt(1 - 1/n^2)), which does not cancel so: the mean of 1/cos inside, over sin^2 outside.
+    let sky = 2.0 / (1.0 + (1.0 - 1.0 / (n * n)).max(0.0).sqrt());
+    let cosine = light.toward().dot(up).clamp(0.0, 1.0);
+    let inside = (1.0 - (1.0 - cosine * cosine) / (n * n)).max(1.0e-6).sqrt();
+    let reflected = match water.fresnel {
+        Fresnel::Schlick { f0 } => f0 + (1.0 - f0) * (1.0 - cosine).powi(5),
+        Fresnel::Source { bias, scale, power } => bias + scale * (1.0 - cosine).powf(power),
+    };
+    let sun = (1.0 - reflected).clamp(0.0, 1.0) / comes_in;
+    ([leaves, sky, inside.recip(), n.recip()], [r, g, b, sun])
 }
 
 fn light_vector(c: [f32; 3]) -> [f32; 4] {

@@ -70,7 +70,9 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 diffuse_sun;   // the sun's light on what faces it, over 2 pi
     vec4 shore_color;   // radiance of shoreline foam; its opacity
     vec4 contact_color; // of contact foam; what of it is light on it
-    vec4 up;            // world, unit length
+    vec4 up;            // world, unit length; w: 1/n of the water
+    vec4 bed;           // of the light that is thrown up inside, what leaves; ways of the sky's and the sun's light a metre down; 1/n, or 0: dry
+    vec4 bed_light;     // pi over the irradiance; what comes in of the sun's light over what does of the sky's
 } frame;
 
 // Slope (xy / depth) of the ray through a point of an image, in its pixel coordinates.

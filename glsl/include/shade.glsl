@@ -3,6 +3,7 @@
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
+// What it mirrors: the environment and, by a march over the screen, the scene.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
 // light of diffuse particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
@@ -12,6 +13,11 @@
 layout(constant_id = 0) const uint THICKNESS = 1;
 // 1: coarser levels of the smoothing may show. A pipeline each, not a branch: a CPU would run both sides.
 layout(constant_id = 2) const uint NEAR = 0;
+// Steps of the march for what of the scene the front surface mirrors; 0: the environment alone.
+layout(constant_id = 25) const uint MIRROR = 0;
+// Steps of the march for what is seen through water with air behind it, by both of its surfaces; 0: what is behind, bent by
+// the front one alone.
+layout(constant_id = 26) const uint EXIT = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
 layout(set = 0, binding = 3) uniform sampler2D thickness;
@@ -24,6 +30,7 @@ layout(set = 0, binding = 23) uniform sampler2D diffuse_light;
 layout(set = 0, binding = 26) uniform sampler2D soap;
 
 #include "ripples.glsl"
+#include "march.glsl"
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
 vec2 drop_slope(ivec2 pixel, float front, float threshold) {
@@ -185,10 +192,37 @@ struct Sheet {
     float mirror;  // share of what it mirrors
     vec3 mirrored;
     vec3 shine;    // the sun's highlight
+    float wet;     // how much of the scene behind it lies under it
+    float down;    // metres of water above that, upright
+    float sun;     // share of the sun's light that comes to its surface
+    vec3 at;       // its surface in eye space
+    vec3 normal;   // towards the eye
+    float thick;   // metres along z
 };
 
-// ripple: noise on the surface, and its rise a pixel.
-Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
+const Sheet NO_SHEET = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, vec3(0.0), vec3(0.0), 0.0);
+
+// Share of the room before the scene from which on water lies on it, and which it fills at most with air behind it:
+// a thickness of particles is right to a quarter.
+const vec2 FILLED = vec2(0.5, 0.7);
+
+// Least cosine to the view's axis of a ray through a sheet.
+const float FLATTEST = 0.25;
+
+// The way through water to what lies under it, over the way straight on: that of the bent ray to the same depth below a
+// level surface. A surface that stands upright leaves it as it is.
+float bent_way(vec3 n, vec3 v, vec3 up) {
+    float ratio = frame.bed.w;
+    float facing = max(dot(n, v), 0.0);
+    float inside = sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+    float level = max(dot(n, up), 0.0);
+    float rise = dot(v, up);
+    float steep = ratio * rise + (inside - ratio * facing) * level;
+    return mix(1.0, clamp(rise / max(steep, 1.0e-6), 0.0, 1.0), level);
+}
+
+// ripple: noise on the surface, and its rise a pixel. marched: it mirrors the scene too, if anything does.
+Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) {
     vec2 slope = ray_slope(pixel, frame.slope);
     vec3 position;
     vec3 n;
@@ -204,12 +238,22 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
     // where it meets the scene, and bends nothing that it touches.
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     // A mean of EMPTY may round to less.
-    t = scene > 0.0 && surface.z < 0.5 * EMPTY ? min(t, max(scene - surface.z, 0.0)) : t;
+    bool ends = scene > 0.0 && surface.z < 0.5 * EMPTY;
+    float room = max(scene - surface.z, 0.0);
+    t = ends ? min(t, room) : t;
 
     Sheet sheet;
+    sheet.at = position;
+    sheet.normal = n;
+    sheet.thick = t;
     float away = length(position);
     vec3 v = -position / away;
     sheet.path = t * away / surface.z;
+    float filled = t / max(room, 1.0e-6 * frame.particle.y);
+    sheet.wet = ends && frame.bed.w > 0.0 ? smoothstep(FILLED.x, FILLED.y, filled) : 0.0;
+    vec3 up = frame.up.xyz * mat3(frame.world);
+    sheet.down = sheet.path * max(dot(v, up), 0.0);
+    sheet.path *= mix(1.0, bent_way(n, v, up), sheet.wet);
     // Light bends towards the water's normal: the look-up moves against it (the source has it the
     // other way, which shows things smaller under a bump).
     // Of a torn surface as of a thin sheet: what hangs together with nothing round it is no lens.
@@ -218,17 +262,33 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple) {
 
     // Thin films at the rim of a drop neither reflect nor shine: no outlines.
     float w = by_source() ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, t);
-    vec3 reflected = mat3(frame.world) * reflect(-v, n);
-    // What is mirrored from below the horizon is more water, not the environment's ground.
+    vec3 to = reflect(-v, n);
+    vec3 reflected = mat3(frame.world) * to;
+    // What is mirrored from below the horizon is more water, not the environment's ground: it looks like what is behind.
     float sky = by_source() ? 1.0 : smoothstep(-0.3, 0.0, dot(reflected, frame.up.xyz));
-    sheet.mirror = w * sky * fresnel(dot(n, v));
+    sheet.mirror = w * fresnel(dot(n, v));
     sheet.mirrored = textureLod(environment, reflected, 0.0).rgb;
+    if (MIRROR > 0u && marched) {
+        // The scene in the way of it, whatever its direction.
+        bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
+        Met met = march(position, to, asked ? int(MIRROR) : 0);
+        float free = (1.0 - met.share) * sky;
+        // An end of a loop, not a branch: a CPU runs branches whole.
+        bool any = met.share > 0.0;
+        while (any) {
+            sky = free + met.share;
+            sheet.mirrored = (met.share * scene_at(met.at) + free * sheet.mirrored) / sky;
+            any = false;
+        }
+    }
+    sheet.mirror *= sky;
     // Straight against the sun there is none.
     vec3 h = v + frame.sun_direction.xyz;
     h *= inversesqrt(max(dot(h, h), 1.0e-12));
     // pow() by hand: of tiny bases some drivers make NaN.
     float lobe = frame.surface.z * log2(max(dot(n, h), 1.0e-6));
     float sun = SHADOW > 0u ? past_scene(position, pixel) : 1.0;
+    sheet.sun = sun;
     sun = DIFFUSED == 1u ? sun * past_diffuse(light_texels(position)) : sun;
     sheet.shine = sun * w * frame.surface.y * exp2(max(lobe, -100.0)) * frame.sun_color.rgb;
     if (NOISE == 1u) {
@@ -247,6 +307,27 @@ Sheet on_ladder(Sheet sheet) {
     return sheet;
 }
 
+// Colour of what lies under a sheet, of its colour without (Lekner and Dorf 1988, "Why some things are darker when
+// wet", with the light that water takes; not in the source). Of the light on the surface comes in 1 - F; a part (1 - F)/n^2
+// of what is diffuse goes out again, the rest is thrown back to the bed, whose reflectance A tells how much of that comes
+// up once more: (1 - F)/n^2 / (1 - A (1 - (1 - F)/n^2)), 1 for white. Each eye's own 1 - F is in what it mirrors. On its
+// way down light is lost over the sun's bent way and the mean one of an even sky's; up and down again inside over five
+// times that, mostly totally reflected: both over sin^2, without losses. What it loses on its way to the eye is
+// `over`'s.
+vec3 under_water(Sheet sheet, vec3 dry) {
+    vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
+    vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));
+    vec3 sun = exp(-extinction * (frame.bed.z * sheet.down));
+    vec3 lit = (1.0 - frame.shade.rgb) * sheet.sun;
+    // Pass `lit` took the sun's part already.
+    vec3 came = frame.shade.rgb * sky + lit * sun * frame.bed_light.w;
+    came /= max(frame.shade.rgb + (CAST == 1u ? lit * sun : lit), vec3(1.0e-9));
+    vec3 albedo = clamp(dry * frame.bed_light.rgb, 0.0, 1.0);
+    vec3 back = sky * sky * sky * sky * sky * (1.0 - frame.bed.x);
+    vec3 wet = dry * came * frame.bed.x / (1.0 - albedo * back);
+    return mix(dry, wet, frame.target.z >= BACK_WATER ? sheet.wet : 0.0);
+}
+
 // Light with what a surface mirrors, and its highlight; through: of the water before foam, and of the foam.
 vec3 with_mirrored(Sheet sheet, vec3 c, vec2 through) {
     float weight = clamp(1.0 - through.x + through.y, 0.0, 1.0) * (1.0 - through.x);
@@ -263,13 +344,14 @@ vec3 over(Sheet sheet, vec3 background) {
 // The back sheet where the front one covers it. Near its edge, and where it is no other sheet for
 // want of air, less of its surface; its thickness knows by itself.
 Sheet behind(Surface surface, vec2 pixel, float t, float apart) {
-    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0));
+    Sheet sheet = sheet_of(surface, pixel, t, vec3(0.0), false);
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     bool there = surface.covered > 0.0 && !(scene > 0.0 && surface.z >= scene);
     float share = there ? surface.found : 0.0;
     sheet.offset *= share;
     sheet.mirror *= share * apart;
     sheet.shine *= share * apart;
+    sheet.wet *= share * apart;
     return sheet;
 }
 
@@ -283,32 +365,35 @@ struct Foam {
     vec2 water;   // where no sphere shows any, metres of water, all and before the frontmost
 };
 
-// Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
-// 1 where it is turned away. Not in the source, whose foam is flat. The slope is that of quadratic
-// B-splines through the texels about a place h: differences of neighbours alone change from texel to texel,
-// which stays where it is on the screen while the foam moves.
-float relief(vec2 pixel, float z, float sun) {
-    vec2 h = pixel / frame.thick_extent.z - 0.5;
-    vec2 middle = floor(h + 0.5);
-    vec2 f = h - middle;
+// Rise a texel, right and down, of the quadratic B-splines through the nine texels about a place h of an image of the
+// thickness' size, f from their middle: differences of neighbours alone change from texel to texel, which stays where it is
+// on the screen while the water moves. From gathers before the middle, right of it, below, and after; texels beyond the
+// frame repeat its edge, the image may be larger.
+vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 after) {
     vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
     vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
     vec3 down = vec3(0.5 * (0.5 - f.y) * (0.5 - f.y), 0.75 - f.y * f.y, 0.5 * (0.5 + f.y) * (0.5 + f.y));
     vec3 falls = vec3(f.y - 0.5, -2.0 * f.y, f.y + 0.5);
-    // The nine about it, of the front layer: four gathers. Those beyond the frame repeat its edge; the image may
-    // be larger.
+    bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
+    vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
+    vec3 mid = vec3(before.xy, ends.x ? before.y : right.y);
+    vec3 high = ends.y ? mid : vec3(below.xy, ends.x ? below.y : after.y);
+    return vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
+         + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
+         + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
+}
+
+// Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under
+// 1 where it is turned away. Not in the source, whose foam is flat.
+float relief(vec2 pixel, float z, float sun) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    vec2 middle = floor(h + 0.5);
     vec2 texel = 1.0 / vec2(textureSize(foam_thickness, 0));
     vec4 before = textureGather(foam_thickness, middle * texel, 1);
     vec4 right = textureGather(foam_thickness, (middle + vec2(1.0, 0.0)) * texel, 1);
     vec4 below = textureGather(foam_thickness, (middle + vec2(0.0, 1.0)) * texel, 1);
     vec4 after = textureGather(foam_thickness, (middle + 1.0) * texel, 1);
-    bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
-    vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
-    vec3 mid = vec3(before.xy, ends.x ? before.y : right.y);
-    vec3 high = ends.y ? mid : vec3(below.xy, ends.x ? below.y : after.y);
-    vec2 rise = vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
-              + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
-              + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
+    vec2 rise = spline_rise(middle, h - middle, before, right, below, after);
     vec2 slope = rise / (frame.thick_slope.xy * min(z, 0.5 * EMPTY));
     vec3 normal = normalize(vec3(-slope, 1.0));
     float turned = dot(normal, frame.sun_direction.xyz) - frame.sun_direction.z;
@@ -420,7 +505,82 @@ Sheet among(Foam foam, float t, Sheet sheet) {
 Sheet between(Foam foam, vec2 pixel, float t) {
     float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     t = scene > 0.0 && foam.depth < 0.5 * EMPTY ? min(t, max(scene - foam.depth, 0.0)) : t;
-    return Sheet(t * length(vec3(ray_slope(pixel, frame.slope), 1.0)), vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
+    Sheet sheet = NO_SHEET;
+    sheet.path = t * length(vec3(ray_slope(pixel, frame.slope), 1.0));
+    return sheet;
+}
+
+// Light that comes into the front sheet from behind it, by both of its surfaces, where there is air (Wyman 2005, "An
+// Approximate Image-Space Approach for Interactive Refraction"; not in the thesis). Differs: the far surface is the front one
+// and as much deeper as the water is thick, with the slope of both; a march over the screen finds the scene.
+struct Exit {
+    float kept; // of what is seen of the scene through what else is behind
+    vec3 free;  // all other light
+    vec3 scene;
+    float path; // metres through the sheet
+};
+
+// The slope of the thickness, per pixel of the picture.
+vec2 thickness_slope(vec2 pixel) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    vec2 middle = floor(h + 0.5);
+    vec2 texel = 1.0 / vec2(textureSize(thickness, 0));
+    vec4 before = textureGather(thickness, middle * texel, 0);
+    vec4 right = textureGather(thickness, (middle + vec2(1.0, 0.0)) * texel, 0);
+    vec4 below = textureGather(thickness, (middle + vec2(0.0, 1.0)) * texel, 0);
+    vec4 after = textureGather(thickness, (middle + 1.0) * texel, 0);
+    return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
+}
+
+// behind: what is seen by the front surface alone. parallel: the far surface has the slope of the front one, as where the
+// thickness is that of two sheets.
+Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
+    vec3 v = normalize(-sheet.at);
+    float ratio = frame.up.w;
+    // A normal of a ripple may be turned away.
+    float facing = max(dot(sheet.normal, v), 0.0);
+    vec3 inside = ratio * (sheet.normal * facing - v)
+                - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+    Exit result;
+    result.path = sheet.thick / max(-inside.z, FLATTEST);
+    vec3 from = sheet.at + inside * result.path;
+
+    Surface far = surface;
+    far.z += sheet.thick;
+    vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
+    far.dz += parallel ? vec2(0.0) : thickness_slope(pixel);
+    far.dz = clamp(far.dz, -steepest, steepest);
+    vec3 there;
+    vec3 n;
+    surface_frame(far, ray_slope(pixel, frame.slope), there, n);
+    float inner = clamp(-dot(inside, n), 0.0, 1.0);
+    float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
+    bool total = square <= 0.0;
+    float outer = sqrt(max(square, 0.0));
+    vec3 along = inside / ratio + n * (inner / ratio - outer);
+    along = total ? inside + 2.0 * inner * n : along;
+    along = normalize(along);
+
+    Met met = march(from, along, int(EXIT));
+    vec3 world = mat3(frame.world) * along;
+    // What leaves downwards and meets nothing that is seen: as if it went straight on.
+    float sky = (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    float thrown = total ? 0.0 : fresnel(outer);
+    // Thin films are what they are by their front; of what lies under water there is no air.
+    float air = (1.0 - sheet.wet) * smoothstep(0.0, 0.25 * frame.particle.x, sheet.thick);
+    vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
+    result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
+                         + thrown * sheet.mirrored);
+    vec3 scene = (1.0 - air) * behind + air * (1.0 - thrown) * seen;
+    result.kept = 1.0 - air + air * (1.0 - thrown) * (1.0 - sky);
+    result.scene = result.kept > 0.0 ? scene / result.kept : behind;
+    result.path = mix(sheet.path, result.path, air);
+    return result;
+}
+
+// With all that does not come through what is behind.
+vec3 opened(Exit e, vec3 c) {
+    return c * e.kept + e.free;
 }
 
 // A surface on the way to the same one at the next coarser level.
@@ -458,7 +618,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         fading = false;
     }
 
-    Sheet back = Sheet(0.0, vec2(0.0), 0.0, vec3(0.0), vec3(0.0));
+    Sheet back = NO_SHEET;
     float beyond = 0.0; // depth of the back sheet
     float boundary = SHEETS == 2u ? boundary_at(ivec2(pixel)) : EMPTY;
     bool covers = false;
@@ -505,7 +665,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     surface.dz = mix(surface.dz, drop_slope(ivec2(pixel), front, threshold), drop);
     // On the front sheet: the noise is of the particles at its surface.
     vec3 ripple = NOISE == 1u ? ripple_at(pixel, front, threshold) : vec3(0.0);
-    Sheet sheet = sheet_of(surface, pixel, t, ripple);
+    Sheet sheet = sheet_of(surface, pixel, t, ripple, true);
     Foam foam;
     bool past = false;
     bool behind_boundary = false;
@@ -528,6 +688,16 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         foam = with_submerged(foam, ivec2(pixel), front);
     }
     vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
+    c = under_water(back, under_water(sheet, c));
+    Exit way = Exit(1.0, vec3(0.0), c, sheet.path);
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
+    while (open) {
+        way = exit_of(sheet, surface, pixel, c, covers);
+        c = way.scene;
+        sheet.path = way.path;
+        open = false;
+    }
     sheet = on_ladder(sheet);
     back = on_ladder(back);
     face.mirror = front < EMPTY && !by_source() ? sheet.mirror : 0.0;
@@ -541,7 +711,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         if (back.path > 0.0) {
             c = over(back, c);
         }
-        return over(sheet, c);
+        return over(sheet, opened(way, c));
     }
     foam.kept = frame.target.z >= FOAM_TOO ? foam.kept : 1.0;
     bool dry = front >= EMPTY;
@@ -550,6 +720,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     }
     if (dry) {
         c = scene_at(pixel);
+        way = Exit(1.0, vec3(0.0), c, 0.0);
         all = foam.water;
         t = all.x;
         sheet = between(foam, pixel, t);
@@ -563,14 +734,14 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         Sheet behind = sheet;
         behind.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
         Sheet first = between(foam, pixel, share.y);
-        apart = over_with(first, foam.depth, min(all.y, share.y), share.y, foam, over(behind, c));
+        apart = over_with(first, foam.depth, min(all.y, share.y), share.y, foam, over(behind, opened(way, c)));
     } else if (behind_air > 0.0) {
         Sheet whole = sheet;
         whole.path *= frame.target.z >= FRONT_WATER ? 1.0 : 0.0;
-        apart = over(whole, over_with(back, beyond, max(all.y - t, 0.0), share.y, foam, c));
+        apart = over(whole, opened(way, over_with(back, beyond, max(all.y - t, 0.0), share.y, foam, c)));
     }
     back.path *= frame.target.z >= BACK_WATER ? 1.0 : 0.0;
-    c = back.path > 0.0 ? over(back, c) : c;
+    c = opened(way, back.path > 0.0 ? over(back, c) : c);
     vec3 seen = mix(over_with(sheet, surface.z, min(all.y, t), t, foam, c), apart, behind_air);
     return dry && foam.depth >= EMPTY ? c : seen;
 }

@@ -47,8 +47,9 @@ pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use foam::word_bytes as foam_bytes;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, Compositing, Convolution, FoamLook, FoamSettings, Fresnel, Gate, Ladder, Medium,
-    NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook, WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Exit, FoamLook, FoamSettings, Fresnel, Gate, Ladder,
+    Medium, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook,
+    WaterSettings,
 };
 pub(crate) use thickness::sum_bytes as thickness_bytes;
 

@@ -143,6 +143,8 @@ pub struct WaterSettings {
     pub fresnel: Fresnel,
     /// How what the surface mirrors and its highlight come to what is behind. Default [`Compositing::Mixed`].
     pub compositing: Compositing,
+    /// How the scene under the water looks. Default [`Bed::Submerged`].
+    pub bed: Bed,
     /// Strength of the refraction's displacement, [0, ∞), default 0.25; it tends to a sixteenth of
     /// the picture's height.
     pub refraction: f32,
@@ -165,6 +167,7 @@ impl Default for WaterSettings {
             medium: Medium::POOL,
             fresnel: Fresnel::Schlick { f0: 0.02 },
             compositing: Compositing::Mixed,
+            bed: Bed::Submerged,
             refraction: 0.25,
             specular: 1.0,
             shininess: 1500.0,
@@ -186,6 +189,7 @@ impl WaterSettings {
             medium: Medium::Source { base, falloff: falloff.map(|k| k / SOURCE_VOLUMES) },
             fresnel: Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 },
             compositing: Compositing::Source,
+            bed: Bed::Source,
             shininess: 80.0,
             ..Self::default()
         }
@@ -214,6 +218,37 @@ pub enum Compositing {
     /// All foam is at the frontmost, and rays that are mirrored down see the environment's ground.
     Source,
 }
+
+/// How the scene looks where it lies under the water: where that fills seven tenths or more of the room before it, the
+/// less the nearer to a half.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Bed {
+    /// As darker as it is for being wet (Lekner and Dorf 1988): by the reflectance of the surface on the way in, its radiance
+    /// over n² on the way out, and what is thrown back inside, by a reflectance of its own that is told from its colour and
+    /// [`Light::irradiance`](crate::Light::irradiance). Grey of 0.4 keeps 0.65, white all, but for what the medium takes
+    /// of the light on its way down, sun and sky, and on its bent way to the eye. The index of refraction n is that of
+    /// [`Fresnel::Schlick`]'s f0, else 1.333.
+    Submerged,
+    /// As if it were dry, behind the water straight on (the thesis).
+    Source,
+}
+
+/// What is seen through water with air behind it: jets, crowns, drops, sheets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Exit {
+    /// Light is bent where it enters the water and where it leaves it, by the slope of both surfaces and the index of
+    /// refraction n that [`Bed`] says, or totally reflected there; what it meets of the scene is looked for on the screen, in 4
+    /// steps, and the rest is the environment (Wyman 2005). Of a front sheet before another both surfaces are parallel.
+    TwoInterfaces,
+    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis), as that is under water with both.
+    Straight,
+}
+
+/// Steps of the march of [`Exit::TwoInterfaces`].
+pub(crate) const EXIT_STEPS: u32 = 4;
+
+/// Index of refraction of water.
+pub(crate) const WATER_INDEX: f32 = 1.333;
 
 /// Height of a particle's thickness sprite `√(1 − ρ²)·exp(−2ρ²)` at its centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use whitewater::Config;
-use whitewater::water::{Fresnel, Medium, Shading, Splat};
+use whitewater::water::{Bed, Exit, Fresnel, Medium, Shading, Splat};
 
 use crate::harness::fails;
 use crate::reduce::wide;
@@ -79,6 +79,16 @@ impl Sky {
 pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
     let (water, light) = (&shot.settings.water, &shot.settings.light);
     let rgb = |c: [f32; 3]| c.map(f64::from);
+    let fresnel = match water.fresnel {
+        Fresnel::Schlick { f0 } => twin::Fresnel::Schlick { f0: f64::from(f0) },
+        Fresnel::Source { bias, scale, power } => twin::Fresnel::Source {
+            bias: f64::from(bias),
+            scale: f64::from(scale),
+            power: f64::from(power),
+        },
+    };
+    let sun = DVec3::from(rgb(light.direction)).normalize();
+    let bed = || twin::Bed::new(fresnel, sun.y, rgb(light.irradiance), rgb(light.shade));
     twin::Settings {
         radius: f64::from(water.radius()),
         falloff: f64::from(water.depth_falloff),
@@ -93,14 +103,10 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
                 twin::Medium::Source { base: rgb(base), k: falloff.map(f64::from) }
             }
         },
-        fresnel: match water.fresnel {
-            Fresnel::Schlick { f0 } => twin::Fresnel::Schlick { f0: f64::from(f0) },
-            Fresnel::Source { bias, scale, power } => twin::Fresnel::Source {
-                bias: f64::from(bias),
-                scale: f64::from(scale),
-                power: f64::from(power),
-            },
-        },
+        fresnel,
+        bed: (water.bed == Bed::Submerged).then(bed),
+        mirror_steps: 0,
+        exit: None,
         specular: [f64::from(water.specular); 3],
         shininess: f64::from(water.shininess),
         sun_direction: view.view.transform_vector3(rgb(light.direction).into()).normalize(),
@@ -136,6 +142,7 @@ pub struct Cases {
     drop: usize,
     part_drop: usize,
     borrowed: usize,
+    mirrored: usize,
 }
 
 impl Cases {
@@ -168,6 +175,7 @@ impl std::ops::AddAssign for Cases {
         self.drop += other.drop;
         self.part_drop += other.part_drop;
         self.borrowed += other.borrowed;
+        self.mirrored += other.mirrored;
     }
 }
 
@@ -199,6 +207,10 @@ pub fn check_told(
     let drawn: Drawn = rig.draw(shot);
     let view = shot.view(size);
     let mut settings = twin_settings(shot, &view);
+    settings.mirror_steps = rig.config.mirror_steps;
+    // The index of a bed.
+    let index = settings.bed.map_or(1.333, |bed| bed.index);
+    settings.exit = (rig.config.exit == Exit::TwoInterfaces).then_some(index);
     other(&mut settings);
     let (width, height) = (size.width as usize, size.height as usize);
     let color = shot.color.iter().map(|c| c.map(f64::from)).collect();
@@ -232,7 +244,7 @@ pub fn check_told(
         let found = surfaces.at(x, y).expect("a surface");
         let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
         let seen = twin::seen(&inputs, &settings, &found, |d| sky.radiance(d), &view, pixel);
-        let Shaded { color, moved } =
+        let Shaded { color, moved, met, sure } =
             shaded(&inputs, &settings, &found, &view, (x, y), seen, &filter);
         for (i, c) in color.iter().enumerate() {
             let twin = expected.at(x, y)[i];
@@ -243,6 +255,8 @@ pub fn check_told(
             );
         }
         cases.count(&found);
+        cases.mirrored += usize::from(met.share == 1.0);
+        decisions += rig.config.mirror_steps as usize;
         // A look-up as near to the next texel as it is uncertain may meet another scene.
         let q = look_up(&settings, &found, &view, pixel);
         let z = -found.position.z;
@@ -258,7 +272,7 @@ pub fn check_told(
         };
         // Depths are means of 13u, the falloff a product.
         let undecided = 16.0 * U * (z + settings.falloff * settings.radius);
-        if found.parts.margin <= undecided || asked.iter().any(unsure) {
+        if found.parts.margin <= undecided || !sure || asked.iter().any(unsure) {
             skipped += 1;
             *expected.at_mut(x, y) = drawn.output.at(x, y).map(f64::from);
         }
@@ -419,6 +433,198 @@ fn a_hundredth_is_seen() {
         });
         assert!(seen, "{name} off by a hundredth");
     }
+}
+
+/// Water on a bed that falls away from it: from all of it lies under water to none.
+fn on_bed(size: ash::vk::Extent2D, lens: Lens) -> Shot {
+    let mut shot = shot(size, lens);
+    shot.scene_depth(|x, _| Some(4.6 + 0.02 * f64::from(x)));
+    shot
+}
+
+#[test]
+fn the_bed_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for way in [Shading::Raster, Shading::Compute] {
+        let config = Config { coarsening: 0, composite: Some(way), ..config(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            for (medium_name, medium) in [("pool", Medium::POOL), ("source", Medium::source(0.3))] {
+                for flat in [true, false] {
+                    let mut shot = on_bed(size, lens);
+                    shot.settings.water.medium = medium;
+                    if medium == Medium::POOL && flat {
+                        let fresnel = Fresnel::Source { bias: 0.1, scale: 0.4, power: 2.0 };
+                        shot.settings.water.fresnel = fresnel;
+                    }
+                    if flat {
+                        shot.color.fill(FLAT);
+                    }
+                    let name = format!("composite-bed-{lens:?}-{medium_name}-{flat}-{way:?}");
+                    check(&name, &mut rig, &shot, Sky::Even);
+                    // And dry.
+                    shot.settings.water.bed = Bed::Source;
+                    check(&format!("{name}-dry"), &mut rig, &shot, Sky::Even);
+                }
+            }
+        }
+    }
+    // Each number of it counts; none of a hundredth is lost.
+    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let mut shot = on_bed(size, Lens::Standard);
+    shot.settings.water.medium = Medium::OCEAN;
+    shot.color.fill(FLAT);
+    type Fault = fn(&mut twin::Bed);
+    let faults: [(&str, Fault); 7] = [
+        ("index", |bed| bed.index *= 1.01),
+        ("what comes in", |bed| bed.comes_in *= 0.99),
+        ("the sky's way", |bed| bed.sky_way *= 1.01),
+        ("the sun's way", |bed| bed.sun_way *= 1.01),
+        ("what of the sun comes in", |bed| bed.sun *= 0.99),
+        ("the irradiance", |bed| bed.irradiance = bed.irradiance.map(|e| e * 1.01)),
+        ("the shade", |bed| bed.shade = bed.shade.map(|e| e * 1.01)),
+    ];
+    for (name, fault) in faults {
+        let seen = fails(|| {
+            check_other("planted-bed", &mut rig, &shot, Sky::Even, |settings| {
+                fault(settings.bed.as_mut().expect("a bed"));
+            });
+        });
+        assert!(seen, "{name} off by a hundredth");
+    }
+}
+
+/// A wall behind and beside the water, of a gradient, that it mirrors at its limbs.
+#[test]
+fn what_of_the_scene_is_mirrored_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let mut mirrored = 0;
+    for (way, steps) in [(Shading::Raster, 10), (Shading::Compute, 10), (Shading::Raster, 2)] {
+        let config =
+            Config { coarsening: 0, composite: Some(way), mirror_steps: steps, ..config(size) };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::Reversed, Lens::LeftHanded] {
+            let mut shot = Shot::new(size, lens, 0.6, &[[-0.9, 0.2, 5.0], [0.9, -0.4, 5.5]]);
+            shot.scene_depth(|x, _| Some(6.2 + 0.01 * f64::from(x)));
+            shot.settings.water.fresnel = Fresnel::Source { bias: 0.5, scale: 0.4, power: 2.0 };
+            shot.settings.water.spacing = 1.6;
+            let name = format!("composite-mirror-{steps}-{lens:?}-{way:?}");
+            mirrored += check(&name, &mut rig, &shot, Sky::Even).mirrored;
+            shot.color.fill(FLAT);
+            check(&format!("{name}-flat"), &mut rig, &shot, Sky::Even);
+            // One step fewer meets it elsewhere.
+            if steps == 10 && lens == Lens::Standard {
+                let other = fails(|| {
+                    check_other(&name, &mut rig, &shot, Sky::Even, |s| s.mirror_steps = 0);
+                });
+                assert!(other, "the environment alone is another picture");
+            }
+        }
+    }
+    assert!(mirrored > 500, "{mirrored} pixels mirror the wall alone");
+}
+
+/// Drops, a block and a layer with air behind them, before a wall that is seen through them, or the environment.
+#[test]
+fn what_comes_through_both_surfaces_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for (way, thickness_level) in
+        [(Shading::Raster, 2), (Shading::Compute, 0), (Shading::Raster, 1)]
+    {
+        let config = Config {
+            coarsening: 0,
+            composite: Some(way),
+            exit: Exit::TwoInterfaces,
+            mirror_steps: if thickness_level == 1 { 10 } else { 0 },
+            thickness_level,
+            ..config(size)
+        };
+        let mut rig = Rig::new(&gpu, &config);
+        rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            for wall in [true, false] {
+                let mut drops = Shot::new(size, lens, 0.6, &[[-0.9, 0.2, 5.0], [0.9, -0.4, 5.5]]);
+                drops.settings.water.spacing = 1.6;
+                let shots = [("drops", drops), ("block", shot(size, lens))];
+                for (kind, mut shot) in shots {
+                    if wall {
+                        shot.scene_depth(|x, _| Some(12.0 + 0.02 * f64::from(x)));
+                    }
+                    let name = format!("composite-exit-{kind}-{lens:?}-{way:?}-{wall}");
+                    check(&name, &mut rig, &shot, Sky::Even);
+                    let other = fails(|| {
+                        check_other(&name, &mut rig, &shot, Sky::Even, |s| s.exit = None);
+                    });
+                    assert!(other, "{name}: the front alone shows another picture");
+                    // Of an even environment alone, hardly.
+                    let other = !wall
+                        || fails(|| {
+                            check_other(&name, &mut rig, &shot, Sky::Even, |s| {
+                                s.exit = s.exit.map(|index| index * 1.01);
+                            });
+                        });
+                    assert!(other, "{name}: another index shows another picture");
+                }
+            }
+        }
+    }
+}
+
+/// A white furnace: clear water over a white bed, in an environment as bright from everywhere, is not seen: what comes out
+/// of the bed and what is mirrored are all there is. A grey bed is darker for it, a black one as black.
+#[test]
+fn clear_water_in_a_white_furnace_is_not_seen() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for (mirror_steps, exit) in
+        [(0, Exit::Straight), (10, Exit::Straight), (10, Exit::TwoInterfaces)]
+    {
+        furnace(&gpu, Config { coarsening: 0, mirror_steps, exit, ..config(size) });
+    }
+}
+
+fn furnace(gpu: &Gpu, config: Config) {
+    let size = config.extent;
+    let mut rig = Rig::new(gpu, &config);
+    let radiance = 0.5_f32;
+    rig.environment(extent(4, 2), &[[radiance, radiance, radiance, 1.0]; 8]);
+    let mut shot = shot(size, Lens::Standard);
+    shot.scene_depth(|_, _| Some(4.6));
+    let settings = &mut shot.settings;
+    settings.water.medium = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
+    settings.water.specular = 0.0;
+    let even = [std::f32::consts::PI * radiance; 3];
+    (settings.light.irradiance, settings.light.shade) = (even, even);
+    let mut middle = |reflectance: f32| {
+        let bed = reflectance * radiance;
+        shot.color.fill([bed, bed, bed, 1.0]);
+        let drawn = rig.draw(&shot);
+        let water = (0..size.height as usize)
+            .flat_map(|y| (0..size.width as usize).map(move |x| (x, y)))
+            .filter(|&(x, y)| is_surface(f64::from(drawn.depth.at(x, y))));
+        let found: Vec<_> = water.map(|(x, y)| drawn.output.at(x, y)[0]).collect();
+        assert!(found.len() > 300, "{} pixels", found.len());
+        let (low, high) =
+            found.iter().fold((f32::MAX, 0.0_f32), |(low, high), c| (low.min(*c), high.max(*c)));
+        [low / radiance, high / radiance]
+    };
+    // The twin's roundings, 64 of them.
+    let [low, high] = middle(1.0);
+    let off = 64.0 * U as f32;
+    assert!(low > 1.0 - off && high < 1.0 + off, "{low} to {high} of the radiance");
+    // From all wet, at a rim that mirrors nothing, to all dry or all mirrored.
+    let q = (1.0 - (0.02 + 0.98 / 21.0)) / (1.141_421_4_f32 / 0.858_578_6).powi(2);
+    let wet = 0.4 * q / (1.0 - 0.4 * (1.0 - q));
+    let [low, high] = middle(0.4);
+    assert!((low - wet).abs() < 64.0 * off && high < 1.0 + off, "{low} to {high}, not from {wet}");
+    let [low, high] = middle(0.0);
+    assert!(low == 0.0 && high < 1.0 + off, "{low} to {high} of a black bed");
 }
 
 /// Refraction never looks at what stands before the water; the scene's depth may be of another size.

@@ -3,7 +3,7 @@
 
 use ash::vk;
 use whitewater::water::Shading::{Compute, Raster};
-use whitewater::water::Splat;
+use whitewater::water::{Exit, Splat};
 use whitewater::{Config, Count, Packets, Particles, Previous, Region, Stream};
 
 use crate::depth::spheres;
@@ -517,7 +517,8 @@ pub fn scaled(shot: &Shot, scale: f32) -> Shot {
 fn the_unit_of_length_does_not_show() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
-    let mut rig = Rig::new(&gpu, &exact(size));
+    let mut rig =
+        Rig::new(&gpu, &Config { mirror_steps: 10, exit: Exit::TwoInterfaces, ..exact(size) });
     rig.environment(extent(4, 2), &[[0.5, 0.75, 1.0, 1.0]; 8]);
     let mut shot = water(size);
     shot.scene_depth(|x, _| Some(if x < 40 { 4.5 } else { 60.0 }));

@@ -25,6 +25,10 @@ pub struct Surface {
     pub normal: DVec3,
     /// The thickness along z, no more than there is room before the scene.
     pub thickness: f64,
+    /// That room.
+    pub room: f64,
+    /// Its slope, depth per pixel of the picture.
+    pub slope: DVec2,
     /// What of it refracts: where the surface is torn no more than two spacings.
     pub lens: f64,
     /// The noise on it, which has turned the normal.
@@ -413,9 +417,11 @@ impl<'a> Surfaces<'a> {
         }
         let parts =
             Parts { case, smooth, sphere, full, drop, borrowed: false, found, mixed: 0.0, margin };
-        let thickness = full.min((self.inputs.scene(x, y) - z).max(0.0));
+        let room = (self.inputs.scene(x, y) - z).max(0.0);
+        let thickness = full.min(room);
         let torn = thickness.min(2.0 * spacing);
         let lens = torn + (thickness - torn) * found;
-        Surface { position: ray * z, normal: turned, thickness, lens, ripple, parts }
+        let slope = slope / texel;
+        Surface { position: ray * z, normal: turned, thickness, room, slope, lens, ripple, parts }
     }
 }

@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::composite::{
-    Behind, Fresnel, Inputs, Medium, Settings, Shown, cut_look_up, look_up, look_up_both,
+    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, all_mirrored, cut_look_up,
+    exit_about, look_up, look_up_both, met_about, scene_at,
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
@@ -28,6 +29,9 @@ pub struct Shaded {
     pub color: [Rounded; 3],
     /// By how many pixels the look-up of the background may be off.
     pub moved: f64,
+    /// What of the scene is mirrored, and whether rounding may not meet something else.
+    pub met: Met,
+    pub sure: bool,
 }
 
 /// The most that a channel of the scene changes from texel to texel round a position, x and y.
@@ -82,10 +86,73 @@ struct Lit {
     offset: [Rounded; 2],
     /// Of what is mirrored, with the error of its direction, and of the sun's highlight.
     share: Rounded,
+    /// How much of it there is where the scene is not met.
+    sky: Rounded,
     turned: f64,
     shine: Rounded,
     /// Of the baseline's foam.
     foam: [Rounded; 3],
+    /// How much of the scene lies under it, and metres of water above that, upright.
+    wet: Rounded,
+    down: Rounded,
+    /// Metres of water along z.
+    thick: Rounded,
+}
+
+/// How much of the room before the scene water fills, as a share of the scene under it.
+fn wet(t: Rounded, room: Rounded, limited: bool) -> Rounded {
+    if limited || room.v == 0.0 {
+        // The same number over itself, or no room; rounding may take either.
+        let v = f64::from(u8::from(room.v > 0.0));
+        return Rounded { v, e: if room.v <= room.e { room.e.min(1.0).ceil() } else { 0.0 } };
+    }
+    if room.v <= 2.0 * room.e {
+        let v = crate::reference::smoothstep(0.5, 0.7, t.v / room.v);
+        return Rounded { v, e: 1.0 };
+    }
+    smoothstep(off(0.5, 1.0), off(0.7, 1.0), t / room)
+}
+
+/// The bent way to the eye over the straight one.
+fn bent_way(bed: &Bed, n: [Rounded; 3], v: [Rounded; 3], up: [Rounded; 3]) -> Rounded {
+    // A root and two quotients.
+    let ratio = off(bed.index.recip(), 8.0);
+    let facing = dot(n, v).clamp(0.0, f64::MAX);
+    let inside = (exact(1.0) - ratio * ratio * (exact(1.0) - facing * facing)).sqrt();
+    let (level, rise) = (dot(n, up).clamp(0.0, f64::MAX), dot(v, up));
+    let steep = ratio * rise + (inside - ratio * facing) * level;
+    let bent = if steep.v > steep.e + 1e-6 {
+        (rise / steep).clamp(0.0, 1.0)
+    } else {
+        Rounded { v: (rise.v / steep.v.max(1e-6)).clamp(0.0, 1.0), e: 1.0 }
+    };
+    mix(exact(1.0), bent, level)
+}
+
+/// The colour of what lies under water, of which a part is there.
+fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3]) -> [Rounded; 3] {
+    let Some(bed) = settings.bed.filter(|_| lit.wet.v + lit.wet.e > 0.0) else { return dry };
+    // Sums and products of a few numbers that were rounded, and their quotients; a power.
+    let leaves = off(bed.comes_in / bed.index.powi(2), 16.0);
+    let (sky_way, sun_way) = (off(bed.sky_way, 16.0), off(bed.sun_way, 16.0));
+    let one = exact(1.0);
+    [0, 1, 2].map(|i| {
+        let extinction = match settings.medium {
+            Medium::Physical { absorption, scattering, .. } => {
+                exact(absorption[i]) + exact(scattering[i])
+            }
+            Medium::Source { k, .. } => exact(k[i]),
+        };
+        let sky = (-extinction * (sky_way * lit.down)).exp();
+        let sun = (-extinction * (sun_way * lit.down)).exp();
+        let shade = off(bed.shade[i], 5.0);
+        let came = shade * sky + (one - shade) * sun * off(bed.sun, 24.0);
+        let came = came / (shade + (one - shade));
+        let albedo = dry[i] * off(std::f64::consts::PI / bed.irradiance[i], 4.0);
+        let back = sky * sky * sky * sky * sky * (one - leaves);
+        let wet = dry[i] * came * leaves / (one - albedo.clamp(0.0, 1.0) * back);
+        mix(dry[i], wet, part * lit.wet)
+    })
 }
 
 /// By how many pixels the look-up may be off. What brings the offset below the farthest does not
@@ -164,7 +231,15 @@ fn lit(
     }
     let away = dot(position, position).sqrt();
     let v = position.map(|c| -c / away);
-    let path = t * away / z;
+    let straight = t * away / z;
+    let up = view.view.transform_vector3(DVec3::Y).to_array();
+    let up = up.map(|v| Rounded { v, e: 16.0 * U });
+    let down = straight * dot(v, up).clamp(0.0, f64::MAX);
+    let (wet, way) = match &settings.bed {
+        Some(bed) => (wet(t, room, limited && !near), bent_way(bed, n, v, up)),
+        None => (exact(0.0), exact(1.0)),
+    };
+    let path = straight * mix(exact(1.0), way, wet);
     let torn = exact(2.0) * spacing;
     let torn = if t.v < torn.v { t } else { torn };
     let lens = exact(settings.refraction) * mix(torn, t, off(surface.parts.found, means));
@@ -191,7 +266,7 @@ fn lit(
         }
     };
     let turned = reflected.iter().map(|c| c.e).fold(0.0, f64::max);
-    let share = w * sky * fresnel;
+    let share = w * fresnel;
 
     let sun = settings.sun_direction.to_array().map(|v| Rounded { v, e: 16.0 * U });
     let half = normalize([0, 1, 2].map(|i| v[i] + sun[i]));
@@ -200,7 +275,7 @@ fn lit(
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
     // Of the mean's weights 13u, a product; the radiance is two products and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
-    Lit { z, path, offset, share, turned, shine: w * shine, foam: grey }
+    Lit { z, path, offset, share, sky, turned, shine: w * shine, foam: grey, wet, down, thick: t }
 }
 
 /// What a surface makes of the colour behind it.
@@ -209,15 +284,50 @@ fn over(
     lit: &Lit,
     behind: [Rounded; 3],
     env: DVec3,
+    (met, scene): (Rounded, [Rounded; 3]),
     filter: &Filter,
 ) -> [Rounded; 3] {
+    let free = lit.sky * (exact(1.0) - met);
+    let all = if met.v + met.e > 0.0 { free + met } else { lit.sky };
     [0, 1, 2].map(|i| {
         let water = through(&settings.medium, behind[i], lit.path, i);
         let seen = filter.sky_slope * lit.turned + filter.sky_error + 4.0 * U * env[i];
-        let c = mix(water, Rounded { v: env[i], e: seen }, lit.share);
+        let seen = Rounded { v: env[i], e: seen };
+        let mirrored = if met.v + met.e == 0.0 || all.v == 0.0 {
+            seen
+        } else {
+            (met * scene[i] + free * seen) / all
+        };
+        let c = mix(water, mirrored, lit.share * all);
         c + (exact(settings.specular[i]) * lit.shine * exact(settings.sun_color[i]) + lit.foam[i])
     })
 }
+
+/// What of the scene the front surface mirrors: how much, and its colour; and what the march found.
+fn mirrored(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    lit: &Lit,
+    view: &View,
+    filter: &Filter,
+) -> ((Rounded, [Rounded; 3]), Met, bool) {
+    if settings.mirror_steps == 0 || surface.thickness == 0.0 && lit.share.e == 0.0 {
+        return (NOTHING, Met::default(), true);
+    }
+    // The direction in the world is off by as much as that in eye space, and the turn.
+    let off_by = (4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
+    let (met, moved, sure) = met_about(inputs, settings, surface, view, off_by);
+    if met.share == 0.0 {
+        return (NOTHING, met, sure);
+    }
+    let at = scene(inputs, met.at, moved, scene_at(inputs, met.at), filter);
+    let share = Rounded { v: met.share, e: moved * 16.0 / view.extent().y + 16.0 * U };
+    ((share, at), met, sure)
+}
+
+const NOTHING: (Rounded, [Rounded; 3]) =
+    (Rounded { v: 0.0, e: 0.0 }, [Rounded { v: 0.0, e: 0.0 }; 3]);
 
 /// The scene's colour where it is looked up, which may be so many pixels off.
 fn scene(
@@ -247,13 +357,50 @@ pub fn shaded(
 ) -> Shaded {
     let texel = f64::from(1 << inputs.level);
     let t = off(surface.parts.full, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
-    let lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
+    let mut lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
     let moved = moved(lit.offset, view);
     let q = look_up(settings, surface, view, pixel);
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
-    Shaded { color: over(settings, &lit, behind, env, filter), moved }
+    let behind = under_water(settings, &lit, exact(1.0), behind);
+    let (of_scene, met, mut sure) = mirrored(inputs, settings, surface, &lit, view, filter);
+    let mut behind = behind;
+    if settings.exit.is_some() && surface.thickness > 0.0 {
+        // Of an even environment: what is mirrored of it is the same in all directions.
+        let of = (of_scene.0.v, DVec3::from(of_scene.1.map(|c| c.v)));
+        let color = DVec3::from(behind.map(|c| c.v));
+        let colors = (color, all_mirrored(surface, |_| env, of, view));
+        // Four times what normals are off by; the thickness' slope is a difference of numbers that are no more than all of
+        // it, over the width of a pixel.
+        let width = view.slope_step().abs().min_element() * lit.z.v;
+        let around = surface.parts.full.max(surface.thickness) + settings.radius;
+        let turned = 4.0 * (lit.turned + 16.0 * U * (1.0 + around / width));
+        let share = 4.0 * (lit.z.e / lit.z.v + lit.thick.e / lit.thick.v + 32.0 * U);
+        let (seen, light, path, same) = exit_about(
+            inputs,
+            settings,
+            surface,
+            view,
+            (x, y),
+            colors,
+            |_| env,
+            (turned, share.min(0.5)),
+        );
+        sure &= same;
+        let by = 1.0 / f64::from(1 << filter.bits);
+        let changes = changes(inputs, seen.met.at);
+        behind = [0, 1, 2].map(|i| Rounded {
+            v: seen.light[i],
+            e: light[i]
+                + behind[i].e
+                + of_scene.1[i].e
+                + by * (changes[0][i] + changes[1][i])
+                + 64.0 * U * (seen.light[i].abs() + env[i]),
+        });
+        lit.path = Rounded { v: seen.path, e: path + lit.path.e + 64.0 * U * seen.path };
+    }
+    Shaded { color: over(settings, &lit, behind, env, of_scene, filter), moved, met, sure }
 }
 
 /// Thickness of the front sheet, T2 and `apart`, as rounded as they are.
@@ -324,14 +471,19 @@ pub fn shaded_both(
         if back.covered > 0.0 {
             offset = [0, 1].map(|i| offset[i] + covered * found.offset[i]);
         }
-        found
+        (found, covered * apart)
     });
     let moved = moved(offset, view);
     let (q, z) = look_up_both(settings, shown, view, pixel);
     let (q, _) = cut_look_up(inputs, z, pixel, q);
     let mut color = scene(inputs, q, moved, background, filter);
-    if let Some(back) = back {
-        color = over(settings, &back, color, envs[1], filter);
+    color = under_water(settings, &front, exact(1.0), color);
+    if let Some((back, part)) = &back {
+        color = under_water(settings, back, *part, color);
     }
-    Shaded { color: over(settings, &front, color, envs[0], filter), moved }
+    if let Some((back, _)) = back {
+        color = over(settings, &back, color, envs[1], NOTHING, filter);
+    }
+    let (of_scene, met, sure) = mirrored(inputs, settings, &shown.front, &front, view, filter);
+    Shaded { color: over(settings, &front, color, envs[0], of_scene, filter), moved, met, sure }
 }

@@ -361,6 +361,8 @@ fn bad_configurations_are_errors() {
         ("Config.max_iterations", Config { max_iterations: 0, ..good }),
         ("Config.max_iterations", Config { max_iterations: 257, ..good }),
         ("Config.coarsening", Config { coarsening: 4, ..good }),
+        ("Config.mirror_steps", Config { mirror_steps: 65, ..good }),
+        ("Config.mirror_steps", Config { mirror_steps: u32::MAX, ..good }),
         ("Config.sheets", Config { sheets: 0, ..good }),
         ("Config.sheets", Config { sheets: 3, ..good }),
         ("Config.noise", Config { noise: Some(4), ..good }),

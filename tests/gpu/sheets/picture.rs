@@ -169,7 +169,7 @@ fn check_levels(
         let (displaced, z) = look_up_both(&settings, &shown, &view, pixel);
         let (q, asked) = cut_look_up(&inputs, z, pixel, displaced);
         let seen = (scene_at(&inputs, q), [sky; 2]);
-        let Shaded { color, moved } =
+        let Shaded { color, moved, sure, .. } =
             shaded_both(&inputs, &behind, &settings, &shown, &view, (x, y), seen, &filter);
         for (i, c) in color.iter().enumerate() {
             let twin = expected.at(x, y)[i];
@@ -191,7 +191,7 @@ fn check_levels(
             let near = 40.0 * U * (back.nearest + falloff);
             unsure |= shown.front.parts.margin <= near || (z - scene).abs() <= 40.0 * U * z;
         }
-        unsure |= shown.barely || asked.iter().any(either_way);
+        unsure |= !sure || shown.barely || asked.iter().any(either_way);
         if unsure {
             kinds.unsure += 1;
             *expected.at_mut(x, y) = drawn.output.at(x, y).map(f64::from);

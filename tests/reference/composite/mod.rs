@@ -7,6 +7,9 @@
 //! C <- mix(C, env(R), w F) + w specular sun max(n.h, 0)^shininess,   w = smoothstep(0, r/4, T)
 //! ```
 
+mod bed;
+mod exit;
+mod mirror;
 mod sheets;
 pub mod source;
 #[cfg(test)]
@@ -18,6 +21,9 @@ use super::noise::Ripples;
 use super::surface::{Surface, Surfaces};
 use super::{Image, View, smoothstep};
 
+pub use bed::{Bed, Under, under_water};
+pub use exit::{Off, exit, exit_about};
+pub use mirror::{Met, met, met_about};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
 /// What light meets inside the water.
@@ -127,6 +133,12 @@ pub struct Settings {
     pub sun_direction: DVec3,
     /// The sun's colour.
     pub sun_color: [f64; 3],
+    /// What water does to the scene under it; without: nothing but what the medium takes straight on.
+    pub bed: Option<Bed>,
+    /// Steps of the march for what of the scene is mirrored.
+    pub mirror_steps: u32,
+    /// The index of refraction where light comes through both surfaces; without: what is behind, displaced.
+    pub exit: Option<f64>,
 }
 
 /// By how many pixels a surface displaces the background. Light bends towards the water's normal, so
@@ -223,6 +235,29 @@ pub fn scene_at(inputs: &Inputs<'_>, at: DVec2) -> DVec3 {
     inputs.scene_color.bilinear(at).iter().map(color).sum()
 }
 
+/// How much of the scene a surface mirrors, and the colour there.
+fn of_scene(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+) -> (f64, DVec3) {
+    let Met { at, share } = met(inputs, settings, surface, view);
+    (share, if share > 0.0 { scene_at(inputs, at) } else { DVec3::ZERO })
+}
+
+/// What a surface mirrors of scene and environment, if it is of any.
+pub fn all_mirrored(
+    surface: &Surface,
+    env: impl Fn(DVec3) -> DVec3,
+    (met, scene): (f64, DVec3),
+    view: &View,
+) -> DVec3 {
+    let reflected = mirrored(surface, view);
+    let free = (1.0 - met) * smoothstep(-0.3, 0.0, reflected.y);
+    if met > 0.0 { (met * scene + free * env(reflected)) / (met + free) } else { env(reflected) }
+}
+
 /// The direction in the world in which a surface mirrors.
 pub fn mirrored(surface: &Surface, view: &View) -> DVec3 {
     let (n, v) = (surface.normal, -surface.position.normalize());
@@ -260,25 +295,30 @@ pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
 }
 
 /// A surface before what is behind it: through the water, then what it mirrors and the highlight,
-/// of which a part is there.
+/// of which a part is there. Of what it mirrors, the scene has a share, with its colour.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
 fn before(
     settings: &Settings,
     surface: &Surface,
     part: f64,
     behind: DVec3,
     env: impl Fn(DVec3) -> DVec3,
+    (met, scene): (f64, DVec3),
+    path: f64,
     view: &View,
 ) -> DVec3 {
     let Surface { position, normal: n, thickness, .. } = *surface;
     let v = -position.normalize();
-    let path = thickness * position.length() / -position.z;
     let mut color = through(&settings.medium, behind, path);
 
     let w = part * smoothstep(0.0, settings.radius / 4.0, thickness);
     let reflected = mirrored(surface, view);
     // What is mirrored from below the horizon is more water, not the environment's ground.
     let sky = smoothstep(-0.3, 0.0, reflected.y);
-    color = color.lerp(env(reflected), w * sky * settings.fresnel.reflectance(n.dot(v)));
+    let reflectance = w * settings.fresnel.reflectance(n.dot(v));
+    let free = sky * (1.0 - met);
+    color = color * (1.0 - reflectance * (free + met))
+        + reflectance * (free * env(reflected) + met * scene);
 
     let h = (v + settings.sun_direction).normalize_or_zero();
     let highlight = n.dot(h).max(0.0).powf(settings.shininess);
@@ -311,6 +351,11 @@ pub fn shade(
     over_scene(inputs, view, |x, y, pixel| {
         let surface = surfaces.at(x, y)?;
         let behind = background(inputs, settings, &surface, view, pixel);
-        Some(before(settings, &surface, 1.0, behind, &env, view))
+        let behind = under_water(settings, &Under::of(settings, &surface, view), behind);
+        let mirrored = of_scene(inputs, settings, &surface, view);
+        let colors = (behind, all_mirrored(&surface, &env, mirrored, view));
+        let off = Off::default();
+        let seen = exit(inputs, settings, &surface, view, (x, y), colors, &env, &off);
+        Some(before(settings, &surface, 1.0, seen.light, &env, mirrored, seen.path, view))
     })
 }

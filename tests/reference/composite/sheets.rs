@@ -6,7 +6,10 @@ use glam::{DVec2, DVec3};
 use super::super::surface::{Surface, Surfaces};
 use super::super::{Image, View, is_surface, smoothstep};
 
-use super::{Inputs, Settings, before, bent, cut_look_up, displacement, over_scene, scene_at};
+use super::{
+    Inputs, Settings, Under, before, bent, cut_look_up, displacement, of_scene, over_scene,
+    scene_at, under_water,
+};
 
 /// What a frame with two sheets has besides the [`Inputs`], whose thickness is that of all water.
 #[derive(Clone, Copy, Debug)]
@@ -179,10 +182,20 @@ pub fn shade_shown(
     let (displaced, z) = look_up_both(settings, shown, view, pixel);
     let (q, _) = cut_look_up(inputs, z, pixel, displaced);
     let mut color = scene_at(inputs, q);
+    color = under_water(settings, &Under::of(settings, &shown.front, view), color);
+    let mut under = Under { wet: 0.0, down: 0.0, path: 0.0 };
     if let Some(back) = &shown.back {
-        color = before(settings, &back.surface, back.part(), color, &env, view);
+        under = Under::of(settings, &back.surface, view);
+        color = under_water(settings, &Under { wet: under.wet * back.part(), ..under }, color);
     }
-    before(settings, &shown.front, 1.0, color, &env, view)
+    if let Some(back) = &shown.back {
+        // What it mirrors of the scene is not looked for.
+        let none = (0.0, DVec3::ZERO);
+        color = before(settings, &back.surface, back.part(), color, &env, none, under.path, view);
+    }
+    let mirrored = of_scene(inputs, settings, &shown.front, view);
+    let path = Under::of(settings, &shown.front, view).path;
+    before(settings, &shown.front, 1.0, color, &env, mirrored, path, view)
 }
 
 /// The picture of two sheets.

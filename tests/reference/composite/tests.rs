@@ -1,11 +1,12 @@
 //! Closed forms of the composite's twin.
 
 use super::super::EMPTY;
+use super::super::surface::Case;
 use super::super::tests::{Depth, projection, view};
 use super::*;
 use glam::DMat4;
 
-const PLAIN: Settings = Settings {
+pub const PLAIN: Settings = Settings {
     radius: 0.5,
     falloff: 5.3,
     refraction: 0.25,
@@ -19,7 +20,36 @@ const PLAIN: Settings = Settings {
     shininess: 80.0,
     sun_direction: DVec3::Z,
     sun_color: [1.0; 3],
+    bed: None,
+    mirror_steps: 0,
+    exit: None,
 };
+
+/// A surface at a point with a normal, and so much water in so much room.
+pub fn facing(position: DVec3, normal: DVec3, thickness: f64, room: f64) -> Surface {
+    let parts = super::super::surface::Parts {
+        case: super::super::surface::Case::Whole,
+        smooth: [DVec2::ZERO; 2],
+        sphere: [DVec2::ZERO; 2],
+        full: thickness,
+        drop: 0.0,
+        borrowed: false,
+        found: 1.0,
+        mixed: 0.0,
+        margin: f64::INFINITY,
+    };
+    let ripple = super::super::noise::Ripple::default();
+    Surface {
+        position,
+        normal,
+        thickness,
+        room,
+        slope: DVec2::ZERO,
+        lens: thickness,
+        ripple,
+        parts,
+    }
+}
 
 /// The images of one water surface before a scene at depth 50.
 struct Scene {
@@ -322,6 +352,71 @@ fn the_offsets_of_both_sheets_add_up() {
     let found = DVec2::new(found[0], found[1]);
     assert!((found - expected).length() < 0.02, "{found}, not {expected}");
     assert!((expected - 32.0 - by(normals[0], 2.0, 10.0)).length() > 1.0, "one of them only");
+}
+
+/// A level pool before an upright wall: in the water each height of the wall is as far below the water's edge as it
+/// stands above it, whatever the unit of length.
+#[test]
+fn a_wall_is_mirrored_where_it_stands() {
+    let (far, above) = (6.0, 2.0);
+    for unit in [1.0, 1e-3, 100.0] {
+        let pitch = DMat4::from_rotation_x(20.0_f64.to_radians());
+        let p = projection(DVec2::new(1.2, -1.2), DVec2::ZERO, Depth::Standard);
+        let view = View::new(pitch, p, 160, 120).expect("a valid view");
+        let world = view.view.inverse();
+        // The eye is at the origin, the wall at z = -far, the water and the bed of the pool below.
+        let ray = |x: usize, y: usize| world.transform_vector3(view.ray(x, y));
+        let level = |ray: DVec3, y: f64| if ray.y < 0.0 { y / ray.y } else { EMPTY };
+        let wall = |ray: DVec3| if ray.z < 0.0 { -far / ray.z } else { EMPTY };
+        let of = |of: &(dyn Fn(DVec3) -> f64 + Sync)| {
+            Image::from_fn(view.width, view.height, |x, y| unit * of(ray(x, y)))
+        };
+        let water = |ray: DVec3| {
+            let z = level(ray, -above);
+            if z < wall(ray) { z } else { EMPTY }
+        };
+        let mut scene = Scene::new(&view, 0, unit, |_| 1.0);
+        (scene.depth, scene.smoothed) = (of(&water), of(&water));
+        scene.scene = of(&|ray| wall(ray).min(level(ray, -above - 1.0)));
+        let heights = of(&|ray| wall(ray).min(level(ray, -above - 1.0)) * ray.y);
+        scene.color = Image::from_fn(view.width, view.height, |x, y| {
+            [heights.at(x, y) / unit, 0.0, 0.0, 1.0]
+        });
+        let settings = Settings { mirror_steps: 10, radius: 0.5 * unit, ..PLAIN };
+        let surfaces = Surfaces::new(&scene.inputs(0), &settings, &view);
+        let mut found = 0;
+        for (x, y) in (20..140).flat_map(|x| (0..120).map(move |y| (x, y))) {
+            let (ray, near) = (ray(x, y), water(ray(x, y)));
+            if near >= EMPTY {
+                continue;
+            }
+            let Some(surface) = surfaces.at(x, y) else { continue };
+            // Up as steeply as the ray comes down.
+            let point = ray * near;
+            let height = -above - ray.y * (far + point.z) / -ray.z;
+            let seen = met(&scene.inputs(0), &settings, &surface, &view);
+            let at =
+                on_wall(&view, DVec3::new(point.x - ray.x / ray.z * (far + point.z), height, -far));
+            let extent = view.extent();
+            if at.cmplt(DVec2::splat(8.0)).any()
+                || at.cmpgt(extent - 8.0).any()
+                || surface.parts.case != Case::Whole
+            {
+                continue;
+            }
+            assert_eq!(seen.share, 1.0, "({x}, {y}) meets nothing: {at} {seen:?}");
+            // To two pixels: the slope of the water is that of texels, and depth is a step from texel to texel.
+            assert!(seen.at.distance(at) < 2.0, "({x}, {y}): {}, not {at}", seen.at);
+            found += 1;
+        }
+        assert!(found > 1000, "{found} pixels");
+    }
+}
+
+/// Pixels of a place in the world.
+fn on_wall(view: &View, place: DVec3) -> DVec2 {
+    let eye = view.view.transform_point3(place);
+    (eye.truncate() / -eye.z - view.ray_at(DVec2::ZERO).truncate()) / view.slope_step()
 }
 
 #[test]

@@ -144,7 +144,7 @@ impl SettingsFile {
         } = settings;
         Self {
             look: self.look,
-            water: water::WaterTable::all(water),
+            water: self.water.all(water, self.is_thesis()),
             foam: self.foam.all(foam, found.foam),
             spray: water::SprayTable::of(spray),
             diffuse: self.diffuse.all(diffuse),

@@ -1,11 +1,12 @@
 //! Tables `[water]`, `[foam]`, `[spray]`, `[shadow]`, `[noise]` and `[light]`.
 
 use serde::{Deserialize, Serialize};
-use whitewater::Light;
 use whitewater::water::settings::{
-    Amplitude, Compositing, Convolution, Fresnel, Medium, ShadowFilter, Shadows, WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Exit, Fresnel, Medium, ShadowFilter, Shadows,
+    WaterSettings,
 };
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
+use whitewater::{Config, Light};
 
 use super::table::{table, words};
 use crate::args::Foaming;
@@ -23,17 +24,25 @@ table! {
         amplitude: AmplitudeWord,
         fresnel: FresnelTable,
         compositing: CompositingWord,
+        bed: BedWord,
         refraction: f32,
         specular: f32,
         shininess: f32,
     }
     optional {}
     not { medium }
-    beside { medium: MediumTable }
+    beside {
+        medium: MediumTable,
+        /// Not of the settings, but of the passes.
+        mirror_steps: u32,
+        exit: ExitWord,
+    }
 }
 
 words!(AmplitudeWord of Amplitude { Volume, Source });
 words!(CompositingWord of Compositing { Mixed, Source });
+words!(ExitWord of Exit { TwoInterfaces, Straight });
+words!(BedWord of Bed { Submerged, Source });
 
 /// A medium by name or by its numbers.
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -149,9 +158,26 @@ impl WaterTable {
         water.medium = self.medium.map_or(water.medium, |medium| medium.medium(water.spacing));
     }
 
-    /// The table that says all of them.
-    pub fn all(water: &WaterSettings) -> Self {
-        Self { medium: Some(water.medium.into()), ..Self::of(water) }
+    /// Steps of the march for what is mirrored of the scene, in the thesis' look or ours.
+    pub fn mirror_steps(&self, thesis: bool) -> u32 {
+        let standard = Config::new(Default::default(), Default::default(), 0).mirror_steps;
+        self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
+    }
+
+    /// What is seen through water with air behind it, in the thesis' look or ours.
+    pub fn exit(&self, thesis: bool) -> Exit {
+        let standard = if thesis { Exit::Straight } else { Exit::TwoInterfaces };
+        self.exit.map_or(standard, Into::into)
+    }
+
+    /// The table that says all of them, and of the passes as this table does.
+    pub fn all(&self, water: &WaterSettings, thesis: bool) -> Self {
+        Self {
+            medium: Some(water.medium.into()),
+            mirror_steps: Some(self.mirror_steps(thesis)),
+            exit: Some(self.exit(thesis).into()),
+            ..Self::of(water)
+        }
     }
 }
 

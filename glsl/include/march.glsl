@@ -1,0 +1,89 @@
+// Where a ray from the water meets the scene, marched on the screen against the scene's depth (McGuire and Mara 2014,
+// "Efficient GPU Screen-Space Ray Tracing"; not in the thesis). Differs: steps that grow, each by the same factor, from a
+// share of the picture's height to where the ray leaves the view; a secant at the end. No length of its own: steps are
+// parts of the picture, and what is taken for the scene's front is as deep as a step of the ray and a part of the depth.
+// Needs frame.glsl. Reads: scene depth (the includer's).
+
+struct Met {
+    vec2 at;     // pixels
+    float share; // how much of what is there is seen: 0 nowhere, less near the view's edge
+};
+
+// First step, over the height; end of a ray, over its depth: a ray to the eye ends before it.
+const float MARCH_FIRST = 1.0 / 128.0;
+const float MARCH_FAR = 64.0;
+// How far behind the scene's front a ray still meets it: so many of its steps in depth, and a part of the depth there. Asked
+// of a whole step, and again of the last part of one: what stands before the ray, alone, does not come nearer to it.
+const float MARCH_STEEP = 2.0;
+const float MARCH_DEEP = 1.0 / 32.0;
+// Where what is met fades, over the height.
+const float MARCH_FADE = 1.0 / 16.0;
+
+// The scene's depth in a pixel, EMPTY where there is none.
+float met_depth(vec2 pixel) {
+    float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
+    // What is cleared lies at the far plane, to a rounding.
+    return z > 0.0 && z < 0.9999 * frame.depth.w ? z : EMPTY;
+}
+
+// A place in eye space on the screen: pixels, one over its depth.
+vec3 on_screen(vec3 eye) {
+    return vec3((eye.xy / -eye.z - frame.slope.zw) / frame.slope.xy, -1.0 / eye.z);
+}
+
+// Of a ray from a place before the scene, of a unit direction, in so many steps: 0 finds nothing.
+Met march(vec3 from, vec3 along, int steps) {
+    float reach = MARCH_FAR * -from.z;
+    reach = min(reach, along.z > 0.0 ? 0.75 * -from.z / along.z : reach);
+    vec3 a = on_screen(from);
+    vec3 way = on_screen(from + along * reach) - a;
+    // As far as the view goes.
+    vec2 edge = mix(vec2(0.5), frame.extent.xy - 0.5, greaterThan(way.xy, vec2(0.0)));
+    vec2 ends = (edge - a.xy) / mix(way.xy, vec2(1.0e-6), lessThan(abs(way.xy), vec2(1.0e-6)));
+    float whole = clamp(min(ends.x, ends.y), 0.0, 1.0);
+    float first = min(MARCH_FIRST * frame.extent.y / max(whole * length(way.xy), 1.0e-6), 1.0);
+    float growth = exp2(-log2(first) / max(float(steps) - 1.0, 1.0));
+    float low = 0.0;
+    float before = -from.z;
+    float low_gap = -1.0;
+    float next = whole * first;
+    float high = 0.0;
+    float high_gap = 0.0;
+    bool front = true;
+    bool met = false;
+    for (int i = 0; i < steps && !met; ++i) {
+        vec3 p = a + way * next;
+        float z = 1.0 / p.z;
+        float scene = met_depth(p.xy);
+        float gap = z - scene;
+        met = front && gap > 0.0 && gap <= MARCH_STEEP * abs(z - before) + MARCH_DEEP * scene;
+        high = next;
+        high_gap = gap;
+        front = gap <= 0.0;
+        low = met ? low : next;
+        low_gap = met ? low_gap : gap;
+        before = z;
+        next = min(next * growth, whole);
+    }
+    // Halved twice, then straight between the two depths that are left.
+    for (int i = 0; i < 2 && met; ++i) {
+        float middle = 0.5 * (low + high);
+        vec3 p = a + way * middle;
+        float gap = 1.0 / p.z - met_depth(p.xy);
+        bool behind = gap > 0.0;
+        high = behind ? middle : high;
+        high_gap = behind ? gap : high_gap;
+        low = behind ? low : middle;
+        low_gap = behind ? low_gap : gap;
+    }
+    float scene = 1.0 / (a.z + way.z * high) - high_gap;
+    float deep = abs(1.0 / (a.z + way.z * high) - 1.0 / (a.z + way.z * low));
+    met = met && high_gap <= MARCH_STEEP * deep + MARCH_DEEP * scene;
+    // Before nothing, and before the first step, there is no line: where it is met then.
+    float part = low > 0.0 && low_gap > -0.5 * EMPTY ? low_gap / (low_gap - high_gap) : 1.0;
+    Met result;
+    result.at = a.xy + way.xy * mix(low, high, part);
+    vec2 inside = min(result.at, frame.extent.xy - result.at) / (MARCH_FADE * frame.extent.y);
+    result.share = met ? clamp(min(inside.x, inside.y), 0.0, 1.0) : 0.0;
+    return result;
+}

@@ -1,0 +1,192 @@
+//! What water does to the scene under it (Lekner and Dorf 1988), from Snell's law and the reflectance alone:
+//! ```text
+//! F = mean of F(c) over 2 c dc    q = (1 - F) / n^2    wet = q E' / (1 - A (1 - q) T_in)
+//! E' = (S exp(-k w h) + (1 - S) exp(-k h / c_s) (1 - F(sun)) / (1 - F)) / (S + 1 - S)
+//! ```
+//! of a bed of reflectance A under h of water, with the share S of the sky's light, the mean way w of that and the sun's
+//! cosine c_s inside; T_in = exp(-5 k w h) is up and down again.
+
+use glam::DVec3;
+
+use super::super::surface::Surface;
+use super::super::{View, smoothstep};
+use super::{Fresnel, Medium, Settings};
+
+/// What of a frame lights the scene under water.
+#[derive(Clone, Copy, Debug)]
+pub struct Bed {
+    /// The index of refraction.
+    pub index: f64,
+    /// Share of the sky's light on the surface that comes in.
+    pub comes_in: f64,
+    /// Mean way of that, metres for a metre down.
+    pub sky_way: f64,
+    /// Way of the sun's light.
+    pub sun_way: f64,
+    /// What of the sun's light comes in, over what does of the sky's.
+    pub sun: f64,
+    /// Irradiance of level ground.
+    pub irradiance: [f64; 3],
+    /// Share of it that is the sky's.
+    pub shade: [f64; 3],
+}
+
+/// The mean over an even sky of a function of the cosine of incidence: the midpoint rule.
+fn over_sky(f: impl Fn(f64) -> f64) -> f64 {
+    let steps = 20_000_u32;
+    let sum: f64 = (0..steps)
+        .map(|i| (f64::from(i) + 0.5) / f64::from(steps))
+        .map(|cosine| 2.0 * cosine * f(cosine))
+        .sum();
+    sum / f64::from(steps)
+}
+
+impl Bed {
+    /// Of a surface of a reflectance, under a sun whose direction has the cosine `sun` to the upright.
+    pub fn new(fresnel: Fresnel, sun: f64, irradiance: [f64; 3], shade: [f64; 3]) -> Self {
+        // Facing the surface, ((n - 1) / (n + 1))^2 is reflected.
+        let index = match fresnel {
+            Fresnel::Schlick { f0 } => 2.0 / (1.0 - f0.sqrt()) - 1.0,
+            Fresnel::Source { .. } => 1.333,
+        };
+        let inside = |cosine: f64| (((1.0 - cosine * cosine).sqrt() / index).asin()).cos();
+        let sun = sun.clamp(0.0, 1.0);
+        let comes_in = over_sky(|cosine| 1.0 - fresnel.reflectance(cosine));
+        Self {
+            index,
+            comes_in,
+            sky_way: over_sky(|cosine| inside(cosine).recip()),
+            sun_way: inside(sun).recip(),
+            sun: (1.0 - fresnel.reflectance(sun)) / comes_in,
+            irradiance,
+            shade: [0, 1, 2].map(|i| (shade[i] / irradiance[i]).clamp(0.0, 1.0)),
+        }
+    }
+}
+
+/// How a surface lies over the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Under {
+    /// How much of the scene behind it lies under it.
+    pub wet: f64,
+    /// Metres of water above that, upright.
+    pub down: f64,
+    /// Metres of it to the eye.
+    pub path: f64,
+}
+
+impl Under {
+    pub fn of(settings: &Settings, surface: &Surface, view: &View) -> Self {
+        let Surface { position, normal: n, thickness, room, .. } = *surface;
+        let (v, up) = (-position.normalize(), view.view.transform_vector3(DVec3::Y));
+        let straight = thickness * position.length() / -position.z;
+        let Some(bed) = settings.bed else {
+            return Self { wet: 0.0, down: 0.0, path: straight };
+        };
+        let filled = if room > 0.0 { thickness / room } else { 0.0 };
+        let wet = smoothstep(0.5, 0.7, filled);
+        let (level, rise) = (n.dot(up).max(0.0), v.dot(up));
+        // Along the surface light keeps n sin; what it has along the normal is the rest of its length.
+        let facing = n.dot(v).max(0.0);
+        let inward = (1.0 - (1.0 - facing * facing) / bed.index.powi(2)).sqrt();
+        // Of the bent ray into the water, which is -((v - n facing) / index + n inward).
+        let steep = (rise - level * facing) / bed.index + level * inward;
+        let bent = (rise / steep.max(1.0e-6)).clamp(0.0, 1.0);
+        let way = 1.0 + level * (bent - 1.0);
+        Self { wet, down: straight * rise.max(0.0), path: straight * (1.0 + wet * (way - 1.0)) }
+    }
+}
+
+/// The colour of what lies under water, of its colour without.
+pub fn under_water(settings: &Settings, under: &Under, dry: DVec3) -> DVec3 {
+    let Some(bed) = settings.bed.filter(|_| under.wet > 0.0) else { return dry };
+    let q = bed.comes_in / bed.index.powi(2);
+    let extinction = match settings.medium {
+        Medium::Physical { absorption, scattering, .. } => {
+            DVec3::from(absorption) + DVec3::from(scattering)
+        }
+        Medium::Source { k: [r, g, b, _], .. } => DVec3::new(r, g, b),
+    };
+    let wet = [0, 1, 2].map(|i| {
+        let (k, shade) = (extinction[i] * under.down, bed.shade[i]);
+        let sky = (-k * bed.sky_way).exp();
+        let came = shade * sky + (1.0 - shade) * bed.sun * (-k * bed.sun_way).exp();
+        let albedo = (dry[i] * std::f64::consts::PI / bed.irradiance[i]).clamp(0.0, 1.0);
+        // Thrown up, back, up again: a series.
+        dry[i] * came * q / (1.0 - albedo * (1.0 - q) * sky.powi(5))
+    });
+    dry.lerp(DVec3::from(wet), under.wet)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WATER: Fresnel = Fresnel::Schlick { f0: 0.02 };
+
+    /// Of a surface of index 1.333 Fresnel's own equations reflect 0.0665 of an even sky's light, and 0.472 of what is
+    /// diffuse inside: Schlick's come within a hundredth.
+    #[test]
+    fn what_comes_in_and_is_thrown_back_is_known() {
+        let bed = Bed::new(WATER, 1.0, [3.0; 3], [1.0; 3]);
+        assert!((bed.index - 1.333).abs() < 0.005, "{}", bed.index);
+        assert!((1.0 - bed.comes_in - 0.0665).abs() < 5e-4, "{}", bed.comes_in);
+        let back = 1.0 - bed.comes_in / bed.index.powi(2);
+        assert!((back - 0.472).abs() < 0.002, "{back}");
+        // 2 n^2 (1 - sqrt(1 - 1/n^2)) metres for a metre down, and upright the sun's one.
+        let n2 = bed.index.powi(2);
+        let way = 2.0 * n2 * (1.0 - (1.0 - n2.recip()).sqrt());
+        assert!((bed.sky_way - way).abs() < 1e-7, "{} and {way}", bed.sky_way);
+        assert!((bed.sun_way - 1.0).abs() < 1e-12);
+        // A sun at the horizon: at the critical angle of 48.6 degrees, and nothing of it comes in.
+        let low = Bed::new(WATER, 0.0, [3.0; 3], [1.0; 3]);
+        let critical = low.sun_way.recip().acos().to_degrees();
+        assert!((critical - 48.6).abs() < 0.3 && low.sun.abs() < 1e-12, "{critical}");
+    }
+
+    /// Of a white bed as much comes back as went in, whatever the index; of a grey one of 0.4 a share of 0.65.
+    #[test]
+    fn a_wet_bed_is_darker_and_a_white_one_is_not() {
+        let plain = super::super::tests::PLAIN;
+        let clear =
+            Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3], ambient: [0.0; 3] };
+        for f0 in [0.0, 0.02, 0.3] {
+            let fresnel = Fresnel::Schlick { f0 };
+            let bed = Some(Bed::new(fresnel, 0.7, [1.0; 3], [1.0; 3]));
+            let settings = Settings { medium: clear, bed, fresnel, ..plain };
+            let under = Under { wet: 1.0, down: 3.0, path: 5.0 };
+            let dry = DVec3::new(1.0, 0.4, 0.0) / std::f64::consts::PI;
+            let wet = under_water(&settings, &under, dry) / dry;
+            assert!((wet.x - 1.0).abs() < 1e-12, "{wet}");
+            if f0 == 0.02 {
+                assert!((wet.y - 0.65).abs() < 0.005, "{wet}");
+            }
+        }
+    }
+
+    /// The slant way of a level surface is Snell's: seen at 60 degrees from the upright 40.5 inside.
+    #[test]
+    fn the_way_to_the_eye_is_bent() {
+        use glam::{DMat4, DVec2};
+
+        use crate::reference::tests::{Depth, projection};
+
+        let view = DMat4::from_rotation_x(30.0_f64.to_radians());
+        let p = projection(DVec2::new(1.2, -1.2), DVec2::ZERO, Depth::Standard);
+        let view = View::new(view, p, 65, 65).expect("a valid view");
+        let up = view.view.transform_vector3(DVec3::Y);
+        let fresnel = Fresnel::Source { bias: 0.0, scale: 0.0, power: 1.0 };
+        let bed = Some(Bed::new(fresnel, 1.0, [1.0; 3], [1.0; 3]));
+        let settings = Settings { bed, fresnel, ..super::super::tests::PLAIN };
+        let surface = super::super::tests::facing(DVec3::new(0.0, 0.0, -10.0), up, 2.0, 2.0);
+        let under = Under::of(&settings, &surface, &view);
+        assert!((under.down - 1.0).abs() < 1e-9, "{under:?}: half of the way, at 60 degrees");
+        let inside = (60.0_f64.to_radians().sin() / 1.333).asin().cos();
+        assert!((under.path - under.down / inside).abs() < 1e-9, "{under:?}");
+        assert_eq!(under.wet, 1.0);
+        // Air behind it: straight on.
+        let surface = super::super::tests::facing(DVec3::new(0.0, 0.0, -10.0), up, 2.0, 4.0);
+        let under = Under::of(&settings, &surface, &view);
+        assert_eq!((under.wet, under.path), (0.0, 2.0));
+    }
+}

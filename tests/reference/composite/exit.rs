@@ -1,0 +1,232 @@
+//! What is seen through water with air behind it: Snell's law at the front surface, and at the far one, which lies as much
+//! deeper as the water is thick and has the slope of both; then a march to the scene, or the environment.
+
+use glam::{DVec2, DVec3};
+
+use super::super::surface::Surface;
+use super::super::{Image, View, smoothstep};
+use super::mirror::{Met, march_from};
+use super::{Inputs, Settings, Under, scene_at};
+
+/// Steps of the march.
+const STEPS: u32 = 4;
+
+/// How far off what it is made of may be: the normals and the ray that leaves, each turned; the thickness, its slope and
+/// the place by a share; the first step by a share.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Off {
+    pub front: DVec3,
+    pub far: DVec3,
+    pub leaving: DVec3,
+    pub thick: f64,
+    pub slope: f64,
+    pub scale: f64,
+    pub stretch: f64,
+}
+
+/// What comes into the sheet, and metres through it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    pub light: DVec3,
+    pub path: f64,
+    pub met: Met,
+    /// What leaves is totally reflected.
+    pub total: bool,
+    /// Unit direction in which it leaves, in eye space.
+    pub along: DVec3,
+}
+
+/// The rise of the thickness by quadratic B-splines, per pixel of the picture.
+fn rise(thickness: &Image<f64>, level: u32, pixel: DVec2) -> DVec2 {
+    let edge = f64::from(1 << level);
+    let h = pixel / edge - 0.5;
+    let spline = |u: f64| match u.abs() {
+        a if a <= 0.5 => (0.75 - u * u, -2.0 * u),
+        a if a < 1.5 => (0.5 * (1.5 - a).powi(2), -(1.5 - a) * u.signum()),
+        _ => (0.0, 0.0),
+    };
+    let middle = (h + 0.5).floor();
+    let mut sum = DVec2::ZERO;
+    for (i, j) in (-1..=1).flat_map(|j| (-1..=1).map(move |i| (i, j))) {
+        let at = middle + DVec2::new(f64::from(i), f64::from(j));
+        let value = thickness.clamped(at.x as isize, at.y as isize);
+        let ((x, dx), (y, dy)) = (spline(h.x - at.x), spline(h.y - at.y));
+        sum += value * DVec2::new(dx * y, x * dy);
+    }
+    sum / edge
+}
+
+/// The ray that Snell's law bends at a surface whose normal is on the ray's side, `ratio` being the index before over the
+/// one behind; totally reflected, nothing.
+pub fn bend(ray: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
+    let cosine = -ray.dot(normal);
+    let along = (ray + normal * cosine) * ratio;
+    let square = 1.0 - along.length_squared();
+    (square > 0.0).then(|| along - normal * square.sqrt())
+}
+
+/// What comes into a surface, with what its front alone shows and what it mirrors.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
+pub fn exit(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+    (x, y): (usize, usize),
+    (behind, mirrored): (DVec3, DVec3),
+    env: impl Fn(DVec3) -> DVec3,
+    off: &Off,
+) -> Seen {
+    let under = Under::of(settings, surface, view);
+    let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+    let position = surface.position * (1.0 + off.scale);
+    let (v, n) = (-position.normalize(), (surface.normal + off.front).normalize());
+    let t = surface.thickness * (1.0 + off.thick);
+    let mut seen =
+        Seen { light: behind, path: under.path, met: Met::default(), total: false, along: -v };
+    let Some(index) = settings.exit.filter(|_| t > 0.0 && under.wet < 1.0) else { return seen };
+    let inside = bend(-v, n, index.recip()).expect("into water it always goes");
+    let path = t / (-inside.z).max(0.25);
+    let z = t - position.z;
+    let steepest = view.slope_step().abs() * z * 1.5;
+    let rise = rise(inputs.thickness, inputs.thickness_level, pixel) * (1.0 + off.slope);
+    let d = (surface.slope + rise).clamp(-steepest, steepest) / view.slope_step();
+    let ray = view.ray(x, y);
+    let far =
+        (DVec3::new(d.x, d.y, z + ray.x * d.x + ray.y * d.y).normalize() + off.far).normalize();
+    let leaves = bend(inside, far, index);
+    seen.total = leaves.is_none();
+    let thrown = leaves.map_or(0.0, |along| settings.fresnel.reflectance(-along.dot(far)));
+    let along = leaves.unwrap_or_else(|| inside - 2.0 * inside.dot(far) * far);
+    seen.along = (along + off.leaving).normalize();
+    seen.met =
+        march_from(inputs, view, (position + inside * path, seen.along, 1.0 + off.stretch), STEPS);
+    let world = view.view.inverse().transform_vector3(seen.along);
+    let met = seen.met.share;
+    let sky = (1.0 - met) * smoothstep(-0.3, 0.0, world.y);
+    let of_scene = if met > 0.0 { scene_at(inputs, seen.met.at) } else { DVec3::ZERO };
+    let out = met * of_scene + sky * env(world) + (1.0 - met - sky) * behind;
+    let air = (1.0 - under.wet) * smoothstep(0.0, settings.radius / 4.0, t);
+    seen.light = behind.lerp(out.lerp(mirrored, thrown), air);
+    seen.path += air * (path - under.path);
+    seen
+}
+
+/// The same, how far off light and path may be, and whether nothing else may be met: the sum of what each of its parts
+/// moves it by, to both sides.
+#[allow(clippy::too_many_arguments)] // each is one thing that a pixel goes by
+pub fn exit_about(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+    at: (usize, usize),
+    colors: (DVec3, DVec3),
+    env: impl Fn(DVec3) -> DVec3,
+    (turned, share): (f64, f64),
+) -> (Seen, DVec3, f64, bool) {
+    let of = |off: &Off| exit(inputs, settings, surface, view, at, colors, &env, off);
+    let found = of(&Off::default());
+    let (mut light, mut path, mut sure) = (DVec3::ZERO, 0.0, true);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| axis * turned);
+    let parts = axes
+        .into_iter()
+        .flat_map(|turn| {
+            [
+                Off { front: turn, ..Off::default() },
+                Off { far: turn, ..Off::default() },
+                Off { leaving: turn, ..Off::default() },
+            ]
+        })
+        .chain([
+            Off { thick: share, ..Off::default() },
+            Off { slope: share, ..Off::default() },
+            Off { scale: share, ..Off::default() },
+            Off { stretch: 8.0 * share, ..Off::default() },
+        ]);
+    for off in parts {
+        let Off { front, far, leaving, thick, slope, scale, stretch } = off;
+        let back = Off {
+            front: -front,
+            far: -far,
+            leaving: -leaving,
+            thick: -thick,
+            slope: -slope,
+            scale: -scale,
+            stretch: -stretch,
+        };
+        let both = [of(&off), of(&back)];
+        let most = |a: DVec3, seen: &Seen| a.max((seen.light - found.light).abs());
+        light += both.iter().fold(DVec3::ZERO, most);
+        path += both.iter().map(|seen| (seen.path - found.path).abs()).fold(0.0, f64::max);
+        sure &= both.iter().all(|seen| {
+            (seen.met.share > 0.0) == (found.met.share > 0.0)
+                && seen.total == found.total
+                && seen.met.at.distance(found.met.at) < 1.0
+        });
+    }
+    (found, light, path, sure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{PLAIN, facing};
+    use super::super::{Fresnel, Medium};
+    use super::*;
+    use crate::reference::EMPTY;
+    use crate::reference::tests::view;
+
+    /// Into water and out of it at the same angle; beyond 48.6 degrees none comes out.
+    #[test]
+    fn a_slab_bends_twice_and_total_reflection_begins_at_its_angle() {
+        let normal = DVec3::Z;
+        for degrees in [0.0_f64, 20.0, 60.0, 85.0] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let ray = DVec3::new(sin, 0.0, -cos);
+            let inside = bend(ray, normal, 1.0 / 1.333).expect("comes in");
+            assert!((inside.x - sin / 1.333).abs() < 1e-12 && inside.is_normalized());
+            let out = bend(inside, normal, 1.333).expect("comes out");
+            assert!((out - ray).length() < 1e-9, "{out}");
+        }
+        for (degrees, leaves) in [(48.5_f64, true), (48.7, false)] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let out = bend(DVec3::new(sin, 0.0, -cos), normal, 1.333);
+            assert_eq!(out.is_some(), leaves, "{degrees}");
+        }
+    }
+
+    /// A clear slab that faces the eye: 0.98 of what is straight behind it, times 0.98 by the front, and what it mirrors.
+    #[test]
+    fn a_clear_slab_lets_through_what_two_surfaces_leave() {
+        let view = view(DVec2::new(1.0, -1.0), DVec2::ZERO, 65, 65);
+        let clear =
+            Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3], ambient: [0.0; 3] };
+        let fresnel = Fresnel::Schlick { f0: 0.02 };
+        let settings = Settings { medium: clear, fresnel, exit: Some(1.333), ..PLAIN };
+        let image = |v: f64| Image::new(65, 65, v);
+        let (depth, thickness) = (image(10.0), image(2.0));
+        let color = Image::new(65, 65, [1.0; 4]);
+        let surface = facing(DVec3::new(0.0, 0.0, -10.0), DVec3::Z, 2.0, f64::INFINITY);
+        for scene in [40.0, EMPTY] {
+            let scene = image(scene);
+            let inputs = Inputs {
+                depth: &depth,
+                smoothed: &depth,
+                level: 0,
+                thickness: &thickness,
+                thickness_level: 0,
+                scene_color: &color,
+                scene_depth: &scene,
+                noise: None,
+            };
+            let colors = (DVec3::ONE, DVec3::ZERO);
+            let env = |_| DVec3::ONE;
+            let at = (32, 32);
+            let seen = exit(&inputs, &settings, &surface, &view, at, colors, env, &Off::default());
+            assert!((seen.light - 0.98).length() < 1e-9, "{seen:?}");
+            assert!((seen.path - 2.0).abs() < 1e-9, "{seen:?}");
+            let through = seen.light * (1.0 - fresnel.reflectance(1.0));
+            assert!((through.x - (1.0 - 2.0 * 0.02)).abs() < 5e-4, "{through}");
+        }
+    }
+}
