@@ -307,26 +307,7 @@ Sheet on_ladder(Sheet sheet) {
     return sheet;
 }
 
-// Colour of what lies under a sheet, of its colour without (Lekner and Dorf 1988, "Why some things are darker when
-// wet", with the light that water takes; not in the source). Of the light on the surface comes in 1 - F; a part (1 - F)/n^2
-// of what is diffuse goes out again, the rest is thrown back to the bed, whose reflectance A tells how much of that comes
-// up once more: (1 - F)/n^2 / (1 - A (1 - (1 - F)/n^2)), 1 for white. Each eye's own 1 - F is in what it mirrors. On its
-// way down light is lost over the sun's bent way and the mean one of an even sky's; up and down again inside over five
-// times that, mostly totally reflected: both over sin^2, without losses. What it loses on its way to the eye is
-// `over`'s.
-vec3 under_water(Sheet sheet, vec3 dry) {
-    vec3 extinction = frame.medium_b.rgb + (frame.medium_a.w > 0.5 ? vec3(0.0) : frame.medium_a.rgb);
-    vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));
-    vec3 sun = exp(-extinction * (frame.bed.z * sheet.down));
-    vec3 lit = (1.0 - frame.shade.rgb) * sheet.sun;
-    // Pass `lit` took the sun's part already.
-    vec3 came = frame.shade.rgb * sky + lit * sun * frame.bed_light.w;
-    came /= max(frame.shade.rgb + (CAST == 1u ? lit * sun : lit), vec3(1.0e-9));
-    vec3 albedo = clamp(dry * frame.bed_light.rgb, 0.0, 1.0);
-    vec3 back = sky * sky * sky * sky * sky * (1.0 - frame.bed.x);
-    vec3 wet = dry * came * frame.bed.x / (1.0 - albedo * back);
-    return mix(dry, wet, frame.target.z >= BACK_WATER ? sheet.wet : 0.0);
-}
+#include "bed.glsl"
 
 // Light with what a surface mirrors, and its highlight; through: of the water before foam, and of the foam.
 vec3 with_mirrored(Sheet sheet, vec3 c, vec2 through) {
@@ -510,78 +491,7 @@ Sheet between(Foam foam, vec2 pixel, float t) {
     return sheet;
 }
 
-// Light that comes into the front sheet from behind it, by both of its surfaces, where there is air (Wyman 2005, "An
-// Approximate Image-Space Approach for Interactive Refraction"; not in the thesis). Differs: the far surface is the front one
-// and as much deeper as the water is thick, with the slope of both; a march over the screen finds the scene.
-struct Exit {
-    float kept; // of what is seen of the scene through what else is behind
-    vec3 free;  // all other light
-    vec3 scene;
-    float path; // metres through the sheet
-};
-
-// The slope of the thickness, per pixel of the picture.
-vec2 thickness_slope(vec2 pixel) {
-    vec2 h = pixel / frame.thick_extent.z - 0.5;
-    vec2 middle = floor(h + 0.5);
-    vec2 texel = 1.0 / vec2(textureSize(thickness, 0));
-    vec4 before = textureGather(thickness, middle * texel, 0);
-    vec4 right = textureGather(thickness, (middle + vec2(1.0, 0.0)) * texel, 0);
-    vec4 below = textureGather(thickness, (middle + vec2(0.0, 1.0)) * texel, 0);
-    vec4 after = textureGather(thickness, (middle + 1.0) * texel, 0);
-    return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
-}
-
-// behind: what is seen by the front surface alone. parallel: the far surface has the slope of the front one, as where the
-// thickness is that of two sheets.
-Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
-    vec3 v = normalize(-sheet.at);
-    float ratio = frame.up.w;
-    // A normal of a ripple may be turned away.
-    float facing = max(dot(sheet.normal, v), 0.0);
-    vec3 inside = ratio * (sheet.normal * facing - v)
-                - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
-    Exit result;
-    result.path = sheet.thick / max(-inside.z, FLATTEST);
-    vec3 from = sheet.at + inside * result.path;
-
-    Surface far = surface;
-    far.z += sheet.thick;
-    vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
-    far.dz += parallel ? vec2(0.0) : thickness_slope(pixel);
-    far.dz = clamp(far.dz, -steepest, steepest);
-    vec3 there;
-    vec3 n;
-    surface_frame(far, ray_slope(pixel, frame.slope), there, n);
-    float inner = clamp(-dot(inside, n), 0.0, 1.0);
-    float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
-    bool total = square <= 0.0;
-    float outer = sqrt(max(square, 0.0));
-    vec3 along = inside / ratio + n * (inner / ratio - outer);
-    along = total ? inside + 2.0 * inner * n : along;
-    along = normalize(along);
-
-    Met met = march(from, along, int(EXIT));
-    vec3 world = mat3(frame.world) * along;
-    // What leaves downwards and meets nothing that is seen: as if it went straight on.
-    float sky = (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
-    float thrown = total ? 0.0 : fresnel(outer);
-    // Thin films are what they are by their front; of what lies under water there is no air.
-    float air = (1.0 - sheet.wet) * smoothstep(0.0, 0.25 * frame.particle.x, sheet.thick);
-    vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
-    result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
-                         + thrown * sheet.mirrored);
-    vec3 scene = (1.0 - air) * behind + air * (1.0 - thrown) * seen;
-    result.kept = 1.0 - air + air * (1.0 - thrown) * (1.0 - sky);
-    result.scene = result.kept > 0.0 ? scene / result.kept : behind;
-    result.path = mix(sheet.path, result.path, air);
-    return result;
-}
-
-// With all that does not come through what is behind.
-vec3 opened(Exit e, vec3 c) {
-    return c * e.kept + e.free;
-}
+#include "exit.glsl"
 
 // A surface on the way to the same one at the next coarser level.
 Surface towards(Surface surface, Surface other, float fade) {

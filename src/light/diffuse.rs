@@ -175,6 +175,11 @@ impl Diffuse {
         // A row to either side is read.
         let own = if self.rows < edge { self.rows - 2 } else { edge };
         for first in (0..edge).step_by(own as usize) {
+            if first > 0 {
+                // Rows of their own: a layer that sees images as wholes asks for it.
+                let barrier = access::image(&self.image, COMPUTE_WRITE, COMPUTE_WRITE);
+                gpu.barriers(cmd, &[barrier], &[]);
+            }
             let last = (first + own).min(edge) - 1;
             let bound = first.saturating_sub(1);
             let resources = [

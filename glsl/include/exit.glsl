@@ -1,0 +1,76 @@
+// Water with air behind it, seen through by both of its surfaces (Wyman 2005, "An Approximate Image-Space Approach for
+// Interactive Refraction"; not in the thesis). Differs: the far surface is the front one and as much deeper as the water is
+// thick, with the slope of both; a march over the screen finds the scene.
+// Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness, scene
+// colour and depth, environment.
+
+// Light that comes into the front sheet from behind it.
+struct Exit {
+    float kept; // of what is seen of the scene through what else is behind
+    vec3 free;  // all other light
+    vec3 scene;
+    float path; // metres through the sheet
+};
+
+// The slope of the thickness, per pixel of the picture.
+vec2 thickness_slope(vec2 pixel) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    vec2 middle = floor(h + 0.5);
+    vec2 texel = 1.0 / vec2(textureSize(thickness, 0));
+    vec4 before = textureGather(thickness, middle * texel, 0);
+    vec4 right = textureGather(thickness, (middle + vec2(1.0, 0.0)) * texel, 0);
+    vec4 below = textureGather(thickness, (middle + vec2(0.0, 1.0)) * texel, 0);
+    vec4 after = textureGather(thickness, (middle + 1.0) * texel, 0);
+    return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
+}
+
+// behind: what is seen by the front surface alone. parallel: the far surface has the slope of the front one, as where the
+// thickness is that of two sheets.
+Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
+    vec3 v = normalize(-sheet.at);
+    float ratio = frame.up.w;
+    // A normal of a ripple may be turned away.
+    float facing = max(dot(sheet.normal, v), 0.0);
+    vec3 inside = ratio * (sheet.normal * facing - v)
+                - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+    Exit result;
+    result.path = sheet.thick / max(-inside.z, FLATTEST);
+    vec3 from = sheet.at + inside * result.path;
+
+    Surface far = surface;
+    far.z += sheet.thick;
+    vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
+    far.dz += parallel ? vec2(0.0) : thickness_slope(pixel);
+    far.dz = clamp(far.dz, -steepest, steepest);
+    vec3 there;
+    vec3 n;
+    surface_frame(far, ray_slope(pixel, frame.slope), there, n);
+    float inner = clamp(-dot(inside, n), 0.0, 1.0);
+    float square = 1.0 - (1.0 - inner * inner) / (ratio * ratio);
+    bool total = square <= 0.0;
+    float outer = sqrt(max(square, 0.0));
+    vec3 along = inside / ratio + n * (inner / ratio - outer);
+    along = total ? inside + 2.0 * inner * n : along;
+    along = normalize(along);
+
+    Met met = march(from, along, int(EXIT));
+    vec3 world = mat3(frame.world) * along;
+    // What leaves downwards and meets nothing that is seen: as if it went straight on.
+    float sky = (1.0 - met.share) * smoothstep(-0.3, 0.0, dot(world, frame.up.xyz));
+    float thrown = total ? 0.0 : fresnel(outer);
+    // Thin films are what they are by their front; of what lies under water there is no air.
+    float air = (1.0 - sheet.wet) * smoothstep(0.0, 0.25 * frame.particle.x, sheet.thick);
+    vec3 seen = met.share * scene_at(met.at) + (1.0 - met.share - sky) * behind;
+    result.free = air * ((1.0 - thrown) * sky * textureLod(environment, world, 0.0).rgb
+                         + thrown * sheet.mirrored);
+    vec3 scene = (1.0 - air) * behind + air * (1.0 - thrown) * seen;
+    result.kept = 1.0 - air + air * (1.0 - thrown) * (1.0 - sky);
+    result.scene = result.kept > 0.0 ? scene / result.kept : behind;
+    result.path = mix(sheet.path, result.path, air);
+    return result;
+}
+
+// With all that does not come through what is behind.
+vec3 opened(Exit e, vec3 c) {
+    return c * e.kept + e.free;
+}
