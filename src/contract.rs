@@ -112,7 +112,8 @@ pub struct Config {
     /// edge, by 2.2 on a wide picture. What is not on the screen is the environment; with [`Compositing::Source`](
     /// crate::water::Compositing) all is.
     pub mirror_steps: u32,
-    /// What is seen through water with air behind it. Default [`Exit::TwoInterfaces`].
+    /// What is seen through water with air behind it. Default [`Exit::Straight`]; [`Exit::TwoInterfaces`] makes the whole frame
+    /// about a quarter longer (lavapipe).
     pub exit: Exit,
     /// Iteration rule of the smoothing.
     pub rule: Rule,
@@ -184,7 +185,7 @@ impl Config {
             smoothing: None,
             composite: None,
             mirror_steps: 8,
-            exit: Exit::TwoInterfaces,
+            exit: Exit::Straight,
             rule: Rule::ConstantWidth,
             max_iterations: 256,
             coarsening: 3,

@@ -164,10 +164,9 @@ impl WaterTable {
         self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
     }
 
-    /// What is seen through water with air behind it, in the thesis' look or ours.
-    pub fn exit(&self, thesis: bool) -> Exit {
-        let standard = if thesis { Exit::Straight } else { Exit::TwoInterfaces };
-        self.exit.map_or(standard, Into::into)
+    /// What is seen through water with air behind it.
+    pub fn exit(&self) -> Exit {
+        self.exit.map_or(Exit::Straight, Into::into)
     }
 
     /// The table that says all of them, and of the passes as this table does.
@@ -175,7 +174,7 @@ impl WaterTable {
         Self {
             medium: Some(water.medium.into()),
             mirror_steps: Some(self.mirror_steps(thesis)),
-            exit: Some(self.exit(thesis).into()),
+            exit: Some(self.exit().into()),
             ..Self::of(water)
         }
     }

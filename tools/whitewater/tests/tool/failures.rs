@@ -179,27 +179,28 @@ fn an_output_that_is_full_is_code_5_and_one_that_is_closed_none() {
 
 #[test]
 fn a_file_that_cannot_grow_leaves_nothing_half() {
-    // SwiftShader keeps the code it makes in files of its own and does not survive the limit.
-    if std::env::var("WHITEWATER_EXPECT_ADAPTER").is_ok_and(|name| name.contains("SwiftShader")) {
-        crate::skipped::skipped("the driver itself needs files that the limit forbids");
-        return;
-    }
     let folder = Folder::new();
     std::fs::create_dir(folder.path("in")).unwrap();
     std::fs::create_dir(folder.path("out")).unwrap();
     folder.particles("in/a.ply", block(3));
     folder.text("out/a.exr", "old");
     // The limit on the size of files stands in for a disk that fills while a picture is written.
-    let output = std::process::Command::new("sh")
-        .args([
-            "-c",
-            "trap '' XFSZ; ulimit -f 8; exec \"$0\" render in/a.ply -o out/a.exr --size 96x64",
-        ])
-        .arg(env!("CARGO_BIN_EXE_whitewater"))
-        .current_dir(folder.path(""))
-        .output()
-        .unwrap();
-    super::support::Run(output).fails(5, &["out/a.exr"]);
+    let limited = |picture: &str| {
+        let run = format!("trap '' XFSZ; ulimit -f 8; exec \"$0\" render in/a.ply -o {picture}");
+        std::process::Command::new("sh")
+            .args(["-c", &run])
+            .arg(env!("CARGO_BIN_EXE_whitewater"))
+            .current_dir(folder.path(""))
+            .output()
+            .unwrap()
+    };
+    // Some drivers keep code or memory in files of their own (SwiftShader; Mesa 25's lavapipe) and do not survive the
+    // limit: they end by a signal, though the picture fits.
+    if limited("small.png --size 16x16").status.code().is_none() {
+        crate::skipped::skipped("the driver itself needs files that the limit forbids");
+        return;
+    }
+    super::support::Run(limited("out/a.exr --size 96x64")).fails(5, &["out/a.exr"]);
     assert_eq!(names(&folder.path("out")), ["a.exr"]);
     assert_eq!(std::fs::read(folder.path("out/a.exr")).unwrap(), b"old");
 }
