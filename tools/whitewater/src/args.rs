@@ -176,7 +176,7 @@ pub struct DrawArgs {
     /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
     /// [water] medium is 'clear', 'pool', 'ocean' or 'milk' [default: of particles clear under 2 metres across, else pool]. Table
     /// [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
-    /// default where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
+    /// default of a sequence and where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
     /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,
     /// scene units a second, y up) and seed = 0 (of its times)
     #[arg(long, value_name = "FILE")]
@@ -217,8 +217,9 @@ pub struct DrawArgs {
     /// --look thesis 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
     pub sheets: Option<u32>,
-    /// What of the water foams: auto (where it traps air, as neighbours run into each other: a twentieth of it at most, of
-    /// a sequence three tenths at a time, and none of water that rests, flows or falls as a whole; needs velocities), none,
+    /// What of the water foams: auto (of one frame where it traps air, as neighbours run into each other: a twentieth of
+    /// it at most, and none of water that rests, flows or falls as a whole; of a sequence the fastest twentieth, three tenths
+    /// at a time; needs velocities), none,
     /// or the Weber number from which on it does, by its own speed. In a sequence with ids foam comes and goes in time;
     /// frames before those that are drawn are read for it [default: auto; with --whitewater none]
     #[arg(long, value_name = "WHEN", value_parser = foaming)]

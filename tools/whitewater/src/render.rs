@@ -463,7 +463,9 @@ fn look(
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
     let foam = args.draw.foam.unwrap_or(foaming(args));
-    let by = file.foam.by(foam, file.is_thesis());
+    // In a sequence by speed: where air is trapped changes from frame to frame, three times as much as foam by speed does.
+    let steady = sequence.is.then_some(FoamBy::Speed);
+    let by = file.foam.by.or(steady).unwrap_or_else(|| file.foam.by(foam, file.is_thesis()));
     file.foam.by = Some(by);
     let foam = foam::settings(foam, (&file.foam, by), &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {

@@ -72,10 +72,8 @@ fn foam_of_a_simulation_does_not_flicker() {
     folder.text("speed.toml", &format!("{RELIEF}by = 'speed'\n{spray}"));
     let view = "--eye 2.871,2.567,5.094 --target 0.193,1.177,0.058";
     does_not_flicker(&folder, &format!("{files} --settings speed.toml {view}"), true);
-    // Where water churns foam goes no way that a vector tells. What it changes by is little: measured, a 75th of a screen's
-    // range from frame to frame where there is any.
-    let churns = does_not_flicker(&folder, &format!("{files} --overwrite"), false);
-    assert!(churns < 0.02, "{churns}");
+    // And where nothing is said.
+    does_not_flicker(&folder, &format!("{files} --overwrite"), true);
 }
 
 /// As much shape as a change can be told by: how foam moves is asked, not how flat it is.
