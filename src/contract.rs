@@ -107,10 +107,10 @@ pub struct Config {
     /// its format be one that the device stores to without being told which; R16G16B16A16_SFLOAT
     /// is nearly everywhere, those of sRGB are not. [`Offer`](crate::Offer) knows.
     pub composite: Option<Shading>,
-    /// Steps in which the composite looks for what of the scene the water's surface mirrors, on the screen, 0 to 64;
-    /// 0: it mirrors the environment alone, as the thesis. Default 8: they grow from a 128th of the picture's height to its
-    /// edge, by 2.2 on a wide picture. What is not on the screen is the environment; with [`Compositing::Source`](
-    /// crate::water::Compositing) all is.
+    /// Steps of the screen-space reflection of the scene on water, 0 to 64, default 8. The first is a 128th of the picture's
+    /// height long, and each is longer than the one before by the same factor (2.2 on a wide picture), so that the last ends
+    /// at the picture's edge. A ray that meets nothing on the screen shows the environment; 0, as in the thesis, and
+    /// [`Compositing::Source`](crate::water::Compositing) show the environment alone.
     pub mirror_steps: u32,
     /// What is seen through water with air behind it. Default [`Exit::Straight`]; [`Exit::TwoInterfaces`] makes the whole frame
     /// about a quarter longer (lavapipe).
@@ -788,7 +788,8 @@ impl Default for Settings {
 impl Settings {
     /// The look of the thesis' demo (Bagar 2010) for particles of a spacing: its composite, colours, unit of the
     /// thickness, foam, spray and light on foam. With it go [`Rule::Source`](crate::water::Rule) of [`Config::rule`],
-    /// [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`], [`Config::cast`] of `None` and [`Shadows::Convolution`](crate::water::Shadows).
+    /// [`Config::sheets`] of 1, [`Config::mirror_steps`] of 0, [`Config::exit`] of [`Exit::Straight`], [`Config::cast`] of
+    /// `None` and [`Shadows::Convolution`](crate::water::Shadows).
     pub fn thesis(spacing: f32) -> Self {
         Self {
             water: WaterSettings::thesis(spacing),

@@ -285,6 +285,7 @@ impl FrameUniforms {
         let thick = reduced(full, config.thickness_level);
         let water = &frame.settings.water;
         let light = &frame.settings.light;
+        let (wet, bed_light) = bed(water, light, frame.settings.upward());
         let [shore_color, contact_color] =
             crate::shore::colors(frame.settings).map(|c| c.to_array());
         let radius = water.radius();
@@ -484,8 +485,8 @@ impl FrameUniforms {
             shore_color,
             contact_color,
             up: frame.settings.upward().extend(index(water).recip()).to_array(),
-            bed: bed(water, light, frame.settings.upward()).0,
-            bed_light: bed(water, light, frame.settings.upward()).1,
+            bed: wet,
+            bed_light,
         }
     }
 }

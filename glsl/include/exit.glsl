@@ -24,8 +24,8 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// behind: what is seen by the front surface alone. parallel: the far surface has the slope of the front one, as where the
-// thickness is that of two sheets.
+// behind: the scene's colour as the front surface alone refracts it. parallel: give the far surface the front one's slope;
+// where the thickness is the sum of two sheets, its own slope describes neither.
 Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
     vec3 v = normalize(-sheet.at);
     float ratio = frame.up.w;

@@ -417,7 +417,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         region: Region { center, radius: 1.5 * radius },
         fps: Some(args.fps.unwrap_or(FPS)),
         rate: None,
-        film: args.fps.unwrap_or(FPS),
+        film: args.fps.unwrap_or(FPS) / args.every.get() as f32,
         fullest: 1,
     };
     let mut progress = Progress::new(frames.len(), "frames");

@@ -127,8 +127,38 @@ impl From<SequenceError> for Failure {
     }
 }
 
+/// The size is that of two flags.
+pub fn too_large(error: Error, supersample: u32) -> Failure {
+    let of_size = matches!(error, Error::BadInput { field: "Config.extent", .. });
+    let failure = Failure::from(error);
+    match supersample {
+        2.. if of_size => Failure::new(
+            failure.kind,
+            format!("{}; or a smaller --supersample, which it is multiplied by", failure.message),
+        ),
+        _ => failure,
+    }
+}
+
+/// Names the picture that the device cannot take.
+pub fn bad_picture(error: Error, file: &str) -> Failure {
+    match error {
+        Error::BadInput { why, .. } => {
+            Failure::input(format!("{file}: {why}; use a smaller picture"))
+        }
+        Error::Allocation { .. } => Failure::new(
+            Kind::Device,
+            format!("{file}: {error}; use a smaller picture, or a device with more memory"),
+        ),
+        error => error.into(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use whitewater::Config;
+    use whitewater::headless::{COLOR_FORMAT, Device, DeviceOptions, Headless};
+
     use super::*;
 
     #[test]
@@ -144,5 +174,30 @@ mod tests {
         assert!(!full.message.contains("finished"), "{}", full.message);
         let missing = Error::Missing { what: "a layer".into(), why: "install it".into() };
         assert_eq!(Failure::from(missing).kind as u8, 4);
+    }
+
+    #[test]
+    fn an_environment_too_large_for_the_device_is_named() {
+        let device = Device::new(&DeviceOptions::default()).unwrap();
+        let extent = vk::Extent2D { width: 16, height: 16 };
+        let config = Config { environment_size: 16, ..Config::new(extent, COLOR_FORMAT, 1024) };
+        let mut headless = Headless::new(device, &config).unwrap();
+        // No device's images are so wide.
+        let wide = vk::Extent2D { width: 100_000, height: 1 };
+        let error = headless.equirectangular(wide, &vec![[1.0; 4]; 100_000], 1.0, 0.0).unwrap_err();
+        let failure = bad_picture(error, "sky.png");
+        assert_eq!(failure.kind, Kind::Input);
+        for part in ["sky.png: ", "100000x1", "smaller picture"] {
+            assert!(failure.message.contains(part), "{}", failure.message);
+        }
+        headless.finish().unwrap();
+    }
+
+    #[test]
+    fn a_size_too_large_names_its_flags() {
+        let error = || Error::BadInput { field: "Config.extent", why: "too large".into() };
+        let message = |supersample| too_large(error(), supersample).message;
+        assert!(message(2).contains("--size") && message(2).contains("--supersample"));
+        assert!(message(1).contains("--size") && !message(1).contains("--supersample"));
     }
 }

@@ -1,6 +1,8 @@
 //! A film of all frames in one file: H.264 in MP4, as every player and every browser takes it.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use muxide::api::{MuxerBuilder, VideoCodec};
 use openh264::OpenH264API;
@@ -11,6 +13,7 @@ use openh264::encoder::{
 use openh264::formats::YUVBuffer;
 
 use crate::failure::{Failure, Kind, Outcome};
+use crate::output;
 
 /// The most pixels along an edge that the encoder takes, the longer one and the other: those of level 5.2.
 const MOST: (u32, u32) = (3840, 2160);
@@ -22,12 +25,48 @@ const BITS: f32 = 2.0;
 const KEY_SECONDS: f32 = 10.0;
 
 /// Frames that were encoded.
-pub struct Film {
+struct Film {
     encoder: Encoder,
     size: (usize, usize),
     fps: f32,
     /// Each with whether it stands by itself.
     frames: Vec<(Vec<u8>, bool)>,
+}
+
+/// The film of a run and the files that it goes to, for the run and for Ctrl-C.
+#[derive(Clone)]
+pub struct Reel {
+    film: Arc<Mutex<Film>>,
+    files: Vec<PathBuf>,
+}
+
+impl Reel {
+    /// None where no file is named.
+    pub fn new(files: Vec<PathBuf>, size: (u32, u32), fps: f32) -> Outcome<Option<Self>> {
+        if files.is_empty() {
+            return Ok(None);
+        }
+        let film = Arc::new(Mutex::new(Film::new(size, fps)?));
+        Ok(Some(Self { film, files }))
+    }
+
+    fn film(&self) -> MutexGuard<'_, Film> {
+        self.film.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Adds a frame, as [`Film::push`].
+    pub fn push(&self, rgb: &[[f32; 3]]) -> Outcome<()> {
+        self.film().push(rgb)
+    }
+
+    /// Writes the frames there are, if any.
+    pub fn write(&self) -> Outcome<()> {
+        let film = self.film();
+        if film.frames.is_empty() {
+            return Ok(());
+        }
+        self.files.iter().try_for_each(|path| output::write(path, |to| film.write(to)))
+    }
 }
 
 /// What of a size cannot be filmed.
@@ -51,7 +90,7 @@ pub fn check_size((width, height): (u32, u32)) -> Outcome<()> {
 
 impl Film {
     /// Of frames so wide and high, so many a second.
-    pub fn new((width, height): (u32, u32), fps: f32) -> Outcome<Self> {
+    fn new((width, height): (u32, u32), fps: f32) -> Outcome<Self> {
         let bits = (BITS * width as f32 * height as f32 * fps.clamp(1.0, 60.0)) as u32;
         let config = EncoderConfig::new()
             .usage_type(UsageType::CameraVideoRealTime)
@@ -76,7 +115,7 @@ impl Film {
     }
 
     /// Adds a frame: its pixels row by row from the top, sRGB 0 to 1.
-    pub fn push(&mut self, rgb: &[[f32; 3]]) -> Outcome<()> {
+    fn push(&mut self, rgb: &[[f32; 3]]) -> Outcome<()> {
         let (width, height) = self.size;
         let picture = YUVBuffer::from_vec(planes(rgb, width), width, height);
         // A frame that was skipped would make the film run fast.
@@ -95,13 +134,8 @@ impl Film {
         Err(failed(&"a frame was skipped"))
     }
 
-    /// No frame was added.
-    pub fn is_empty(&self) -> bool {
-        self.frames.is_empty()
-    }
-
     /// Writes what there is.
-    pub fn write(&self, to: impl Write) -> io::Result<()> {
+    fn write(&self, to: impl Write) -> io::Result<()> {
         let (width, height) = (self.size.0 as u32, self.size.1 as u32);
         let fps = f64::from(self.fps);
         let box_error = |error: &dyn std::fmt::Display| io::Error::other(error.to_string());

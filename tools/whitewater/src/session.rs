@@ -1,7 +1,6 @@
 //! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
 
 use whitewater::ash::vk;
 use whitewater::bubbles::BubbleConfig;
@@ -11,15 +10,15 @@ use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Head
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Display, Layers};
 use whitewater::water::{FoamSettings, NoiseLook, Rule, WaterSettings};
-use whitewater::{Config, Error, Previous, Region, Settings};
+use whitewater::{Config, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Panorama, Source};
-use crate::failure::{Failure, Kind, Outcome};
-use crate::film::{self, Film};
+use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
+use crate::film::{self, Reel};
 use crate::foam;
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
@@ -96,7 +95,7 @@ pub struct Session<'a> {
     /// In which axes.
     pub up: Up,
     /// What goes into films.
-    film: Option<Arc<Mutex<Film>>>,
+    reel: Option<Reel>,
     pub times: Times,
 }
 
@@ -171,33 +170,6 @@ pub fn guessed_densities(
     })
 }
 
-/// The size is that of two flags.
-fn too_large(error: Error, supersample: u32) -> Failure {
-    let of_size = matches!(error, Error::BadInput { field: "Config.extent", .. });
-    let failure = Failure::from(error);
-    match supersample {
-        2.. if of_size => Failure::new(
-            failure.kind,
-            format!("{}; or a smaller --supersample, which it is multiplied by", failure.message),
-        ),
-        _ => failure,
-    }
-}
-
-/// Names the picture that the device cannot take.
-fn bad_picture(error: Error, file: &str) -> Failure {
-    match error {
-        Error::BadInput { why, .. } => {
-            Failure::input(format!("{file}: {why}; use a smaller picture"))
-        }
-        Error::Allocation { .. } => Failure::new(
-            Kind::Device,
-            format!("{file}: {error}; use a smaller picture, or a device with more memory"),
-        ),
-        error => error.into(),
-    }
-}
-
 impl<'a> Session<'a> {
     /// Checks the outputs and opens the device; `steps`: where it says what it does.
     pub fn new(
@@ -219,22 +191,13 @@ impl<'a> Session<'a> {
         let device = Device::new(&options)?;
         let times = Times::new(steps, &device.adapter, &device.driver);
         let (last, timings, trace) = (times.clone(), args.timings.clone(), args.trace.clone());
-        let film = has_film(&targets).then(|| Film::new(args.size, look.film)).transpose()?;
-        let film = film.map(|film| Arc::new(Mutex::new(film)));
         let films = targets.iter().filter(|target| target.format == Output::Film);
-        let films: Vec<_> = films
-            .map(|target| target.path(0))
-            .zip(film.iter().cycle())
-            .map(|(path, film)| (path, film.clone()))
-            .collect();
+        let films = films.map(|target| target.path(0)).collect();
+        let reel = Reel::new(films, args.size, look.film)?;
         // Broken off, a film has the frames that were drawn.
+        let filmed = reel.clone();
         output::at_interrupt(move || {
-            for (path, film) in films {
-                let film = film.lock().unwrap_or_else(PoisonError::into_inner);
-                if !film.is_empty() {
-                    output::write(&path, |to| film.write(to))?;
-                }
-            }
+            filmed.map_or(Ok(()), |reel| reel.write())?;
             timings.map_or(Ok(()), |path| last.write(&path))?;
             trace.map_or(Ok(()), |path| last.write_trace(&path))
         });
@@ -252,7 +215,7 @@ impl<'a> Session<'a> {
             full: false,
             keep: None,
             up: Up::Y,
-            film,
+            reel,
             times,
         })
     }
@@ -629,11 +592,7 @@ impl<'a> Session<'a> {
         let layers = self.with_attributes(layers, source, &camera_file)?;
         // Before the pictures, by which a frame counts as finished.
         self.write_made(number)?;
-        for target in &self.targets {
-            let path = target.path(number);
-            times.step("write", number, || self.write(target.format, &path, &layers))?;
-        }
-        Ok(())
+        times.step("write", number, || self.write(number, &layers))
     }
 
     /// Writes the diffuse particles that were made; seconds left, as the longest life has them, so that they have
@@ -663,24 +622,29 @@ impl<'a> Session<'a> {
         })
     }
 
-    fn write(&self, format: Output, path: &std::path::Path, layers: &Layers) -> Outcome<()> {
+    /// The picture of a frame, in all its files.
+    fn write(&self, number: u64, layers: &Layers) -> Outcome<()> {
         let look = &self.look;
         let exposure = look.environment.exposure() + look.exposure + self.args.exposure;
         let display = Display { exposure, tone: self.args.tone.into(), alpha: look.matte };
-        match (format, &self.film) {
-            (Output::Picture(PictureFormat::Exr), _) => {
-                output::write(path, |to| picture::write_exr(layers, to))
+        for target in &self.targets {
+            let path = target.path(number);
+            match target.format {
+                Output::Picture(PictureFormat::Exr) => {
+                    output::write(&path, |to| picture::write_exr(layers, to))?;
+                }
+                Output::Picture(PictureFormat::Png) => {
+                    output::write(&path, |to| picture::write_png_as(layers, &display, to))?;
+                }
+                // Of all frames: below.
+                Output::Film => {}
             }
-            (Output::Picture(PictureFormat::Png), _) => {
-                output::write(path, |to| picture::write_png_as(layers, &display, to))
-            }
-            (Output::Film, film) => film.iter().try_for_each(|film| {
-                // A film has no alpha: over black.
-                let display = Display { alpha: false, ..display };
-                let rgb = layers.shown(&display).unwrap_or_default();
-                film.lock().unwrap_or_else(PoisonError::into_inner).push(&rgb)
-            }),
         }
+        self.reel.as_ref().map_or(Ok(()), |reel| {
+            // A film has no alpha: over black.
+            let display = Display { alpha: false, ..display };
+            reel.push(&layers.shown(&display).unwrap_or_default())
+        })
     }
 
     fn with_attributes(
@@ -717,35 +681,5 @@ impl<'a> Session<'a> {
         let written = output::at_end();
         gone?;
         written
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_environment_too_large_for_the_device_is_named() {
-        let device = Device::new(&DeviceOptions::default()).unwrap();
-        let extent = vk::Extent2D { width: 16, height: 16 };
-        let config = Config { environment_size: 16, ..Config::new(extent, COLOR_FORMAT, 1024) };
-        let mut headless = Headless::new(device, &config).unwrap();
-        // No device's images are so wide.
-        let wide = vk::Extent2D { width: 100_000, height: 1 };
-        let error = headless.equirectangular(wide, &vec![[1.0; 4]; 100_000], 1.0, 0.0).unwrap_err();
-        let failure = bad_picture(error, "sky.png");
-        assert_eq!(failure.kind, Kind::Input);
-        for part in ["sky.png: ", "100000x1", "smaller picture"] {
-            assert!(failure.message.contains(part), "{}", failure.message);
-        }
-        headless.finish().unwrap();
-    }
-
-    #[test]
-    fn a_size_too_large_names_its_flags() {
-        let error = || Error::BadInput { field: "Config.extent", why: "too large".into() };
-        let message = |supersample| too_large(error(), supersample).message;
-        assert!(message(2).contains("--size") && message(2).contains("--supersample"));
-        assert!(message(1).contains("--size") && !message(1).contains("--supersample"));
     }
 }

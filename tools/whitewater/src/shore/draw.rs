@@ -312,7 +312,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         },
         fps: Some(args.fps.unwrap_or(shown.fps)),
         rate: None,
-        film: args.fps.unwrap_or(shown.fps),
+        film: args.fps.unwrap_or(shown.fps) / args.every.get() as f32,
         fullest: 1,
     };
     let mut progress = Progress::new(frames.len(), "frames");

@@ -455,9 +455,9 @@ fn the_demo_is_drawn() {
     assert!(folder.exists("demo.png"));
 }
 
-/// The demo against pictures that were looked at, in mean FLIP, by the curve that leaves dim colours as they are. Drivers differ in the snapping of
-/// triangles, and where the refraction ends by the texels they gather: SwiftShader is 0.013 from
-/// lavapipe, which made the pictures. What must be seen is a change of the look: another sun is 0.40.
+/// The demo against pictures that were looked at, in mean FLIP, by the tone curve that leaves dim colours as they are.
+/// Drivers differ in the snapping of triangles, and where the refraction ends by the texels they gather: SwiftShader is
+/// 0.013 from lavapipe, which made the pictures. What must be seen is a change of the look: another sun is 0.40.
 #[test]
 fn the_demo_is_its_reference() {
     let folder = Folder::new();

@@ -53,16 +53,21 @@ fn a_film_has_all_frames() {
     let folder = Folder::new();
     sequence(&folder);
     let command = format!("render f_*.ply -o film.mp4 {SMALL} --fps 12");
-    let run = folder.run(&command).ok();
+    let run = folder.run(&format!("{command} -o again.mp4")).ok();
     assert!(run.stderr().contains("film.mp4"), "{}", run.stderr());
-    assert_eq!(folder.film("film.mp4"), (4, 12.0));
+    assert_eq!([folder.film("film.mp4"), folder.film("again.mp4")], [(4, 12.0); 2]);
     // It is never there in part: drawn again, whatever there is.
     folder.run(&format!("{command} --every 2")).ok();
     assert_eq!(folder.film("film.mp4"), (2, 6.0));
     folder.run(&command.replace("96x64", "95x64")).fails(2, &["--size", "96x64"]);
     folder.run(&command.replace("film", "film_%d")).fails(2, &["film_%d.mp4"]);
     assert_eq!(folder.film("film.mp4"), (2, 6.0), "the one before is kept");
-    assert_eq!(folder.files().len(), 5, "{:?}", folder.files());
+    // Without particles, too.
+    folder
+        .run(&format!("render --bubbles one --frames 0-3 --every 2 -o b.mp4 {SMALL} --fps 12"))
+        .ok();
+    assert_eq!(folder.film("b.mp4"), (2, 6.0));
+    assert_eq!(folder.files().len(), 7, "{:?}", folder.files());
 }
 
 #[test]
