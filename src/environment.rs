@@ -137,7 +137,8 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
-    /// The first level without the sun and its faces, for [`Irradiance::Sampled`], where that is how foam is lit.
+    /// The cube without the sun and its faces, for [`Irradiance::Sampled`], where that is how foam is lit. Its first level is
+    /// asked; SwiftShader fills the seams of a cube when it blits its mips, not when compute has written it.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
     /// The sun is in the cube last recorded, and not in that one.
     apart: bool,
@@ -166,7 +167,7 @@ impl Environment {
         let faces = gpu.view(cube.handle, cube.format, array, 6, 1, "environment/faces")?;
         let faces = gpu.own(faces, Grave::View);
         let sunless = Self::is_sampled(config).then(|| {
-            let own = of_size("environment/sunless", 1, vk::ImageUsageFlags::STORAGE)?;
+            let own = of_size("environment/sunless", mips, made)?;
             let faces =
                 gpu.view(own.handle, own.format, array, 6, 1, "environment/sunless-faces")?;
             Ok((own, gpu.own(faces, Grave::View)))
@@ -286,7 +287,7 @@ impl Environment {
         let sun = sun.extend(sky.intensity).to_array();
         self.sky.push(gpu, cmd, &SkyPush { sun, east, up, size });
         self.fill_cube(gpu, cmd);
-        self.record_mips(gpu, cmd);
+        self.record_mips(gpu, cmd, &self.cube);
         Ok(())
     }
 
@@ -300,11 +301,11 @@ impl Environment {
     ) -> Result<(), Error> {
         let target = self.begin_cube(gpu, cmd);
         self.fill_with(gpu, cmd, descriptors, target, (image, map))?;
-        self.record_mips(gpu, cmd);
+        self.record_mips(gpu, cmd, &self.cube);
         Ok(())
     }
 
-    /// The first level of an image without the sun, where foam asks it at its samples' directions.
+    /// The cube of an image without the sun, where foam asks it at its samples' directions.
     fn record_sunless(
         &self,
         gpu: &Gpu,
@@ -316,7 +317,7 @@ impl Environment {
         gpu.barriers(cmd, &[access::image(own, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
         let target = (0, Resource::Storage(faces.handle));
         self.fill_with(gpu, cmd, descriptors, target, (image, map))?;
-        gpu.barriers(cmd, &[access::image(own, COMPUTE_WRITE, SAMPLED)], &[]);
+        self.record_mips(gpu, cmd, own);
         Ok(())
     }
 
@@ -380,14 +381,14 @@ impl Environment {
     }
 
     /// Each mip is a blit of the one before.
-    fn record_mips(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
+    fn record_mips(&self, gpu: &Gpu, cmd: vk::CommandBuffer, cube: &Image) {
         let mip_barrier = |mip: u32, count: u32, before, after| {
-            let mut barrier = access::image(&self.cube, before, after);
+            let mut barrier = access::image(cube, before, after);
             barrier.subresource_range.base_mip_level = mip;
             barrier.subresource_range.level_count = count;
             barrier
         };
-        let mut size = self.cube.extent.width as i32;
+        let mut size = cube.extent.width as i32;
         gpu.barriers(
             cmd,
             &[
@@ -413,9 +414,9 @@ impl Environment {
             unsafe {
                 gpu.device.cmd_blit_image(
                     cmd,
-                    self.cube.handle,
+                    cube.handle,
                     vk::ImageLayout::TRANSFER_SRC_OPTIMAL,
-                    self.cube.handle,
+                    cube.handle,
                     vk::ImageLayout::TRANSFER_DST_OPTIMAL,
                     &[blit],
                     vk::Filter::LINEAR,
@@ -424,6 +425,6 @@ impl Environment {
             gpu.barriers(cmd, &[mip_barrier(mip, 1, COPY_WRITE, COPY_READ)], &[]);
             size /= 2;
         }
-        gpu.barriers(cmd, &[access::image(&self.cube, COPY_READ, SAMPLED)], &[]);
+        gpu.barriers(cmd, &[access::image(cube, COPY_READ, SAMPLED)], &[]);
     }
 }

@@ -114,7 +114,7 @@
 //! | cells of the front pass | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | copy of the scene (half float, `in_place`) | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | environment, 256² cube with mips | | 4.0 MiB | 4.0 MiB |
-//! | its first level without the sun (`DiffuseConfig::irradiance` of `Sampled`) | | 3.0 MiB | 3.0 MiB |
+//! | the same without the sun (`DiffuseConfig::irradiance` of `Sampled`) | | 4.0 MiB | 4.0 MiB |
 //! | foam: depth, thickness and its sums, what water is before it (`foam`) | 3¼ w h | 2.9 MiB | 6.4 MiB |
 //! | foam: what of it the sun lights (`foam` with `cast` or a shadow map) | ¼ w h | 0.2 MiB | 0.5 MiB |
 //! | foam: sprites and shares (`foam`) | 68 n | 4.3 MiB for 65 536 | 680 MB for 10 million |

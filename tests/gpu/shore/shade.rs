@@ -93,7 +93,7 @@ fn foam_is_in_the_shade_of_a_map() {
         shot.shore = Some(Shore { surface, shoreline, ..Shore::new(0.0) });
         let drawn = rig.draw(&shot);
         let level = water(&shot, DVec3::Y, 0.0);
-        let (mut seen, mut edge, mut dark, mut vague) = ([0; 2], 0, 0, 0);
+        let (mut seen, mut edge, mut dark) = ([0; 2], 0, 0);
         for (i, texel) in drawn.shore.as_ref().expect("foam").data.iter().enumerate() {
             if texel[0] == 0 && texel[1] == 0 {
                 continue;
@@ -105,17 +105,13 @@ fn foam_is_in_the_shade_of_a_map() {
             let Some(lost) = under_the_roof(&shot, &point, &light, snapped) else { continue };
             let off = (f64::from(texel[2]) / 255.0 - lost.value).abs();
             assert!(off < lost.error + STEP + 4.0 * U, "{name}, {i}: {texel:?}, expected {lost:?}");
-            // Towards the horizon a device of few steps to a pixel may snap a vertex far.
-            if is_strip && lost.error >= 0.01 {
-                vague += 1;
-                continue;
-            }
-            assert!(lost.error < 0.01, "{name}, {i}: {lost:?} tells little");
+            // Of 256 steps to a pixel; a device of fewer snaps a vertex as much farther.
+            let told = if is_strip { 0.01 * (256.0 / bits).max(1.0) } else { 0.01 };
+            assert!(lost.error < told, "{name}, {i}: {lost:?} tells little");
             seen = [0, 1].map(|k| seen[k] + u32::from(texel[k] > 0));
             edge += u32::from((0.05..0.95).contains(&lost.value));
             dark += u32::from(lost.value == 1.0);
         }
-        assert!(20 * vague <= seen[0], "{name}: {vague} pixels beside {seen:?} tell little");
         println!("{name}: {seen:?} pixels with foam, {edge} at the edge, {dark} in the dark");
         let kinds = [shoreline.is_some(), !is_strip];
         assert!((0..2).all(|k| (seen[k] > 300) == kinds[k]), "{name}: {seen:?}");
