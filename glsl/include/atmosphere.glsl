@@ -1,7 +1,7 @@
 // A physically based clear sky: single scattering of the sun in a Rayleigh and Mie atmosphere
 // (Nishita et al. 1993; Rayleigh coefficient and layers of Bruneton and Neyret 2008), and a term for the light that
 // scatters more often, fitted to a Monte Carlo solution over ground of albedo 0.2: the irradiance of the sky on level ground
-// is within 5 % of it for suns above 30 degrees, 18 % in blue at 10 degrees.
+// is within 6 % of it for suns above 30 degrees, 18 % in blue at 10 degrees.
 // The three wavelengths are 645, 553 and 443 nm: with those the spectral sky's colour in Rec. 709 is met within 4 %.
 // The coefficients at 550 nm go with the wavelength to the power -4 (Rayleigh) and -1.3 (aerosol, Angstrom's exponent). The
 // aerosol's optical depth to the zenith is 0.1, that of a clear day; a tenth of what it takes it absorbs.
