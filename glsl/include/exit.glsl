@@ -25,6 +25,27 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
+// The same of the sheet that a surface belongs to, alone: what lies behind the air is no part of it.
+vec2 sheet_slope(vec2 pixel, float front) {
+    vec2 h = pixel / frame.thick_extent.z - 0.5;
+    ivec2 middle = ivec2(floor(h + 0.5));
+    vec2 f = h - vec2(middle);
+    vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
+    vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
+    vec3 down = vec3(0.5 * (0.5 - f.y) * (0.5 - f.y), 0.75 - f.y * f.y, 0.5 * (0.5 + f.y) * (0.5 + f.y));
+    vec3 falls = vec3(f.y - 0.5, -2.0 * f.y, f.y + 0.5);
+    vec2 rise = vec2(0.0);
+    for (int y = 0; y < 3; ++y) {
+        for (int x = 0; x < 3; ++x) {
+            ivec2 texel = clamp(middle + ivec2(x, y) - 1, ivec2(0), ivec2(frame.thick_extent.xy) - 1);
+            vec3 t = texelFetch(sheets, texel, 0).xyz;
+            vec2 own = front < boundary_of(texel) ? t.xy : t.yx;
+            rise += (own.x + (1.0 - air(t.z)) * own.y) * vec2(slopes[x] * down[y], weights[x] * falls[y]);
+        }
+    }
+    return rise / frame.thick_extent.z;
+}
+
 // The ray from the eye as it goes on in the water, a unit vector.
 vec3 into_water(Sheet sheet) {
     vec3 v = normalize(-sheet.at);
@@ -53,9 +74,8 @@ vec2 bed_offset(Sheet sheet, vec2 pixel) {
     return at - pixel;
 }
 
-// behind: the scene's colour as the front surface alone refracts it. parallel: give the far surface the front one's slope;
-// where the thickness is the sum of two sheets, its own slope describes neither.
-Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
+// behind: the scene's colour as the front surface alone refracts it. covers: the sheet is the front one of two.
+Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers) {
     float ratio = frame.up.w;
     vec3 inside = into_water(sheet);
     Exit result;
@@ -65,7 +85,19 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool paralle
     Surface far = surface;
     far.z += sheet.thick;
     vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
-    far.dz += parallel ? vec2(0.0) : thickness_slope(pixel);
+    vec2 thicker = vec2(0.0);
+    // Ends of loops, not branches: a CPU runs branches whole.
+    bool apart = SHEETS == 2u && covers;
+    bool alone = !apart;
+    while (apart) {
+        thicker = sheet_slope(pixel, surface.z);
+        apart = false;
+    }
+    while (alone) {
+        thicker = thickness_slope(pixel);
+        alone = false;
+    }
+    far.dz += thicker;
     far.dz = clamp(far.dz, -steepest, steepest);
     vec3 there;
     vec3 n;

@@ -238,7 +238,7 @@ pub enum Bed {
 pub enum Exit {
     /// Light is bent where it enters the water and where it leaves it, by the slope of both surfaces and the index of
     /// refraction n that [`Bed`] says, or totally reflected there; what it meets of the scene is looked for on the screen, in 4
-    /// steps, and the rest is the environment (Wyman 2005). Of a front sheet before another both surfaces are parallel.
+    /// steps, and the rest is the environment (Wyman 2005).
     TwoInterfaces,
     /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis), as that is under water with both.
     Straight,

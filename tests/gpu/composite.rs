@@ -577,6 +577,38 @@ fn what_comes_through_both_surfaces_is_the_twins() {
     }
 }
 
+/// A body before other water is the lens that it is by itself: a clear pane of water far behind it takes no more away than its
+/// own mirrored light, twice a fiftieth of at most 1, and moves what is behind it by its own thickness.
+#[test]
+fn water_before_water_bends_as_it_does_alone() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config { coarsening: 0, sheets: 2, exit: Exit::TwoInterfaces, ..config(size) };
+    let mut rig = Rig::new(&gpu, &config);
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let clear = Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] };
+    let mut drawn = |pane: bool| {
+        let mut points = scenes::block(9, 0.25, [10, 7, 4], [-1.2, -0.9, 4.0]);
+        if pane {
+            points.extend(scenes::block(3, 0.3, [50, 36, 2], [-7.5, -5.4, 9.0]));
+        }
+        let mut shot = Shot::new(size, Lens::Standard, 0.2, &points);
+        shot.scene_depth(|x, _| Some(14.0 + 0.02 * f64::from(x)));
+        shot.settings.water.medium = clear;
+        shot.settings.water.specular = 0.0;
+        let drawn = rig.draw(&shot);
+        (drawn.output, drawn.depth)
+    };
+    let ((alone, depth), (before, _)) = (drawn(false), drawn(true));
+    let (mut sum, mut count, mut most) = (0.0, 0, 0.0_f32);
+    for (i, _) in depth.data.iter().enumerate().filter(|(_, z)| **z < 6.0) {
+        let off = (alone.data[i][1] - before.data[i][1]).abs();
+        (sum, count, most) = (sum + off, count + 1, most.max(off));
+    }
+    let mean = sum / count as f32;
+    assert!(count > 300 && mean < 0.04, "{count} pixels, {mean} in the mean, {most} at most");
+}
+
 /// A white furnace: clear water over a white bed, in an environment as bright from everywhere, is not seen: what comes out
 /// of the bed and what is mirrored are all there is. A grey bed is darker for it, a black one as black.
 #[test]
