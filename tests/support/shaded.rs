@@ -71,6 +71,11 @@ pub fn through(medium: &Medium, behind: Rounded, path: Rounded, i: usize) -> Rou
             let albedo = exact(scattering[i]) / least;
             behind * kept + exact(ambient[i]) * albedo * (exact(1.0) - kept)
         }
+        Medium::Turbid { extinction, own } => {
+            // Of sums, a root, products and quotients on the host.
+            let kept = (-off(extinction[i], 1.0) * path).exp();
+            behind * kept + off(own[i], 32.0) * (exact(1.0) - kept)
+        }
         Medium::Source { base, k } => {
             let tint = exact(base[i]) * (-exact(k[i]) * path).exp();
             mix(tint, behind, (-exact(k[3]) * path).exp())
@@ -141,6 +146,7 @@ fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3])
             Medium::Physical { absorption, scattering, .. } => {
                 exact(absorption[i]) + exact(scattering[i])
             }
+            Medium::Turbid { extinction, .. } => off(extinction[i], 1.0),
             Medium::Source { k, .. } => exact(k[i]),
         };
         let sky = (-extinction * (sky_way * lit.down)).exp();

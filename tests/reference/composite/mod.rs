@@ -3,12 +3,14 @@
 //! ```text
 //! P = (s_x z, s_y z, -z)    n = P_x x P_y normalized, towards the eye    path = T |P| / z
 //! Physical  C = background t + ambient (scattering / ext) (1 - t),    t = exp(-ext path)
+//! Turbid    C = background t + own (1 - t),    own = emission + R E / pi, R of medium.rs
 //! Source    C = mix(base exp(-k path), background, exp(-k_a path))
 //! C <- mix(C, env(R), w F) + w specular sun max(n.h, 0)^shininess,   w = smoothstep(0, r/4, T)
 //! ```
 
 mod bed;
 mod exit;
+pub mod medium;
 mod mirror;
 mod sheets;
 pub mod source;
@@ -37,6 +39,13 @@ pub enum Medium {
         scattering: [f64; 3],
         /// The radiance that is scattered in.
         ambient: [f64; 3],
+    },
+    /// As it scatters many times: metres and radiance.
+    Turbid {
+        /// Per metre.
+        extinction: [f64; 3],
+        /// The radiance of an endless body.
+        own: [f64; 3],
     },
     /// The source's colours.
     Source {
@@ -286,6 +295,10 @@ pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
             let albedo = DVec3::select(ext.cmpgt(DVec3::ZERO), scattering / ext, DVec3::ZERO);
             let t = exp(ext);
             behind * t + DVec3::from(ambient) * albedo * (1.0 - t)
+        }
+        Medium::Turbid { extinction, own } => {
+            let t = exp(DVec3::from(extinction));
+            behind * t + DVec3::from(own) * (1.0 - t)
         }
         Medium::Source { base, k: [r, g, b, a] } => {
             let water = DVec3::from(base) * exp(DVec3::new(r, g, b));
