@@ -80,16 +80,17 @@ pub fn quarters(x: usize, y: usize, size: usize) -> [DVec2; 4] {
         .map(|(dx, dy)| DVec2::new(x as f64 + dx, y as f64 + dy) / size as f64)
 }
 
-/// The air, in kilometres: Bruneton and Neyret 2008 (scattering per km at sea level; what Mie
-/// scattering takes from a ray is a ninth more than it scatters; scale heights).
+/// The air, in kilometres (scattering per km at sea level; what an aerosol takes from a ray is 0.11 more than it scatters;
+/// scale heights): Rayleigh's 13.5e-3 at 550 nm of Bruneton and Neyret 2008 by the fourth power of the wavelength, an optical
+/// depth of the aerosol of 0.1 at 550 nm by its power 1.3, at 645, 553 and 443 nm.
 const EARTH: f64 = 6360.0;
 const TOP: f64 = 6420.0;
-const RAYLEIGH: DVec3 = DVec3::new(5.8e-3, 13.5e-3, 33.1e-3);
-const MIE: f64 = 4e-3;
-const MIE_LOSS: f64 = 4.44e-3;
+const RAYLEIGH: DVec3 = DVec3::new(7.14e-3, 13.21e-3, 32.08e-3);
+const MIE: DVec3 = DVec3::new(67.7e-3, 82.7e-3, 110.4e-3);
+const MIE_LOSS: f64 = 1.11;
 const HEIGHTS: DVec2 = DVec2::new(8.0, 1.2);
 
-/// Steps of the quadrature: along a ray, where they grow as odd numbers, and from there to the sun.
+/// Steps of the quadrature: along a ray and from there to the sun; both grow as odd numbers.
 #[derive(Clone, Copy)]
 pub struct Steps {
     pub along: usize,
@@ -97,7 +98,7 @@ pub struct Steps {
 }
 
 /// Those of the built-in sky.
-pub const SKY_STEPS: Steps = Steps { along: 24, sun: 8 };
+pub const SKY_STEPS: Steps = Steps { along: 24, sun: 12 };
 
 /// A value and how far single precision may be off it.
 #[derive(Clone, Copy)]
@@ -129,10 +130,10 @@ fn density(p: DVec3, t: f64, uncertain: f64) -> Rounded<DVec2> {
 /// Density times length from a point up to the end of the air, by midpoints.
 fn optical_depth(p: DVec3, d: DVec3, steps: usize) -> Rounded<DVec2> {
     let end = air_ends(p, d);
-    let size = end.value / steps as f64;
     let mut sum = Rounded { value: DVec2::ZERO, error: DVec2::ZERO };
     for i in 0..steps {
-        let t = (i as f64 + 0.5) * size;
+        let [from, to] = [i, i + 1].map(|i| end.value * (i as f64 / steps as f64).powi(2));
+        let (t, size) = ((from + to) / 2.0, to - from);
         let found = density(p + d * t, t, end.error);
         sum.value += found.value * size;
         sum.error += (found.error + found.value * (end.error / end.value + 20.0 * U)) * size;
@@ -141,7 +142,7 @@ fn optical_depth(p: DVec3, d: DVec3, steps: usize) -> Rounded<DVec2> {
 }
 
 fn extinction(depth: DVec2) -> DVec3 {
-    RAYLEIGH * depth.x + MIE_LOSS * depth.y
+    RAYLEIGH * depth.x + MIE_LOSS * MIE * depth.y
 }
 
 fn transmittance(depth: Rounded<DVec2>) -> Rounded<DVec3> {
@@ -153,8 +154,8 @@ fn transmittance(depth: Rounded<DVec2>) -> Rounded<DVec3> {
 
 /// The radiance of the sky under a sun of unit irradiance, seen 50 m above the sea. A ray's light is
 /// what one scattering turns from the sun into it; rays lower than 0.003 are that one. What scatters
-/// more often adds 0.13 of the sun's height where the air is thick. Under the horizon the ground, a
-/// diffuse 0.22 in the light of sun and sky, fades in down to 0.12.
+/// more often adds 0.072 h / (h + 0.12) of the sun's height h where the air without its aerosol is thick. Under the horizon
+/// the ground, a diffuse 0.22 in the light of sun and sky, fades in down to 0.12.
 pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     let eye = DVec3::Y * (EARTH + 0.05);
     let d = direction.with_y(direction.y.max(0.003)).normalize();
@@ -199,9 +200,10 @@ pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     // pow: log2 to 2^-21 near 1 or 3 ulp of at most 4.1; the cosine is of 10u.
     let phase = U * (40.0 + 3.0 * g * 10.0 / beyond);
     let once = sum[0] * rayleigh + sum[1] * mie;
-    let thick = (-(RAYLEIGH * passed.value.x + 2.0 * MIE * passed.value.y)).exp();
-    let thick_off = thick * (RAYLEIGH * passed.error.x + 2.0 * MIE * passed.error.y + 40.0 * U);
-    let often = 0.13 * sun.y.max(0.0);
+    let thick = (-(RAYLEIGH * passed.value.x)).exp();
+    let thick_off = thick * (RAYLEIGH * passed.error.x + 40.0 * U);
+    let high = sun.y.max(0.0);
+    let often = 0.072 * high / (high + 0.12);
     let air = Rounded {
         value: once + often * (1.0 - thick),
         error: error[0] * rayleigh + error[1] * mie + once * (phase + 60.0 * U) + often * thick_off,
@@ -209,7 +211,8 @@ pub fn sky(direction: DVec3, sun: DVec3, steps: Steps) -> Rounded<DVec3> {
     let daylight = transmittance(optical_depth(eye, sun, steps.sun));
     let lit = sun.y.max(0.0) / PI;
     let ground = Rounded {
-        value: 0.22 * (lit * daylight.value + 0.08 * DVec3::new(0.5, 0.6, 0.8)),
+        value: 0.22
+            * (lit * daylight.value + high / (high + 0.12) / PI * DVec3::new(0.15, 0.20, 0.29)),
         error: 0.22 * lit * daylight.error + 20.0 * U,
     };
     let below = 1.0 - smoothstep(-0.12, 0.0, direction.y);
@@ -271,5 +274,106 @@ mod tests {
             }
         }
         assert!(worst > 1e-4 && worst < 0.04, "{worst}");
+    }
+
+    /// Uniform numbers from 0 to 1 (splitmix64).
+    struct Dice(u64);
+
+    impl Dice {
+        fn roll(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((z ^ (z >> 31)) >> 11) as f64 * 0.5_f64.powi(53)
+        }
+    }
+
+    /// Of sunlight, what comes down to level ground of albedo 0.2 scattered, however often: photons in layers of air and
+    /// aerosol over a plane.
+    fn scattered(channel: usize, height: f64, photons: usize) -> f64 {
+        let mut dice = Dice(7 + channel as u64);
+        let sea = [RAYLEIGH[channel], MIE_LOSS * MIE[channel]];
+        let above = |z: f64| [0, 1].map(|i| sea[i] * HEIGHTS[i] * (-z / HEIGHTS[i]).exp());
+        let whole: f64 = above(0.0).iter().sum();
+        // Height at an optical depth from the top, by halving.
+        let height_of = |depth: f64| {
+            let (mut low, mut high) = (0.0, 200.0);
+            for _ in 0..40 {
+                let middle = 0.5 * (low + high);
+                let deeper = above(middle).iter().sum::<f64>() > depth;
+                *(if deeper { &mut low } else { &mut high }) = middle;
+            }
+            low
+        };
+        let mut down = 0.0;
+        for _ in 0..photons {
+            let level = (1.0 - height * height).sqrt();
+            let (mut ray, mut depth, mut weight) = (DVec3::new(level, -height, 0.0), 0.0, 1.0);
+            for order in 0..60 {
+                depth -= ray.y * -(1.0 - dice.roll()).ln();
+                if depth < 0.0 {
+                    break;
+                }
+                let turn = DVec2::from_angle(TAU * dice.roll());
+                if depth >= whole {
+                    down += if order > 0 { weight } else { 0.0 };
+                    // Diffuse ground.
+                    let square = dice.roll();
+                    let across = turn * square.sqrt();
+                    ray = DVec3::new(across.x, (1.0 - square).sqrt(), across.y);
+                    (weight, depth) = (0.2 * weight, whole);
+                    continue;
+                }
+                let z = height_of(depth);
+                let here = [0, 1].map(|i| sea[i] * (-z / HEIGHTS[i]).exp());
+                let cosine = if dice.roll() * (here[0] + here[1]) < here[0] {
+                    // Rayleigh's 3/8 (1 + c^2), by its inverse.
+                    let q = 4.0 * dice.roll() - 2.0;
+                    let root = (q + (q * q + 1.0).sqrt()).cbrt();
+                    root - root.recip()
+                } else {
+                    weight /= MIE_LOSS;
+                    // Of Henyey and Greenstein: its mean cosine is that of the sky's phase function but for a hundredth.
+                    let g = 0.76_f64;
+                    let part = (1.0 - g * g) / (1.0 - g + 2.0 * g * dice.roll());
+                    (1.0 + g * g - part * part) / (2.0 * g)
+                };
+                let side = ray.any_orthonormal_vector();
+                let across = side * turn.x + ray.cross(side) * turn.y;
+                ray = (ray * cosine + across * (1.0 - cosine * cosine).max(0.0).sqrt()).normalize();
+            }
+        }
+        height * down / photons as f64
+    }
+
+    /// The term for what scatters often makes the sky as bright as it is: its light on level ground is within 6 % of a Monte
+    /// Carlo solution, and three standard errors of that.
+    #[test]
+    fn the_sky_is_as_bright_as_air_makes_it() {
+        for degrees in [35.0_f64, 53.0, 90.0] {
+            let height = degrees.to_radians().sin();
+            let sun = DVec3::new((1.0 - height * height).max(0.0).sqrt(), height, 0.0);
+            let (rings, turns) = (12, 24);
+            let mut light = DVec3::ZERO;
+            for (i, j) in (0..rings).flat_map(|i| (0..turns).map(move |j| (i, j))) {
+                // Even in the square of the cosine: weighted by it.
+                let square = (f64::from(i) + 0.5) / f64::from(rings);
+                let turn = DVec2::from_angle(TAU * (f64::from(j) + 0.5) / f64::from(turns));
+                let across = turn * (1.0 - square).sqrt();
+                let d = DVec3::new(across.x, square.sqrt(), across.y);
+                light += sky(d, sun, SKY_STEPS).value * PI / f64::from(rings * turns);
+            }
+            let photons = 60_000;
+            for channel in 0..3 {
+                let found = scattered(channel, height, photons);
+                let error = 3.0 * (found * height / photons as f64).sqrt();
+                let off = (light[channel] - found).abs();
+                assert!(
+                    off < 0.06 * found + error,
+                    "sun at {degrees}, channel {channel}: {}, not {found} within {error}",
+                    light[channel]
+                );
+            }
+        }
     }
 }
