@@ -688,7 +688,8 @@ fn light_vector(c: [f32; 3]) -> [f32; 4] {
 }
 
 /// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know of absorption, scattering, and a light that is scattered
-/// once: a turbid medium is one that does nothing but scatter, in the light that is its own.
+/// once: a turbid medium is one that does nothing but scatter, in the light that is its own. Of that `medium_b`'s last says
+/// what share is scattered, and goes by the sun and the slope of the surface.
 fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]) {
     match water.medium {
         Medium::Physical { absorption: a, scattering: s } => {
@@ -696,11 +697,14 @@ fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]
         }
         Medium::Turbid { absorption: a, scattering: s, emission } => {
             let leaves = leaves(water);
-            let own = [0, 1, 2].map(|i| {
+            let scattered = [0, 1, 2].map(|i| {
                 let white = light.irradiance[i] * std::f32::consts::FRAC_1_PI;
-                white * reflectance(a[i], s[i], leaves) + emission[i]
+                white * reflectance(a[i], s[i], leaves)
             });
-            ([0.0; 4], [a[0] + s[0], a[1] + s[1], a[2] + s[2], 0.0], own)
+            let own = [0, 1, 2].map(|i| scattered[i] + emission[i]);
+            let whole = own[0] + own[1] + own[2];
+            let share = if whole > 0.0 { scattered.iter().sum::<f32>() / whole } else { 0.0 };
+            ([0.0; 4], [a[0] + s[0], a[1] + s[1], a[2] + s[2], share], own)
         }
         Medium::Source { base, falloff } => {
             ([base[0], base[1], base[2], 1.0], falloff, light.ambient)

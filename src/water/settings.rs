@@ -279,8 +279,8 @@ pub enum Medium {
     /// dense media, as milk, `(1 - g)` of it by the mean cosine g; of natural waters, whose reflectance goes by what is
     /// scattered backwards, twice the backscattering coefficient. The reflectance of a half space is van de Hulst's
     /// `(1 - s)(1 - 0.139 s)/(1 + 1.17 s)`, `s = √(absorption/(absorption + scattering))` (Multiple Light Scattering, 1980),
-    /// and what the surface throws back inside is added as [`Bed::Submerged`] says. Shadows on the surface do not show in
-    /// the light that it scatters.
+    /// and what the surface throws back inside is added as [`Bed::Submerged`] says. The surface is shaded as a matte one by
+    /// the sun, the scene's shadows and [`Light::shade`](crate::Light::shade); shadows of the fluid on itself are not.
     Turbid {
         /// Absorption per metre, linear RGB, [0, ∞).
         absorption: [f32; 3],
@@ -339,13 +339,13 @@ impl Medium {
     /// Blood, with oxygen: 150 g/l of haemoglobin by Prahl's table of its molar extinction, reduced scattering
     /// 2200 (λ/500 nm)^-0.66 per metre (Jacques, Phys. Med. Biol. 58, 2013, Table 1). Index of refraction 1.38.
     pub const BLOOD: Self = Self::turbid([807.0, 23_000.0, 20_600.0], [1930.0, 2070.0, 2310.0]);
-    /// Molten basalt of 1450 K: Planck's law at the three wavelengths, whose luminance is 4300 cd/m², where a radiance of
-    /// 1 is white paper in a full sun of 100 klx; opaque, absorbing 2000 per metre (an estimate). It has no crust and lights
+    /// Molten basalt of 1490 K, as Kilauea's hottest fountains (1216 °C, 1959): Planck's law at the three wavelengths, whose
+    /// luminance is 6800 cd/m², where a radiance of 1 is white paper in a full sun of 100 klx; opaque, absorbing 2000 per metre (an estimate). It has no crust and lights
     /// nothing but itself. Index of refraction 1.6.
     pub const LAVA: Self = Self::Turbid {
         absorption: [2000.0; 3],
         scattering: [0.0; 3],
-        emission: [0.324, 0.0922, 0.0079],
+        emission: [0.497, 0.148, 0.0139],
     };
 
     const fn turbid(absorption: [f32; 3], scattering: [f32; 3]) -> Self {
@@ -857,15 +857,15 @@ mod tests {
         // Planck's law, of one luminance; Rec. 709 weighs the three.
         let Medium::Turbid { emission, .. } = Medium::LAVA else { panic!() };
         let second = 1.438_8e7; // nm K
-        let planck = WAVES.map(|wave| (-second / (wave * 1450.0)).exp() / (wave / 610.0).powi(5));
+        let planck = WAVES.map(|wave| (-second / (wave * 1490.0)).exp() / (wave / 610.0).powi(5));
         for (found, at) in emission.iter().zip(planck) {
-            let expected = 0.324 * at / planck[0];
+            let expected = 0.497 * at / planck[0];
             assert!((f64::from(*found) - expected).abs() < 0.02 * expected, "{emission:?}");
         }
         let luminance: f64 =
             emission.iter().zip([0.2126, 0.7152, 0.0722]).map(|(e, w)| f64::from(*e) * w).sum();
         let paper = 1.0e5 / std::f64::consts::PI;
-        assert!((luminance * paper / 4300.0 - 1.0).abs() < 0.01, "{luminance}");
+        assert!((luminance * paper / 6770.0 - 1.0).abs() < 0.01, "{luminance}");
     }
 
     /// Jerlov's own table says how the sun's light fails with depth: what is absorbed or thrown back, over the mean cosine of

@@ -21,19 +21,31 @@ pub fn below(fresnel: Fresnel, bare: f64) -> f64 {
     leaves * bare / (1.0 - (1.0 - leaves) * bare)
 }
 
-/// The medium in a light.
+/// The medium in a light: irradiance of level ground, in the sun and in shade.
 pub fn turbid(
     [absorption, scattering, emission]: [[f64; 3]; 3],
-    irradiance: [f64; 3],
+    (irradiance, shade): ([f64; 3], [f64; 3]),
     fresnel: Fresnel,
 ) -> Medium {
     let extinction = [0, 1, 2].map(|i| absorption[i] + scattering[i]);
-    let own = [0, 1, 2].map(|i| {
+    let scattered = [0, 1, 2].map(|i| {
         let albedo = if extinction[i] > 0.0 { scattering[i] / extinction[i] } else { 0.0 };
-        let white = irradiance[i] / std::f64::consts::PI;
-        emission[i] + white * below(fresnel, half_space(albedo))
+        irradiance[i] / std::f64::consts::PI * below(fresnel, half_space(albedo))
     });
-    Medium::Turbid { extinction, own }
+    let own = [0, 1, 2].map(|i| emission[i] + scattered[i]);
+    let whole: f64 = own.iter().sum();
+    let share = if whole > 0.0 { scattered.iter().sum::<f64>() / whole } else { 0.0 };
+    let shade = [0, 1, 2].map(|i| {
+        if irradiance[i] > 0.0 { (shade[i] / irradiance[i]).clamp(0.0, 1.0) } else { 1.0 }
+    });
+    Medium::Turbid { extinction, own, share, shade }
+}
+
+/// Of its own light what there is where a surface faces the sun by a cosine, over that of level ground, which does by
+/// another: what is scattered as on a matte surface, of what it emits all.
+pub fn lit(share: f64, shade: f64, facing: f64, level: f64) -> f64 {
+    let scattered = shade + (1.0 - shade) * facing.max(0.0) / level.max(0.05);
+    1.0 + share * (scattered - 1.0)
 }
 
 #[cfg(test)]
