@@ -884,7 +884,7 @@ mod tests {
         ];
         let [absorption, scattering] = coefficients(Medium::OCEAN);
         for i in 0..3 {
-            let next = table.iter().position(|(wave, _)| *wave >= WAVES[i]).unwrap();
+            let next = table.iter().position(|(wave, _)| *wave >= WAVES[i]).expect("listed");
             let ((from, low), (to, high)) = (table[next - 1], table[next]);
             let jerlov = low + (high - low) * (WAVES[i] - from) / (to - from);
             let ours = 1.04 * (absorption[i] + 0.5 * scattering[i]) / 0.9;
