@@ -318,7 +318,7 @@ impl FrameUniforms {
             Rule::Fixed(count) => count as f32,
             _ => 0.0,
         };
-        let (medium_a, medium_b) = medium(&water.medium);
+        let (medium_a, medium_b, ambient) = medium(water, light);
         let look = &frame.settings.foam;
         let (parts, carried, began) = pattern_phases(look);
         let ripples = &frame.settings.noise;
@@ -386,7 +386,7 @@ impl FrameUniforms {
             sun_direction: sun.extend(0.0).to_array(),
             sun_color: light_vector(light.color),
             ambient: with(
-                light_vector(light.ambient),
+                light_vector(ambient),
                 f32::from(u8::from(water.compositing == Compositing::Source)),
             ),
             foam: [look.extinction, look.front_extinction, look.motion_threshold, look.front_depth],
@@ -643,6 +643,24 @@ fn index(water: &WaterSettings) -> f32 {
     }
 }
 
+/// Share of an even sky's light that a surface lets in. The mean of Schlick's reflectance is F0 + (1 - F0)/21, of the other
+/// form bias + 2 scale/((p + 1)(p + 2)).
+fn comes_in(water: &WaterSettings) -> f32 {
+    let mean = match water.fresnel {
+        Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
+        Fresnel::Source { bias, scale, power } => {
+            bias + 2.0 * scale / ((power + 1.0) * (power + 2.0))
+        }
+    };
+    (1.0 - mean).clamp(1.0e-3, 1.0)
+}
+
+/// Share of diffuse light inside that leaves.
+fn leaves(water: &WaterSettings) -> f32 {
+    let n = index(water);
+    (comes_in(water) / (n * n)).max(1.0e-3)
+}
+
 /// Uniforms `bed` and `bed_light`: what a surface does to the light of what lies under it.
 fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
     let per_light = |e: f32| std::f32::consts::PI / e.max(1.0e-9);
@@ -651,15 +669,8 @@ fn bed(water: &WaterSettings, light: &Light, up: Vec3) -> ([f32; 4], [f32; 4]) {
         return ([1.0, 0.0, 0.0, 0.0], [r, g, b, 1.0]);
     }
     let n = index(water);
-    // Over an even sky the mean of Schlick's reflectance is F0 + (1 - F0)/21, of the other form bias + 2 scale/((p + 1)(p + 2)).
-    let mean = match water.fresnel {
-        Fresnel::Schlick { f0 } => f0 + (1.0 - f0) / 21.0,
-        Fresnel::Source { bias, scale, power } => {
-            bias + 2.0 * scale / ((power + 1.0) * (power + 2.0))
-        }
-    };
-    let comes_in = (1.0 - mean).clamp(1.0e-3, 1.0);
-    let leaves = (comes_in / (n * n)).max(1.0e-3);
+    let comes_in = comes_in(water);
+    let leaves = leaves(water);
     // 2 n^2 (1 - sqrt(1 - 1/n^2)), which does not cancel so: the mean of 1/cos inside, over sin^2 outside.
     let sky = 2.0 / (1.0 + (1.0 - 1.0 / (n * n)).max(0.0).sqrt());
     let cosine = light.toward().dot(up).clamp(0.0, 1.0);
@@ -676,13 +687,41 @@ fn light_vector(c: [f32; 3]) -> [f32; 4] {
     [c[0], c[1], c[2], 0.0]
 }
 
-fn medium(medium: &Medium) -> ([f32; 4], [f32; 4]) {
-    match *medium {
+/// Uniforms `medium_a`, `medium_b` and `ambient`. The shaders know of absorption, scattering, and a light that is scattered
+/// once: a turbid medium is one that does nothing but scatter, in the light that is its own. Of that `medium_b`'s last says
+/// what share is scattered, and goes by the sun and the slope of the surface.
+fn medium(water: &WaterSettings, light: &Light) -> ([f32; 4], [f32; 4], [f32; 3]) {
+    match water.medium {
         Medium::Physical { absorption: a, scattering: s } => {
-            ([a[0], a[1], a[2], 0.0], [s[0], s[1], s[2], 0.0])
+            ([a[0], a[1], a[2], 0.0], [s[0], s[1], s[2], 0.0], light.ambient)
         }
-        Medium::Source { base, falloff } => ([base[0], base[1], base[2], 1.0], falloff),
+        Medium::Turbid { absorption: a, scattering: s, emission } => {
+            let leaves = leaves(water);
+            let scattered = [0, 1, 2].map(|i| {
+                let white = light.irradiance[i] * std::f32::consts::FRAC_1_PI;
+                white * reflectance(a[i], s[i], leaves)
+            });
+            let own = [0, 1, 2].map(|i| scattered[i] + emission[i]);
+            let whole = own[0] + own[1] + own[2];
+            let share = if whole > 0.0 { scattered.iter().sum::<f32>() / whole } else { 0.0 };
+            ([0.0; 4], [a[0] + s[0], a[1] + s[1], a[2] + s[2], share], own)
+        }
+        Medium::Source { base, falloff } => {
+            ([base[0], base[1], base[2], 1.0], falloff, light.ambient)
+        }
     }
+}
+
+/// Diffuse reflectance of a half space that absorbs and scatters so much a metre (van de Hulst 1980), below a surface that
+/// a share of its light leaves; radiance, without what is mirrored on its way in and out.
+fn reflectance(absorption: f32, scattering: f32, leaves: f32) -> f32 {
+    let extinction = absorption + scattering;
+    if extinction <= 0.0 {
+        return 0.0;
+    }
+    let s = (absorption / extinction).sqrt();
+    let bare = (1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s);
+    leaves * bare / (1.0 - (1.0 - leaves) * bare)
 }
 
 /// Checks the settings' ranges; the message names the field.
@@ -704,9 +743,13 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     at_least("Settings.water.refraction", water.refraction, 0.0)?;
     at_least("Settings.water.specular", water.specular, 0.0)?;
     at_least("Settings.water.shininess", water.shininess, 1.0)?;
-    let (a, b) = medium(&water.medium);
-    for value in a.into_iter().chain(b) {
-        at_least("Settings.water.medium", value, 0.0)?;
+    let numbers: &[f32] = match &water.medium {
+        Medium::Physical { absorption: a, scattering: s } => &[*a, *s].concat(),
+        Medium::Turbid { absorption: a, scattering: s, emission: e } => &[*a, *s, *e].concat(),
+        Medium::Source { base, falloff } => &[&base[..], &falloff[..]].concat(),
+    };
+    for value in numbers {
+        at_least("Settings.water.medium", *value, 0.0)?;
     }
     let fresnel = match water.fresnel {
         Fresnel::Schlick { f0 } => [f0, 0.0, 0.0],

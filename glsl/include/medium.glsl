@@ -8,18 +8,34 @@ const float WHOLE = 4.0;
 
 // Of a light that covers a share of each colour, premultiplied by it: its colour behind so many metres of water, with the
 // water's own light before that share; and what of it comes through, of all channels together, to the source its weight
-// of what is behind.
-vec4 through_medium(vec3 light, vec3 share, float path) {
+// of what is behind. lit: how much of the water's own light there is.
+vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
     // One exponential for both: a CPU runs branches whole.
     bool source = frame.medium_a.w > 0.5;
     vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
     vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);
     vec3 albedo = frame.medium_b.rgb / max(extinction, vec3(1.0e-9));
     return source ? vec4(mix(share * frame.medium_a.rgb * kept.rgb, light, kept.a), kept.a)
-                  : vec4(light * kept.rgb + share * frame.ambient.rgb * albedo * (1.0 - kept.rgb),
+                  : vec4(light * kept.rgb + share * lit * frame.ambient.rgb * albedo * (1.0 - kept.rgb),
                          dot(kept.rgb, vec3(1.0 / 3.0)));
 }
 
-vec4 through_medium(vec3 background, float path) {
-    return through_medium(background, vec3(1.0), path);
+vec4 through_medium(vec3 light, vec3 share, float path) {
+    return through_medium(light, share, path, vec3(1.0));
+}
+
+vec4 through_medium(vec3 background, float path, vec3 lit) {
+    return through_medium(background, vec3(1.0), path, lit);
+}
+
+// Of a turbid medium's own light what there is on a surface, over that on level ground in the sun: as a matte one has it, by
+// the sun's share and its slope. What it emits is the same everywhere. n, up: of unit length, eye space; sun: the share of
+// its light that comes there.
+vec3 lit_on(vec3 n, vec3 up, float sun) {
+    vec3 to = frame.sun_direction.xyz;
+    float facing = sun * max(dot(n, to), 0.0) / max(dot(up, to), 0.05);
+    vec3 lit = mix(vec3(facing), vec3(1.0), frame.shade.rgb);
+    // Where there is no surface it is as level ground.
+    float scattered = dot(n, n) > 0.5 && frame.medium_a.w < 0.5 ? frame.medium_b.w : 0.0;
+    return mix(vec3(1.0), lit, scattered);
 }

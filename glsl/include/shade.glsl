@@ -316,9 +316,14 @@ vec3 with_mirrored(Sheet sheet, vec3 c, vec2 through) {
     return c * kept + (sheet.mirrored * sheet.mirror + sheet.shine) * (by_source() ? weight : 1.0);
 }
 
+// How much of a turbid medium's own light there is in a sheet.
+vec3 lit_in(Sheet sheet) {
+    return lit_on(sheet.normal, frame.up.xyz * mat3(frame.world), sheet.sun);
+}
+
 // Light through a sheet and off it.
 vec3 over(Sheet sheet, vec3 background) {
-    vec4 c = through_medium(background, sheet.path);
+    vec4 c = through_medium(background, sheet.path, lit_in(sheet));
     return with_mirrored(sheet, c.rgb, vec2(c.a, 1.0));
 }
 
@@ -463,10 +468,11 @@ vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 back
     float apart = max(z - foam.depth - 4.0 * frame.particle.y, 0.0);
     before += max(foam.behind - apart, 0.0);
     float share = t > 0.0 ? clamp(before / t, 0.0, 1.0) : 0.0;
-    vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0)).rgb;
+    vec3 lit = lit_in(sheet);
+    vec3 c = through_medium(background, sheet.path * (frame.target.z >= BACK_WATER ? 1.0 - share : 0.0), lit).rgb;
     c = mix(c, sheet.mirrored, sheet.mirror * (1.0 - first)) + sheet.shine * (1.0 - first);
     c = mix(foam.color, c, foam.kept);
-    vec4 all = through_medium(c, sheet.path * (frame.target.z >= FRONT_WATER ? share : 0.0));
+    vec4 all = through_medium(c, sheet.path * (frame.target.z >= FRONT_WATER ? share : 0.0), lit);
     sheet.mirror *= first;
     sheet.shine *= first;
     return with_mirrored(sheet, all.rgb, vec2(all.a, foam.kept));

@@ -99,6 +99,11 @@ pub fn twin_settings(shot: &Shot, view: &View) -> twin::Settings {
                 scattering: rgb(scattering),
                 ambient: rgb(light.ambient),
             },
+            Medium::Turbid { absorption, scattering, emission } => twin::medium::turbid(
+                [absorption, scattering, emission].map(rgb),
+                (rgb(light.irradiance), rgb(light.shade)),
+                fresnel,
+            ),
             Medium::Source { base, falloff } => {
                 twin::Medium::Source { base: rgb(base), k: falloff.map(f64::from) }
             }
@@ -373,8 +378,9 @@ fn every_medium_and_reflectance() {
     };
     let mut rigs = [make(Shading::Raster), make(Shading::Compute)];
     let media = [
-        ("clear", Medium::CLEAR),
-        ("milk", Medium::MILK),
+        ("pool", Medium::POOL),
+        ("river", Medium::RIVER),
+        ("lava", Medium::LAVA.thinned(1.0e-3)),
         ("source", Medium::source(0.3)),
         ("none", Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] }),
     ];
@@ -398,6 +404,55 @@ fn every_medium_and_reflectance() {
             }
         }
     }
+}
+
+/// Each liquid is of its colour, by the twin: as deep as no bed shows, before white, and in a glass.
+#[test]
+fn liquids_look_like_themselves() {
+    let size = extent(33, 33);
+    let view = shot(size, Lens::Standard).view(size);
+    let seen = |medium: Medium, metres: f64, behind: f64| {
+        let mut shot = shot(size, Lens::Standard);
+        shot.settings.water.medium = medium;
+        shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+        let settings = twin_settings(&shot, &view);
+        twin::through(&settings.medium, DVec3::splat(behind), metres).to_array()
+    };
+    let deep = |medium| seen(medium, 1.0e4, 0.0);
+    // Colourless in a glass, and blue over ten metres of white.
+    let [r, g, b] = seen(Medium::CLEAR, 0.1, 1.0);
+    assert!(r > 0.97 && g > 0.99 && b > 0.99, "{r} {g} {b}");
+    let [r, g, b] = seen(Medium::CLEAR, 10.0, 1.0);
+    assert!(b > 0.85 && g > 0.5 && r < 0.1, "{r} {g} {b}");
+    // Clear ocean is deep blue, and returns a few hundredths; a lake is green and darker.
+    let [r, g, b] = deep(Medium::OCEAN);
+    assert!(b > 3.0 * g && g > 3.0 * r && (0.01..0.05).contains(&b), "{r} {g} {b}");
+    let [r, g, b] = deep(Medium::LAKE);
+    assert!(g > 1.5 * r && g > 1.5 * b && g < 0.03, "{r} {g} {b}");
+    // Silt is tan, and hides the bed within two metres; rock flour is bright turquoise.
+    let [r, g, b] = deep(Medium::RIVER);
+    assert!(r > 1.2 * g && g > 2.0 * b && r > 0.1, "{r} {g} {b}");
+    assert!(
+        seen(Medium::RIVER, 2.0, 1.0)
+            .iter()
+            .zip(deep(Medium::RIVER))
+            .all(|(a, b)| (a - b).abs() < 0.01)
+    );
+    let [r, g, b] = deep(Medium::GLACIER);
+    assert!(b > g && g > 1.8 * r && b > 0.3, "{r} {g} {b}");
+    // Milk is white, with a touch of yellow, a few millimetres deep.
+    let [r, g, b] = seen(Medium::MILK, 0.003, 0.0);
+    assert!(r > 0.88 && g > 0.85 && (0.7..0.8).contains(&b), "{r} {g} {b}");
+    // Beer is amber in a glass of seven centimetres, honey in two, and a thousandth of blood pink in as much.
+    let [r, g, b] = seen(Medium::BEER, 0.07, 1.0);
+    assert!((0.3..0.6).contains(&r) && r > 2.0 * g && g > 5.0 * b, "{r} {g} {b}");
+    let [r, g, b] = seen(Medium::HONEY, 0.02, 1.0);
+    assert!((0.3..0.6).contains(&r) && r > 2.0 * g && g > 5.0 * b, "{r} {g} {b}");
+    let [r, g, b] = deep(Medium::BLOOD);
+    assert!((0.05..0.2).contains(&r) && r > 10.0 * g.max(b), "{r} {g} {b}");
+    // Lava shines by itself, the same in any light.
+    let [r, g, b] = deep(Medium::LAVA);
+    assert!(r > 3.0 * g && g > 10.0 * b && (r - 0.497).abs() < 1.0e-6, "{r} {g} {b}");
 }
 
 /// A look that is off by a hundredth is another picture, for each of its numbers.
@@ -433,6 +488,42 @@ fn a_hundredth_is_seen() {
         });
         assert!(seen, "{name} off by a hundredth");
     }
+}
+
+/// A turbid medium that is off by two hundredths is another picture.
+#[test]
+fn turbid_media_are_exact() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
+    rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
+    let mut shot = shot(size, Lens::Standard);
+    shot.color.fill(FLAT);
+    let medium = |absorbs: f32, scatters: f32, shines: f32| Medium::Turbid {
+        absorption: [0.3, 0.8, 0.05].map(|k| absorbs * k),
+        scattering: [0.5, 0.1, 1.5].map(|k| scatters * k),
+        emission: [0.4, 0.1, 0.02].map(|k| shines * k),
+    };
+    shot.settings.water.medium = medium(1.0, 1.0, 1.0);
+    check("turbid", &mut rig, &shot, Sky::Even);
+    for (name, other) in [
+        ("absorption", medium(1.02, 1.0, 1.0)),
+        ("scattering", medium(1.0, 1.02, 1.0)),
+        ("emission", medium(1.0, 1.0, 1.02)),
+    ] {
+        let mut wrong = shot.clone();
+        wrong.settings.water.medium = other;
+        let view = wrong.view(size);
+        let planted = twin_settings(&wrong, &view).medium;
+        let seen = fails(|| {
+            check_other("planted-turbid", &mut rig, &shot, Sky::Even, |s| s.medium = planted);
+        });
+        assert!(seen, "{name} off by two hundredths");
+    }
+    // In no light at all it shines as it does.
+    let dark = &mut shot.settings.light;
+    (dark.ambient, dark.irradiance, dark.shade) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+    check("turbid-dark", &mut rig, &shot, Sky::Even);
 }
 
 /// Water on a bed that falls away from it: from all of it lies under water to none.
@@ -475,7 +566,8 @@ fn the_bed_is_the_twins() {
     let mut rig = Rig::new(&gpu, &Config { coarsening: 0, ..config(size) });
     rig.environment(extent(SKY.0, SKY.1), &Sky::Even.texels());
     let mut shot = on_bed(size, Lens::Standard);
-    shot.settings.water.medium = Medium::OCEAN;
+    shot.settings.water.medium =
+        Medium::Physical { absorption: [2.4, 0.75, 0.55], scattering: [0.12, 0.3, 0.34] };
     shot.color.fill(FLAT);
     type Fault = fn(&mut twin::Bed);
     let faults: [(&str, Fault); 7] = [

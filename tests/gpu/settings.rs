@@ -92,7 +92,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
     let mut rig = Rig::lit(&gpu, &config, 1);
     let case = layered();
     let base = case.shot.settings.clone();
-    let changes: [Change; 52] = [
+    let changes: [Change; 53] = [
         ("water.spacing", |s| s.water.spacing *= 1.1),
         ("water.rest_density", |s| s.water.rest_density *= 1.1),
         ("water.smoothing_width", |s| s.water.smoothing_width *= 1.5),
@@ -107,6 +107,7 @@ fn every_setting_of_water_foam_spray_noise_and_light_shows() {
                 Medium::Physical { absorption: [1.1, 0.24, 0.11], scattering: [0.5; 3] };
         }),
         ("water.medium", |s| s.water.medium = Medium::source(s.water.spacing)),
+        ("water.medium turbid", |s| s.water.medium = Medium::RIVER),
         ("water.fresnel.f0", |s| s.water.fresnel = Fresnel::Schlick { f0: 0.2 }),
         ("water.refraction", |s| s.water.refraction = 0.05),
         ("water.specular", |s| s.water.specular = 0.5),

@@ -61,8 +61,13 @@ fn slope(surface: &Surface, axis: usize, drop: Rounded) -> Rounded {
     mix(smooth, sphere, drop)
 }
 
-/// A channel of what comes through water of a path.
-pub fn through(medium: &Medium, behind: Rounded, path: Rounded, i: usize) -> Rounded {
+/// A channel of what comes through water of a path, below a surface that is so bright in the sun, over level ground.
+pub fn through(
+    medium: &Medium,
+    behind: Rounded,
+    (path, sunlit): (Rounded, Rounded),
+    i: usize,
+) -> Rounded {
     match medium {
         Medium::Physical { absorption, scattering, ambient } => {
             let extinction = exact(absorption[i]) + exact(scattering[i]);
@@ -70,6 +75,13 @@ pub fn through(medium: &Medium, behind: Rounded, path: Rounded, i: usize) -> Rou
             let least = Rounded { v: extinction.v.max(1e-9), e: extinction.e };
             let albedo = exact(scattering[i]) / least;
             behind * kept + exact(ambient[i]) * albedo * (exact(1.0) - kept)
+        }
+        Medium::Turbid { extinction, own, share, shade } => {
+            // Of sums, a root, products and quotients on the host.
+            let kept = (-off(extinction[i], 1.0) * path).exp();
+            let (share, shade) = (off(*share, 40.0), off(shade[i], 5.0));
+            let lit = mix(exact(1.0), mix(sunlit, exact(1.0), shade), share);
+            behind * kept + lit * off(own[i], 32.0) * (exact(1.0) - kept)
         }
         Medium::Source { base, k } => {
             let tint = exact(base[i]) * (-exact(k[i]) * path).exp();
@@ -82,6 +94,8 @@ pub fn through(medium: &Medium, behind: Rounded, path: Rounded, i: usize) -> Rou
 struct Lit {
     z: Rounded,
     path: Rounded,
+    /// As a matte surface is lit by the sun, over level ground.
+    sunlit: Rounded,
     /// By which the look-up is displaced.
     offset: [Rounded; 2],
     /// Of what is mirrored, with the error of its direction, and of the sun's highlight.
@@ -141,6 +155,7 @@ fn under_water(settings: &Settings, lit: &Lit, part: Rounded, dry: [Rounded; 3])
             Medium::Physical { absorption, scattering, .. } => {
                 exact(absorption[i]) + exact(scattering[i])
             }
+            Medium::Turbid { extinction, .. } => off(extinction[i], 1.0),
             Medium::Source { k, .. } => exact(k[i]),
         };
         let sky = (-extinction * (sky_way * lit.down)).exp();
@@ -269,13 +284,28 @@ fn lit(
     let share = w * fresnel;
 
     let sun = settings.sun_direction.to_array().map(|v| Rounded { v, e: 16.0 * U });
+    let level = settings.sun_direction.dot(view.view.transform_vector3(DVec3::Y)).max(0.05);
+    let sunlit = dot(n, sun).clamp(0.0, f64::MAX) / Rounded { v: level, e: 40.0 * U };
     let half = normalize([0, 1, 2].map(|i| v[i] + sun[i]));
     let facing = dot(n, half);
     // The shader cuts at 2^-100.
     let shine = facing.pow(exact(settings.shininess)) + Rounded { v: 0.0, e: 0.5_f64.powi(100) };
     // Of the mean's weights 13u, a product; the radiance is two products and a constant.
     let grey = surface.ripple.foam.to_array().map(|c| w * off(c, 19.0));
-    Lit { z, path, offset, share, sky, turned, shine: w * shine, foam: grey, wet, down, thick: t }
+    Lit {
+        z,
+        path,
+        sunlit,
+        offset,
+        share,
+        sky,
+        turned,
+        shine: w * shine,
+        foam: grey,
+        wet,
+        down,
+        thick: t,
+    }
 }
 
 /// What a surface makes of the colour behind it.
@@ -290,7 +320,7 @@ fn over(
     let free = lit.sky * (exact(1.0) - met);
     let all = if met.v + met.e > 0.0 { free + met } else { lit.sky };
     [0, 1, 2].map(|i| {
-        let water = through(&settings.medium, behind[i], lit.path, i);
+        let water = through(&settings.medium, behind[i], (lit.path, lit.sunlit), i);
         let seen = filter.sky_slope * lit.turned + filter.sky_error + 4.0 * U * env[i];
         let seen = Rounded { v: env[i], e: seen };
         let mirrored = if met.v + met.e == 0.0 || all.v == 0.0 {

@@ -223,6 +223,7 @@ fn medium(shot: &Shot) -> Medium {
             let share = s / (a + s).max(DVec3::splat(1.0e-9));
             Medium::Physical { extinction: a + s, own: vector(shot.settings.light.ambient) * share }
         }
+        whitewater::water::Medium::Turbid { .. } => unreachable!("no shot has one"),
         whitewater::water::Medium::Source { base, falloff } => {
             Medium::Source { base: vector(base), falloff: falloff.map(f64::from) }
         }

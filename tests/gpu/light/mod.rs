@@ -69,7 +69,8 @@ fn twin(shot: &Shot, config: &Config) -> Light {
         width: f64::from(water.smoothing_width),
         falloff: f64::from(water.depth_falloff),
         extinction: match water.medium {
-            Medium::Physical { absorption, scattering } => {
+            Medium::Physical { absorption, scattering }
+            | Medium::Turbid { absorption, scattering, .. } => {
                 [0, 1, 2].map(|i| f64::from(absorption[i]) + f64::from(scattering[i]))
             }
             Medium::Source { falloff, .. } => [0, 1, 2].map(|i| f64::from(falloff[i])),

@@ -221,7 +221,7 @@ fn check_levels(
 
 const MEDIA: [(&str, Medium); 3] = [
     ("pool", Medium::POOL),
-    ("milk", Medium::MILK),
+    ("milky", Medium::Physical { absorption: [0.05, 0.1, 0.25], scattering: [28.0, 27.0, 25.0] }),
     ("none", Medium::Physical { absorption: [0.0; 3], scattering: [0.0; 3] }),
 ];
 

@@ -105,6 +105,7 @@ pub fn under_water(settings: &Settings, under: &Under, dry: DVec3) -> DVec3 {
         Medium::Physical { absorption, scattering, .. } => {
             DVec3::from(absorption) + DVec3::from(scattering)
         }
+        Medium::Turbid { extinction, .. } => DVec3::from(extinction),
         Medium::Source { k: [r, g, b, _], .. } => DVec3::new(r, g, b),
     };
     let wet = [0, 1, 2].map(|i| {

@@ -3,12 +3,14 @@
 //! ```text
 //! P = (s_x z, s_y z, -z)    n = P_x x P_y normalized, towards the eye    path = T |P| / z
 //! Physical  C = background t + ambient (scattering / ext) (1 - t),    t = exp(-ext path)
+//! Turbid    C = background t + own (1 - t),    own = emission + R E / pi, R of medium.rs
 //! Source    C = mix(base exp(-k path), background, exp(-k_a path))
 //! C <- mix(C, env(R), w F) + w specular sun max(n.h, 0)^shininess,   w = smoothstep(0, r/4, T)
 //! ```
 
 mod bed;
 mod exit;
+pub mod medium;
 mod mirror;
 mod sheets;
 pub mod source;
@@ -37,6 +39,17 @@ pub enum Medium {
         scattering: [f64; 3],
         /// The radiance that is scattered in.
         ambient: [f64; 3],
+    },
+    /// As it scatters many times: metres and radiance.
+    Turbid {
+        /// Per metre.
+        extinction: [f64; 3],
+        /// The radiance of an endless body with a level surface.
+        own: [f64; 3],
+        /// Share of it that is scattered.
+        share: f64,
+        /// Share of its light that comes where the sun does not.
+        shade: [f64; 3],
     },
     /// The source's colours.
     Source {
@@ -301,10 +314,27 @@ pub fn through(medium: &Medium, behind: DVec3, path: f64) -> DVec3 {
             let t = exp(ext);
             behind * t + DVec3::from(ambient) * albedo * (1.0 - t)
         }
+        Medium::Turbid { extinction, own, .. } => {
+            let t = exp(DVec3::from(extinction));
+            behind * t + DVec3::from(own) * (1.0 - t)
+        }
         Medium::Source { base, k: [r, g, b, a] } => {
             let water = DVec3::from(base) * exp(DVec3::new(r, g, b));
             water.lerp(behind, (-a * path).exp())
         }
+    }
+}
+
+/// The medium under a surface of a normal: a turbid one is as bright as it faces the sun.
+fn lit_medium(settings: &Settings, n: DVec3, view: &View) -> Medium {
+    match settings.medium {
+        Medium::Turbid { extinction, own, share, shade } => {
+            let level = settings.sun_direction.dot(view.view.transform_vector3(DVec3::Y));
+            let facing = n.dot(settings.sun_direction);
+            let own = [0, 1, 2].map(|i| own[i] * medium::lit(share, shade[i], facing, level));
+            Medium::Turbid { extinction, own, share, shade }
+        }
+        other => other,
     }
 }
 
@@ -323,7 +353,7 @@ fn before(
 ) -> DVec3 {
     let Surface { position, normal: n, thickness, .. } = *surface;
     let v = -position.normalize();
-    let mut color = through(&settings.medium, behind, path);
+    let mut color = through(&lit_medium(settings, n, view), behind, path);
 
     let w = part * smoothstep(0.0, settings.radius / 4.0, thickness);
     let reflected = mirrored(surface, view);

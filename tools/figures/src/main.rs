@@ -5,6 +5,7 @@
 //! cargo build --release -p whitewater-cli -p whitewater-figures -p whitewater-raycast
 //! target/release/whitewater-figures --caches DIR            # all of them, into docs/
 //! target/release/whitewater-figures --caches DIR --only thresholds
+//! target/release/whitewater-figures --caches DIR --gallery --public CACHES   # docs/gallery.md
 //! ```
 //!
 //! Scenes that are not yet in DIR are simulated first, some minutes each. Figures are drawn by the command
@@ -14,6 +15,7 @@ mod bubbles;
 mod curves;
 mod diffuse;
 mod figures;
+mod gallery;
 mod panels;
 mod shore;
 mod tool;
@@ -37,9 +39,15 @@ struct Args {
     /// Folder of the documents
     #[arg(long, default_value = "docs")]
     docs: PathBuf,
-    /// This figure alone
+    /// This figure, or picture of the gallery, alone
     #[arg(long)]
     only: Option<String>,
+    /// The gallery's pictures and page, instead of the figures
+    #[arg(long, requires = "public")]
+    gallery: bool,
+    /// Folder of the public caches that the gallery shows, by the names that stand in its page
+    #[arg(long, requires = "gallery")]
+    public: Option<PathBuf>,
     /// The program that draws [default: `whitewater` beside this one]
     #[arg(long)]
     tool: Option<PathBuf>,
@@ -57,6 +65,9 @@ fn main() -> ExitCode {
 
 fn run(args: &Args) -> Outcome<()> {
     let tool = Tool::new(args.tool.as_deref(), &args.caches)?;
+    if let Some(public) = args.public.as_deref().filter(|_| args.gallery) {
+        return gallery::draw(&tool, &args.docs, public, args.only.as_deref());
+    }
     let wanted = |name: &str| args.only.as_deref().is_none_or(|only| only == name);
     let all: Vec<_> = figures::ALL.iter().filter(|(name, _)| wanted(name)).collect();
     if all.is_empty() {

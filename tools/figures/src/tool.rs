@@ -123,6 +123,24 @@ impl Tool {
         Ok(Frame { layers, picture })
     }
 
+    /// A picture by arguments of `render`, by way of a file.
+    pub fn draw(&self, arguments: &[String], png: &Path) -> Outcome<RgbImage> {
+        let mut all = vec!["render".to_owned()];
+        all.extend_from_slice(arguments);
+        // Of one frame of a sequence the number would be in the name.
+        let pattern = png.with_file_name("gallery_%04d.png");
+        let numbered = arguments.iter().any(|a| a.starts_with("--frames="));
+        let to = if numbered { &pattern } else { png };
+        all.extend(["--overwrite".to_owned(), format!("--output={}", to.display())]);
+        self.run(&all)?;
+        let frame = arguments.iter().find_map(|a| a.strip_prefix("--frames="));
+        let written = match frame.and_then(|frame| frame.parse::<u32>().ok()) {
+            Some(frame) => png.with_file_name(format!("gallery_{frame:04}.png")),
+            None => png.to_owned(),
+        };
+        Ok(image::open(&written).map_err(|error| error.to_string())?.into_rgb8())
+    }
+
     /// A frame of bubble foam. `more` are further arguments.
     pub fn bubbles(&self, which: &str, frame: u32, more: &str) -> Outcome<Frame> {
         self.alone(&format!("--bubbles={which}"), frame, more)

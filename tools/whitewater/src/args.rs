@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
 use crate::pattern::Source;
-use crate::settings::LookWord;
+use crate::settings::{LookWord, MediumName};
 use crate::shore::Which as Shore;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use whitewater::io::picture::Tone;
@@ -101,6 +101,11 @@ pub struct RenderArgs {
     /// Draws each Nth of them, from the first on; foam goes by all frames all the same
     #[arg(long, value_name = "N", default_value = "1")]
     pub every: NonZeroUsize,
+    /// The camera goes once round what it looks at: in so many frames, or seconds of the film (4s). One file is drawn so often
+    /// as it is, numbered from 1 on; a sequence runs meanwhile [default: of one file 96 frames, of a sequence those that are
+    /// drawn]
+    #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
+    pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the spacing at rest [default: estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
@@ -174,13 +179,21 @@ pub struct DrawArgs {
     pub supersample: u32,
     /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
     /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
-    /// [water] medium is 'clear', 'pool', 'ocean' or 'milk' [default: of particles clear under 2 metres across, else pool]. Table
-    /// [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
+    /// [water] medium is as --medium, or by its numbers per metre: {absorption = [r, g, b], reduced_scattering = [r, g, b],
+    /// emission = [r, g, b]} scatters many times, {absorption = [r, g, b], scattering = [r, g, b]} once. Table [foam] also says by what water foams: by = 'air' (the speed at which neighbours come nearer) or 'speed' (its own, the
     /// default of a sequence and where threshold or air is said), weber = 'full' (the number in SI units) or 'reduced' (of the spacing, the
     /// default), threshold (as --foam), lifetime = 1.0 (mean seconds until it is gone), air = [0, 0, 0] (the wind,
     /// scene units a second, y up) and seed = 0 (of its times)
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
+    /// The liquid, with its index of refraction and the colours of its foam: clear (pure water), pool, lake (green), ocean
+    /// (clear, blue), river (silt, tan), glacier (rock flour, turquoise), milk, beer, honey, blood, lava (it glows), or
+    /// source (the thesis'). Absorption and scattering are measured ones, per metre: beer, honey and blood are nearly black
+    /// or opaque where they are metres deep. NAME:SHARE has so much of what absorbs and scatters in it: beer:0.05 is a glass
+    /// of beer that is drawn twenty times as large, milk:0.01 a cup of milk in a hundred of water [default: clear of
+    /// particles under 2 metres across, else pool]
+    #[arg(long, value_name = "NAME[:SHARE]")]
+    pub medium: Option<MediumName>,
     /// How all looks where nothing else is said: 'default', or 'thesis', as the source of the layered water has it (Bagar
     /// 2010): its composite, colours, foam and spray, its iterations (--rule source), one sheet, and the scene's shadows by
     /// its filter, without those of water and foam. The same as look = 'thesis' at the head of --settings
@@ -474,6 +487,27 @@ fn foaming(text: &str) -> Result<Foaming, String> {
     }
 }
 
+/// How long a turn of the camera takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Turntable {
+    /// As long as there are frames.
+    Auto,
+    Frames(u32),
+    Seconds(f32),
+}
+
+fn turntable(text: &str) -> Result<Turntable, String> {
+    let bad = || "expected frames, 2 or more, or seconds, such as 96 or 4s".to_string();
+    match (text, text.strip_suffix('s')) {
+        ("auto", _) => Ok(Turntable::Auto),
+        (_, Some(seconds)) => positive(seconds).map(Turntable::Seconds).map_err(|_| bad()),
+        (frames, None) => match frames.parse() {
+            Ok(frames @ 2..=100_000) => Ok(Turntable::Frames(frames)),
+            _ => Err(bad()),
+        },
+    }
+}
+
 fn finite(text: &str) -> Result<f32, String> {
     match text.trim().parse::<f32>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -549,6 +583,12 @@ mod tests {
         assert!(foaming("-1").is_err() && foaming("much").is_err());
         assert_eq!(vector("1,-2, 3e1"), Ok([1.0, -2.0, 30.0]));
         assert!(vector("1,2").is_err() && vector("1,2,nan").is_err());
+        assert_eq!(turntable("auto"), Ok(Turntable::Auto));
+        assert_eq!(turntable("24"), Ok(Turntable::Frames(24)));
+        assert_eq!(turntable("2.5s"), Ok(Turntable::Seconds(2.5)));
+        for bad in ["1", "0s", "-3", "s", "4 seconds", "1000000"] {
+            assert!(turntable(bad).is_err(), "{bad}");
+        }
         assert_eq!(rule("fixed:40"), Ok(Rule::Fixed(40)));
         assert!(rule("fixed:").is_err());
     }

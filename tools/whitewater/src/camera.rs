@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Quat, Vec3, Vec4};
 use serde::{Deserialize, Serialize};
 use whitewater::Camera;
 
@@ -40,6 +40,18 @@ pub struct CameraFile {
     pub projection: Option<[f32; 16]>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub keys: Vec<Key>,
+    /// Goes round what it looks at.
+    #[serde(skip)]
+    pub turn: Option<Turn>,
+}
+
+/// Once round the target, about the direction that is up, counter-clockwise as seen from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// In which frame it is where it is said to be.
+    pub first: u64,
+    /// Frames of a turn.
+    pub frames: f32,
 }
 
 /// Where a moving camera is in one frame.
@@ -61,6 +73,22 @@ type Pose = ([Vec3; 3], f32);
 impl CameraFile {
     /// The camera of a frame; the same whichever other frames are drawn.
     pub fn at_frame(&self, frame: u64) -> Self {
+        let camera = self.on_its_way(frame);
+        match (self.turn, camera.eye, camera.target) {
+            (Some(turn), Some(eye), Some(target)) => {
+                let target = Vec3::from(target);
+                let up = camera.up.map_or(Vec3::Y, Vec3::from).normalize_or(Vec3::Y);
+                let parts = (frame as f64 - turn.first as f64) / f64::from(turn.frames);
+                let angle = (std::f64::consts::TAU * parts.rem_euclid(1.0)) as f32;
+                let turned = Quat::from_axis_angle(up, angle) * (Vec3::from(eye) - target);
+                Self { eye: Some((target + turned).to_array()), turn: None, ..camera }
+            }
+            _ => Self { turn: None, ..camera },
+        }
+    }
+
+    /// The same, but for the turn.
+    fn on_its_way(&self, frame: u64) -> Self {
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
             return self.clone();
         };
@@ -111,6 +139,15 @@ impl CameraFile {
         let ((from, from_fov), (to, to_fov)) = (self.pose(a), self.pose(b));
         let slopes = [0, 1, 2].map(|i| (to[i] - from[i]) * per_frame);
         (slopes, (to_fov - from_fov) * per_frame)
+    }
+
+    /// Has it go round: fails where it moves by itself, or nothing says round what.
+    pub fn turned(self, turn: Turn) -> Outcome<Self> {
+        if self.eye.is_none() || self.target.is_none() {
+            let why = "--turntable: expected a camera with eye and target that stands still, found keys or matrices";
+            return Err(Failure::input(why));
+        }
+        Ok(Self { turn: Some(turn), ..self })
     }
 
     /// Fails where the camera of any of these frames cannot be drawn.
@@ -272,6 +309,17 @@ impl CameraFile {
             fov_y_degrees: Some(fov),
             ..Self::default()
         }
+    }
+
+    /// Moved so that it looks at what stands upright over a point: what turns about it does not sway.
+    pub fn over(mut self, point: Vec3) -> Self {
+        if let (Some(eye), Some(target)) = (&mut self.eye, &mut self.target) {
+            for axis in [0, 2] {
+                eye[axis] += point[axis] - target[axis];
+                target[axis] = point[axis];
+            }
+        }
+        self
     }
 
     /// As its file has it.
@@ -459,6 +507,34 @@ mod tests {
         let one = CameraFile { keys: camera.keys[..1].to_vec(), ..CameraFile::default() };
         assert_eq!(one.at_frame(3), one.at_frame(30));
         assert_eq!(one.at_frame(3).eye, Some([0.0, 0.0, 5.0]));
+    }
+
+    #[test]
+    fn a_turn_goes_once_round() {
+        let still = CameraFile {
+            eye: Some([3.0, 2.0, 4.0]),
+            target: Some([1.0, 1.0, 1.0]),
+            ..CameraFile::default()
+        };
+        let camera = still.clone().turned(Turn { first: 10, frames: 96.0 }).unwrap();
+        let eye = |frame| Vec3::from(camera.at_frame(frame).eye.unwrap());
+        let near = |a: Vec3, b: Vec3| assert!(a.distance(b) < 1.0e-5, "{a} {b}");
+        near(eye(10), Vec3::new(3.0, 2.0, 4.0));
+        // A quarter counter-clockwise: from +z to +x.
+        near(eye(34), Vec3::new(4.0, 2.0, -1.0));
+        near(eye(58), Vec3::new(-1.0, 2.0, -2.0));
+        near(eye(106), eye(10));
+        near(eye(0), eye(96));
+        let away = |f| eye(f).distance(Vec3::ONE);
+        assert!((10..106).all(|f| (away(f) - away(10)).abs() < 1.0e-5));
+        let steps = (10..106).map(|f| eye(f).distance(eye(f + 1)));
+        let (least, most) = steps.fold((f32::MAX, 0.0_f32), |(a, b), d| (a.min(d), b.max(d)));
+        assert!(most - least < 1.0e-4, "evenly: {least} to {most}");
+        // It is written as it stands.
+        let shown = camera.at_frame(34);
+        assert_eq!((shown.target, shown.turn), (still.target, None));
+        let turn = Turn { first: 0, frames: 8.0 };
+        assert!(moving().turned(turn).is_err() && CameraFile::default().turned(turn).is_err());
     }
 
     #[test]

@@ -70,6 +70,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         environment,
         scene,
         matte: false,
+        still: None,
         foam,
         diffuse,
         bubbles: None,

@@ -1,16 +1,16 @@
 //! `whitewater render`: particle files to pictures, one or a sequence.
 
-use glam::Vec3;
+use glam::{Quat, Vec3};
 use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
 use whitewater::water::settings::Medium;
 
-use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Whitewater};
+use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Whitewater};
 use crate::bounds::{self, Bounds};
 use crate::bubbles::{self, Blobs};
-use crate::camera::CameraFile;
+use crate::camera::{CameraFile, Turn};
 use crate::diffuse;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
@@ -29,6 +29,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         return shore::run(args, which);
     }
     let foam = match &args.bubbles {
+        Some(_) if args.inputs.is_empty() && args.turntable.is_some() => {
+            let why = "--turntable: expected particle files, found --bubbles alone";
+            return Err(Failure::usage(why));
+        }
         Some(which) if args.inputs.is_empty() => return bubbles::run(args, which),
         Some(bubbles::Which::File(path)) => {
             let (blobs, moves) = bubbles::read(path)?;
@@ -51,7 +55,13 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         None => all.clone(),
     };
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
-    let checked = session::check(&args.draw, all.len() > 1)?;
+    // Of one file as many pictures as a turn has.
+    let still = args.turntable.filter(|_| all.len() == 1 && !frames.is_empty());
+    let frames = match still {
+        Some(turntable) => stills(&all[0], turntable, args.fps.unwrap_or(DEFAULT_FPS))?,
+        None => frames,
+    };
+    let checked = session::check(&args.draw, all.len() > 1 || still.is_some())?;
     let numbered = checked.0.iter().all(output::Target::is_numbered);
     let keep = args.write_whitewater.as_deref();
     let keep = keep.map(|file| output::Target::of_particles(file, all.len() > 1)).transpose()?;
@@ -68,7 +78,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let settings = SettingsFile::of_args(&args.draw)?;
     let environment = session::environment(&args.draw, None)?;
     let camera = CameraFile::from_args(&args.camera)?;
+    let turning = Turning::new(args, &frames);
     if let Some(camera) = &camera {
+        if turning.is_some() {
+            camera.clone().turned(Turn { first: 0, frames: 1.0 })?;
+        }
         camera.check(frames.iter().map(|f| f.number), args.draw.size)?;
     }
     let first = frames.first().map_or(0, |f| f.number);
@@ -101,6 +115,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         is: all.len() > 1,
         motion: session::has_motion(&checked),
         film: session::has_film(&checked.0).then(|| steps_of(&left).max(1.0)),
+        turning,
+        still: still.and(all.first()).map(|frame| frame.number),
     };
     let made = args.whitewater == [Whitewater::Generate];
     let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
@@ -185,6 +201,7 @@ fn draw(
         remember(reader, session, all, frame, particles.positions.len())?;
     }
     let before = all.iter().map(|f| f.number).filter(|n| *n < number).max();
+    let before = before.filter(|_| all.len() > 1);
     session.frame(number, before, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
     let made = session.made()?.map_or(String::new(), |made| format!(", {made} diffuse particles"));
@@ -368,6 +385,79 @@ struct Sequence {
     motion: bool,
     /// A film is wanted, whose frames are so many numbers apart.
     film: Option<f32>,
+    /// The camera goes round.
+    turning: Option<Turning>,
+    /// All pictures are of this frame.
+    still: Option<u64>,
+}
+
+/// How the camera goes round.
+#[derive(Clone, Copy)]
+struct Turning {
+    turntable: Turntable,
+    /// Number of the first picture, and how many numbers on the first would come after the last.
+    first: u64,
+    span: f32,
+}
+
+impl Turning {
+    fn new(args: &RenderArgs, frames: &[Frame]) -> Option<Self> {
+        let turntable = args.turntable?;
+        let (first, last) = (frames.first()?.number, frames.last()?.number);
+        let apart = match frames.len() {
+            1 => 1.0,
+            many => (last - first) as f32 / (many - 1) as f32,
+        };
+        Some(Self { turntable, first, span: apart * frames.len() as f32 })
+    }
+
+    /// The turn, of so many frames a second.
+    fn turn(&self, fps: f32) -> Turn {
+        let frames = match self.turntable {
+            Turntable::Auto => self.span,
+            Turntable::Frames(frames) => frames as f32,
+            Turntable::Seconds(seconds) => seconds * fps,
+        };
+        Turn { first: self.first, frames }
+    }
+}
+
+/// Pictures of a turn round one frame, where nothing is said.
+const STILLS: u32 = 96;
+
+/// One frame as often as a turn has pictures, from 1 on.
+fn stills(frame: &Frame, turntable: Turntable, fps: f32) -> Outcome<Vec<Frame>> {
+    let count = match turntable {
+        Turntable::Auto => STILLS,
+        Turntable::Frames(frames) => frames,
+        Turntable::Seconds(seconds) => (seconds * fps).round() as u32,
+    };
+    if !(2..=100_000).contains(&count) {
+        let why =
+            format!("--turntable: expected 2 to 100000 frames, found {count} at {fps} a second");
+        return Err(Failure::usage(why));
+    }
+    Ok((1..=u64::from(count)).map(|number| Frame { number, ..frame.clone() }).collect())
+}
+
+/// Particles as they are seen from eight sides, so that a camera that sees all of them sees them all the way round; and
+/// the box about them.
+fn from_all_sides(frames: &[Particles], bounds: &Bounds) -> (Vec<Vec<[f32; 3]>>, Bounds) {
+    let centre = bounds.center();
+    let mut all = Vec::new();
+    for positions in frames.iter().map(|frame| &frame.positions) {
+        let step = positions.len().div_ceil(20_000).max(1);
+        let inside = positions.iter().step_by(step).map(|p| Vec3::from(*p));
+        let inside: Vec<Vec3> = inside.filter(|p| bounds.contains(*p)).collect();
+        for side in 0..8_u8 {
+            let turned = Quat::from_rotation_y(f32::from(side) * std::f32::consts::FRAC_PI_4);
+            let at = |p: &Vec3| (centre + turned * (*p - centre)).to_array();
+            all.push(inside.iter().map(at).collect());
+        }
+    }
+    let reach = 0.5 * bounds.size().with_y(0.0).length();
+    let reach = Vec3::new(reach, 0.5 * bounds.size().y, reach);
+    (all, Bounds { min: centre - reach, max: centre + reach })
 }
 
 fn look(
@@ -418,8 +508,18 @@ fn look(
     }
 
     let camera = camera.unwrap_or_else(|| {
-        let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
-        let camera = CameraFile::of_particles(&frames, &bounds, args.camera.fov, args.draw.size);
+        let (fov, size) = (args.camera.fov, args.draw.size);
+        let camera = match sequence.turning {
+            Some(_) => {
+                let (frames, round) = from_all_sides(&probes.frames, &bounds);
+                let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
+                CameraFile::of_particles(&frames, &round, fov, size).over(bounds.center())
+            }
+            None => {
+                let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
+                CameraFile::of_particles(&frames, &bounds, fov, size)
+            }
+        };
         progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
         camera
     });
@@ -435,7 +535,8 @@ fn look(
             let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
             let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
             let eye = view.inverse().transform_point3(Vec3::ZERO);
-            match stage::basin_round(&frames, &bounds, spacing, eye, set) {
+            let near = sequence.turning.is_none().then_some(eye);
+            match stage::basin_round(&frames, &bounds, spacing, near, set) {
                 Some(basin) => {
                     progress
                         .say("a basin round the water, which fills a box (--scene ground: none)");
@@ -460,6 +561,10 @@ fn look(
         frame.densities = session::guessed_densities(spray, frame, &settings.water);
     }
     let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
+    let camera = match sequence.turning {
+        Some(turning) => camera.turned(turning.turn(fps))?,
+        None => camera,
+    };
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
     let foam = args.draw.foam.unwrap_or(foaming(args));
@@ -518,6 +623,7 @@ fn look(
         environment,
         scene,
         matte: set == SetArg::None,
+        still: sequence.still,
         foam,
         diffuse,
         bubbles: None,

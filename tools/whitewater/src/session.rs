@@ -37,6 +37,8 @@ pub struct Look {
     pub scene: Scene,
     /// Nothing but the water is drawn, with the share that it hides.
     pub matte: bool,
+    /// All pictures are of this frame, from where the camera is in theirs.
+    pub still: Option<u64>,
     /// When water foams; none: never.
     pub foam: Option<FoamSettings>,
     /// Diffuse particles beside the water.
@@ -345,15 +347,16 @@ impl<'a> Session<'a> {
         source: &str,
         particles: &Particles,
     ) -> Outcome<()> {
-        let time = self.time(number);
-        (self.look.scene.frame, self.look.scene.time) = (number, time);
+        let content = self.look.still.unwrap_or(number);
+        let time = self.time(content);
+        (self.look.scene.frame, self.look.scene.time) = (content, time);
         let files = match &self.look.diffuse {
             Some(Diffusing::Files(files)) => Some(files),
             _ => None,
         };
         let diffuse = self
             .times
-            .step("read", number, || files.map(|files| files.open(number)).transpose())?;
+            .step("read", number, || files.map(|files| files.open(content)).transpose())?;
         let count = diffuse.as_ref().map_or(0, diffuse::Reading::total);
         self.make_room_with(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
@@ -452,7 +455,8 @@ impl<'a> Session<'a> {
         particles: &Particles,
         drawn: bool,
     ) -> Outcome<()> {
-        let (times, time) = (self.times.clone(), self.time(number));
+        let content = self.look.still.unwrap_or(number);
+        let (times, time) = (self.times.clone(), self.time(content));
         let Some(headless) = self.headless.as_mut() else {
             return Err(Failure::new(Kind::Device, "no renderer; run again"));
         };
@@ -511,12 +515,12 @@ impl<'a> Session<'a> {
             times.step("generate", number, || match (self.look.fps, self.memory.made) {
                 (Some(fps), Some(last)) => {
                     let dt = number.saturating_sub(last) as f32 / fps;
-                    headless.generate(dt, number as u32, settings, *most)
+                    headless.generate(dt, content as u32, settings, *most)
                 }
                 // Nothing is known of before: it was as now for a moment, of a single frame for as long as foam lives.
                 (fps, _) => {
                     if fps.is_none() {
-                        headless.generate_snapshot(number as u32, settings, *most)?;
+                        headless.generate_snapshot(content as u32, settings, *most)?;
                     }
                     (0..PRE_ROLL).try_for_each(|step| {
                         headless.generate(PRE_STEP, u32::MAX - step, settings, *most)
@@ -549,7 +553,7 @@ impl<'a> Session<'a> {
         let camera_file = self.look.camera.at_frame(number);
         let camera = camera_file.camera(self.args.size)?;
         let lens = Lens::new(&camera)?;
-        if !self.look.scene.rests_between(self.staged, number) {
+        if !self.look.scene.rests_between(self.staged, content) {
             times.step("scene", number, || {
                 headless.scene_frame(&self.look.scene, self.args.supersample == 1)
             })?;
@@ -559,7 +563,7 @@ impl<'a> Session<'a> {
                 })?;
                 times.passes(number, headless.step_timings(Stepped::ShoreMap));
             }
-            self.staged = number;
+            self.staged = content;
         }
         self.look.settings.foam.time = time;
         self.look.settings.shore.time = time;

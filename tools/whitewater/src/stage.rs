@@ -123,13 +123,13 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
     Some([side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?])
 }
 
-/// A basin round water that fills a box: low walls towards the eye, high ones behind. `None`
+/// A basin round water that fills a box: low walls towards the eye, high ones behind; all low where it goes round. `None`
 /// where the particles fill no box.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
     bounds: &Bounds,
     spacing: f32,
-    eye: glam::Vec3,
+    eye: Option<glam::Vec3>,
     set: SetArg,
 ) -> Option<Scene> {
     let sides = sides(frames, bounds, spacing)?;
@@ -158,7 +158,8 @@ pub fn basin_round(
     let sheet = 1.0e-3 * longest;
     push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles);
     for side in &sides {
-        let towards_eye = side.sign * (eye[side.axis] - face(side)) > 0.0;
+        let towards = |eye: glam::Vec3| side.sign * (eye[side.axis] - face(side)) > 0.0;
+        let towards_eye = eye.is_none_or(towards);
         // Not so high that they hide the water, or keep the sun from it.
         let (water, most) =
             if towards_eye { (side.level + spacing, 0.12) } else { (side.highest + thick, 0.2) };
@@ -214,7 +215,7 @@ mod tests {
         let eye = glam::Vec3::new(9.0, 5.0, 9.0);
         let basin = |points: &[[f32; 3]]| {
             let bounds = Bounds::of_bulk(points).unwrap();
-            basin_round(&[points], &bounds, 0.1, eye, SetArg::Pool)
+            basin_round(&[points], &bounds, 0.1, Some(eye), SetArg::Pool)
         };
         let scene = basin(&block(false)).unwrap();
         let top = |mesh: &Mesh| {

@@ -3,6 +3,7 @@
 mod bubbles;
 mod diffuse;
 pub mod generate;
+mod medium;
 pub mod shore;
 mod table;
 mod water;
@@ -18,6 +19,7 @@ use whitewater::{Light, Settings};
 use crate::args::DrawArgs;
 use crate::failure::{Failure, Outcome};
 
+pub use medium::MediumName;
 #[cfg(test)]
 pub use water::Weber;
 pub use water::{FoamBy, FoamTable};
@@ -80,7 +82,11 @@ impl SettingsFile {
     /// The file that `--settings` names and `--look` begins.
     pub fn of_args(args: &DrawArgs) -> Outcome<Self> {
         let file = args.settings.as_deref().map(Self::read).transpose()?.unwrap_or_default();
-        Ok(Self { look: args.look.or(file.look), ..file })
+        let mut water = file.water;
+        if let Some(name) = args.medium {
+            water.medium = Some(water::MediumTable::Named(name));
+        }
+        Ok(Self { look: args.look.or(file.look), water, ..file })
     }
 
     /// Whether all looks as in the thesis.
@@ -113,6 +119,9 @@ impl SettingsFile {
 
     /// Puts what the file says over settings.
     pub fn apply(&self, settings: &mut Settings) {
+        if let Some(liquid) = self.water.liquid() {
+            liquid.put(settings);
+        }
         self.water.apply(&mut settings.water);
         self.foam.put(&mut settings.foam);
         self.spray.put(&mut settings.spray);

@@ -1,5 +1,5 @@
 use whitewater::foam::{DiffuseLook, Limits, Mixing, Reach, Submerged};
-use whitewater::water::settings::{Amplitude, Convolution, Fresnel, Medium};
+use whitewater::water::settings::{Amplitude, Convolution, Fresnel, Medium, WaterSettings};
 use whitewater::water::{NoiseLook, SprayLook};
 
 use super::*;
@@ -25,6 +25,25 @@ fn values_arrive() {
     assert_eq!(settings.water.fresnel, Fresnel::Schlick { f0: 0.05 });
     assert_eq!(settings.light.ambient, [1.0, 2.0, 3.0]);
     assert_eq!(settings.light.color, Settings::default().light.color);
+}
+
+#[test]
+fn media_are_read_by_name_and_by_numbers() {
+    let of = |text: &str| applied(&format!("[water]\nmedium = {text}")).water.medium;
+    assert_eq!(of("'glacier'"), Medium::GLACIER);
+    assert_eq!(of("'milk:0.01'"), Medium::MILK.thinned(0.01));
+    let turbid =
+        Medium::Turbid { absorption: [1.0; 3], scattering: [2.0; 3], emission: [0.0, 0.5, 0.0] };
+    assert_eq!(of("{absorption=[1,1,1], reduced_scattering=[2,2,2], emission=[0,0.5,0]}"), turbid);
+    let settings = Settings::default();
+    let mut settings =
+        Settings { water: WaterSettings { medium: turbid, ..settings.water }, ..settings };
+    settings.water.fresnel = Fresnel::Schlick { f0: 0.25 };
+    assert_eq!(applied(&written(&settings)), settings);
+    // What the tables say goes before what the name brings.
+    let beer = applied("[water]\nmedium = 'beer'\n[foam]\nfront_color = [0.1, 0.2, 0.3]");
+    assert_eq!(beer.foam.front_color, [0.1, 0.2, 0.3]);
+    assert_ne!(beer.foam.back_color, Settings::default().foam.back_color);
 }
 
 #[test]
@@ -217,7 +236,8 @@ fn mistakes_are_named() {
         ("[water]\nspacin = 1.0", "`spacing`"),
         ("[watr]", "`water`"),
         ("[water]\n\nspacing = 'a'", "line 3"),
-        ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk, source"),
+        ("[water]\nmedium = 'mud'", "clear, pool, lake, ocean"),
+        ("[water]\nmedium = 'beer:x'", "'beer:0.05'"),
         ("[water]\nmedium = {absorption=[1.0,1.0,1.0], scatter=[0.0,0.0,0.0]}", "scattering"),
         ("[water]\namplitude = 'loud'", "`volume` or `source`"),
         ("[foam]\nweber = 'half'", "`reduced` or `full`"),

@@ -8,6 +8,7 @@ use whitewater::water::settings::{
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
 use whitewater::{Config, Light};
 
+use super::medium::{Liquid, MediumName};
 use super::table::{table, words};
 use crate::args::Foaming;
 
@@ -48,23 +49,15 @@ words!(BedWord of Bed { Submerged, Source });
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(
     untagged,
-    expecting = "medium: expected clear, pool, ocean, milk, source, {absorption=[r,g,b], scattering=[r,g,b]} or \
+    expecting = "medium: expected clear, pool, lake, ocean, river, glacier, milk, beer, honey, blood, lava or source, also as \
+                 'beer:0.05', {absorption=[r,g,b], scattering=[r,g,b]}, {absorption=[r,g,b], reduced_scattering=[r,g,b]} or \
                  {base=[r,g,b], falloff=[r,g,b,a]}"
 )]
 pub enum MediumTable {
-    Named(MediumWord),
+    Named(MediumName),
     Physical(Physical),
+    Turbid(Turbid),
     Source(Source),
-}
-
-#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MediumWord {
-    Clear,
-    Pool,
-    Ocean,
-    Milk,
-    Source,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -72,6 +65,15 @@ pub enum MediumWord {
 pub struct Physical {
     absorption: [f32; 3],
     scattering: [f32; 3],
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turbid {
+    absorption: [f32; 3],
+    reduced_scattering: [f32; 3],
+    #[serde(default)]
+    emission: [f32; 3],
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
@@ -85,13 +87,12 @@ impl MediumTable {
     /// The medium for particles of a spacing.
     fn medium(self, spacing: f32) -> Medium {
         match self {
-            Self::Named(MediumWord::Clear) => Medium::CLEAR,
-            Self::Named(MediumWord::Pool) => Medium::POOL,
-            Self::Named(MediumWord::Ocean) => Medium::OCEAN,
-            Self::Named(MediumWord::Milk) => Medium::MILK,
-            Self::Named(MediumWord::Source) => Medium::source(spacing),
+            Self::Named(name) => name.medium(spacing),
             Self::Physical(Physical { absorption, scattering }) => {
                 Medium::Physical { absorption, scattering }
+            }
+            Self::Turbid(Turbid { absorption, reduced_scattering, emission }) => {
+                Medium::Turbid { absorption, scattering: reduced_scattering, emission }
             }
             Self::Source(Source { base, falloff }) => Medium::Source { base, falloff },
         }
@@ -103,6 +104,9 @@ impl From<Medium> for MediumTable {
         match medium {
             Medium::Physical { absorption, scattering } => {
                 Self::Physical(Physical { absorption, scattering })
+            }
+            Medium::Turbid { absorption, scattering, emission } => {
+                Self::Turbid(Turbid { absorption, reduced_scattering: scattering, emission })
             }
             Medium::Source { base, falloff } => Self::Source(Source { base, falloff }),
         }
@@ -152,6 +156,14 @@ impl From<Fresnel> for FresnelTable {
 }
 
 impl WaterTable {
+    /// The liquid that a medium of a name is, beside its medium.
+    pub fn liquid(&self) -> Option<Liquid> {
+        match self.medium {
+            Some(MediumTable::Named(name)) => Some(name.liquid()),
+            _ => None,
+        }
+    }
+
     /// Puts what the table says over settings, the medium too.
     pub fn apply(&self, water: &mut WaterSettings) {
         self.put(water);

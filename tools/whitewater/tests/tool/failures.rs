@@ -46,7 +46,7 @@ fn bad_cameras_settings_and_scenes_are_code_3() {
     }
     for (text, part) in [
         ("[water]\nspacin = 1.0", "expected one of `spacing`"),
-        ("[water]\nmedium = 'mud'", "clear, pool, ocean, milk"),
+        ("[water]\nmedium = 'mud'", "clear, pool, lake, ocean"),
         ("[water]\nrefraction = -1.0", "refraction"),
     ] {
         folder.text("s.toml", text);

@@ -370,9 +370,52 @@ fn small_scenes_are_clear() {
         let table = text.parse::<toml::Table>().unwrap();
         table["water"]["medium"]["absorption"][0].as_float().unwrap() as f32
     };
-    assert_eq!(absorption("small", ""), 0.35);
+    assert_eq!(absorption("small", ""), 0.264);
     assert_eq!(absorption("large", ""), 1.1);
     assert_eq!(absorption("small", "--settings pool.toml"), 1.1);
+}
+
+/// The colour of a block of each liquid, in the light of an even grey sky: as its name says.
+#[test]
+fn liquids_have_their_colours() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(8));
+    let mut sky = whitewater::io::picture::Layers::new(16, 8);
+    for name in ["R", "G", "B"] {
+        sky.push(name, 16, 8, vec![1.0; 128]).unwrap();
+    }
+    let file = std::fs::File::create(folder.path("sky.exr")).unwrap();
+    whitewater::io::picture::write_exr(&sky, file).unwrap();
+    let colour = |medium: &str| {
+        let more = "--environment sky.exr --scene ground --layers none --spray none";
+        let command = format!("render a.ply -o a.exr {SMALL} {FRONT} {more} --medium {medium}");
+        folder.run(&command).ok();
+        folder.picture("a.exr").rgb().unwrap()[32 * 96 + 48]
+    };
+    let [r, g, b] = colour("milk");
+    assert!(r > 0.7 && g > 0.7 && b > 0.6 && r > b, "milk {r} {g} {b}");
+    let [r, g, b] = colour("blood");
+    assert!(r > 3.0 * g && (g / b - 1.0).abs() < 0.2, "blood {r} {g} {b}");
+    // A block of 0.8 metres, as one of 4 centimetres.
+    let [r, g, b] = colour("beer:0.05");
+    assert!(r > 1.5 * g && g > 1.5 * b && r > 0.1, "beer {r} {g} {b}");
+    let [deep, ..] = colour("beer");
+    assert!(deep < 0.2 * r, "{deep}");
+    let [r, g, b] = colour("lava");
+    assert!(r > 2.0 * g && g > b, "lava {r} {g} {b}");
+    let [r, g, b] = colour("glacier");
+    assert!(b > 1.1 * r && g > 1.1 * r, "glacier {r} {g} {b}");
+    let [r, g, b] = colour("river:10");
+    assert!(r > 1.1 * g && g > 1.2 * b, "river {r} {g} {b}");
+    // What a picture was drawn with draws it again.
+    let text =
+        folder.picture("a.exr").attributes.iter().find(|(k, _)| k == "settings").unwrap().1.clone();
+    folder.text("again.toml", &text);
+    let more = "--environment sky.exr --scene ground --layers none --spray none";
+    folder.run(&format!("render a.ply -o b.exr {SMALL} {FRONT} {more} --settings again.toml")).ok();
+    folder.run("compare a.exr b.exr --tolerance 0").ok();
+    folder.run("render a.ply -o a.png --medium mud").fails_at_once();
+    folder.run("render a.ply -o a.png --medium milk:x").fails_at_once();
 }
 
 #[test]

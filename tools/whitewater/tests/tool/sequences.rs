@@ -2,7 +2,7 @@
 
 use whitewater::io::picture::{EMPTY, Layers};
 
-use super::support::{Folder, SMALL, block};
+use super::support::{FRONT, Folder, SMALL, block};
 
 fn sequence(folder: &Folder) {
     for frame in [8, 9, 10, 11] {
@@ -218,4 +218,79 @@ fn a_single_picture_is_drawn_again() {
     folder.text("a.png", "old");
     folder.run(&format!("render a.ply -o a.png {SMALL}")).ok();
     assert_eq!(folder.picture("a.png").width, 96);
+}
+
+/// One file is drawn from all sides, as it is, and the last picture is a step before the first.
+#[test]
+fn a_turntable_goes_round_one_file() {
+    let folder = Folder::new();
+    // Longer than wide, so that it shows from where it is seen.
+    let bar = block(12).into_iter().filter(|p| p[2].abs() < 0.2 && p[1] < 0.35).collect();
+    folder.particles("bar_0046.ply", bar);
+    let common =
+        format!("render bar_0046.ply {SMALL} --radius 0.05 --turntable=8 --layers water.depth");
+    folder.run(&format!("{common} -o t.exr -o t.mp4 --fps 24")).ok();
+    assert_eq!(folder.files().iter().filter(|name| name.ends_with(".exr")).count(), 8);
+    assert_eq!(folder.film("t.mp4"), (8, 24.0));
+    let pixels = |name: &str| {
+        let depth = folder.picture(name);
+        let depth = depth.channel("water.depth.Z").unwrap();
+        let wet: Vec<usize> = (0..depth.len()).filter(|i| depth[*i] < EMPTY).collect();
+        let inside = |i: &usize| (1..95).contains(&(i % 96)) && (1..63).contains(&(i / 96));
+        assert!(wet.iter().all(inside), "{name}: all of it is seen");
+        wet.len() as f32
+    };
+    let seen: Vec<f32> = (1..=8).map(|i| pixels(&format!("t.{i:04}.exr"))).collect();
+    // A half of the way round the same bar is seen from behind; a quarter, it is not.
+    for i in 0..4 {
+        assert!((seen[i] / seen[i + 4] - 1.0).abs() < 0.05, "{seen:?}");
+    }
+    assert!((0..4).any(|i| (seen[i] / seen[i + 2] - 1.0).abs() > 0.1), "{seen:?}");
+    folder.run("compare t.0001.exr t.0003.exr --tolerance 0.001").fails(1, &["RMSE"]);
+    // What is there is not drawn again.
+    let said = folder.run(&format!("{common} -o t.exr")).ok().stderr();
+    assert!(said.contains("8 finished"), "{said}");
+    // Seconds are frames of the film.
+    folder.run(&format!("render bar_0046.ply {SMALL} --turntable=0.25s --fps 16 -o s.mp4")).ok();
+    assert_eq!(folder.film("s.mp4"), (4, 16.0));
+}
+
+/// A sequence runs while the camera goes round; a turn may be longer than it.
+#[test]
+fn a_turntable_goes_round_a_sequence() {
+    let folder = Folder::new();
+    for frame in 0..4 {
+        folder.particles(&format!("f_{frame}.ply"), block(5));
+    }
+    let eye = |name: &str| {
+        let picture = folder.picture(name);
+        let (_, text) = picture.attributes.iter().find(|(key, _)| key == "camera").unwrap().clone();
+        let camera: serde_json::Value = serde_json::from_str(&text).unwrap();
+        [0, 2].map(|axis| {
+            camera["eye"][axis].as_f64().unwrap() - camera["target"][axis].as_f64().unwrap()
+        })
+    };
+    let common = format!("render f_*.ply {SMALL} {FRONT} --layers none --foam none");
+    folder.run(&format!("{common} -o a.exr --turntable")).ok();
+    for (frame, expected) in
+        [[0.0, 2.35], [2.35, 0.0], [0.0, -2.35], [-2.35, 0.0]].iter().enumerate()
+    {
+        let found = eye(&format!("a.{frame:04}.exr"));
+        let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1.0e-4);
+        assert!(near, "{frame}: {found:?}");
+    }
+    folder.run(&format!("{common} -o b.exr --turntable=8 --frames 2-2")).ok();
+    let [x, z] = eye("b.0002.exr");
+    assert!(
+        x.abs() < 1.0e-4 && (z - 2.35).abs() < 1.0e-4,
+        "begins with the first that is drawn: {x} {z}"
+    );
+    // What cannot be gone round.
+    folder.text("keys.json", r#"{"keys":[{"frame":0,"eye":[0,0,5],"target":[0,0,0]}]}"#);
+    folder
+        .run(&format!("render f_0.ply -o c.png {SMALL} --turntable --camera keys.json"))
+        .fails(3, &["--turntable", "stands still"]);
+    folder.run("render --bubbles one -o c.png --turntable").fails(2, &["--turntable"]);
+    folder.run("render f_0.ply -o c.png --turntable=1").fails_at_once();
+    folder.run("render f_0.ply -o c.png --turntable=0.01s").fails(2, &["2 to 100000"]);
 }

@@ -1,0 +1,210 @@
+//! The gallery: ten default pictures, of our own scenes and of public caches, and the page that shows them.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use image::RgbImage;
+use image::codecs::jpeg::JpegEncoder;
+
+use crate::Outcome;
+use crate::tool::{Tool, sequence};
+
+/// What a picture is of.
+enum Of {
+    /// A frame of a scene of ours.
+    Scene(&'static str, u32),
+    /// A file of the folder of public caches, and further arguments.
+    Cache(&'static str, &'static str),
+}
+
+/// A picture of the gallery.
+struct Shown {
+    /// Its file's name, without the ending.
+    name: &'static str,
+    of: Of,
+    /// What it shows, and whose data it is.
+    about: &'static str,
+}
+
+const SPLISHSPLASH: &str =
+    "[SPlisHSPlasH](https://github.com/InteractiveComputerGraphics/SPlisHSPlasH) (MIT), DFSPH";
+
+const ALL: [Shown; 10] = [
+    Shown {
+        name: "waterfall",
+        of: Of::Scene("waterfall", 240),
+        about: "A chute pours into a basin, past a pillar; own scene",
+    },
+    Shown {
+        name: "corridor",
+        of: Of::Scene("corridor", 120),
+        about: "A gate floods a corridor of obstacles; own scene",
+    },
+    Shown {
+        name: "bamboo",
+        of: Of::Scene("bamboo", 200),
+        about: "A bamboo pipe tips into a bowl; own scene",
+    },
+    Shown {
+        name: "pillar",
+        of: Of::Cache("double_dam_pillar/ParticleData_Fluid_46.bgeo", ""),
+        about: "Two columns of water meet at a pillar; 27 528 particles of {splishsplash}",
+    },
+    Shown {
+        name: "pillar-foam",
+        of: Of::Cache(
+            "double_dam_pillar/ParticleData_Fluid_52.bgeo",
+            "--whitewater {caches}/double_dam_pillar/foam/foam_52.bgeo",
+        ),
+        about: "The same later, with the diffuse particles of its FoamGenerator",
+    },
+    Shown {
+        name: "inflow",
+        of: Of::Cache("inflow/ParticleData_Fluid_130.bgeo", ""),
+        about: "Two jets fill a tank; {splishsplash}",
+    },
+    Shown {
+        name: "dam",
+        of: Of::Cache("big_dam/ParticleData_Fluid_46.bgeo", ""),
+        about: "A dam breaks over a thin layer of water; 139 995 particles of {splishsplash}",
+    },
+    Shown {
+        name: "double-dam",
+        of: Of::Cache("double_dam_small/ParticleData_Fluid_20.bgeo", ""),
+        about: "The stock double dam break; 4732 particles of {splishsplash}",
+    },
+    Shown {
+        name: "splashsurf",
+        of: Of::Cache("splashsurf/dam_break_frame_23_24389_particles.bgeo", ""),
+        about: "A dam break, positions alone; a file of \
+                [splashsurf](https://github.com/InteractiveComputerGraphics/splashsurf) (MIT)",
+    },
+    Shown {
+        name: "spheric",
+        of: Of::Cache("pysph/spheric2_fluid_01180.vtu", "--up-axis z"),
+        about: "SPHERIC's benchmark 2, a dam break on a box; [PySPH](https://github.com/pypr/pysph) (BSD), WCSPH",
+    },
+];
+
+/// The most bytes of a picture.
+const MOST: usize = 250_000;
+
+/// Draws all, or one, into the documents' folder `gallery`, and writes the page.
+pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outcome<()> {
+    let wanted: Vec<_> = ALL.iter().filter(|s| only.is_none_or(|only| only == s.name)).collect();
+    if wanted.is_empty() {
+        let names: Vec<_> = ALL.iter().map(|shown| shown.name).collect();
+        return Err(format!("there is no such picture; there are {}", names.join(", ")));
+    }
+    let cannot = |path: &Path, error: std::io::Error| format!("{}: {error}", path.display());
+    let folder = docs.join("gallery");
+    std::fs::create_dir_all(&folder).map_err(|error| cannot(&folder, error))?;
+    for shown in wanted {
+        eprintln!("figures: gallery, {}", shown.name);
+        let arguments = arguments(tool, shown, public)?;
+        let png = tool.temporary("gallery.png");
+        let picture = tool.draw(&arguments, &png)?;
+        let file = folder.join(format!("{}.jpg", shown.name));
+        let bytes = compressed(&picture)?;
+        std::fs::write(&file, bytes).map_err(|error| cannot(&file, error))?;
+    }
+    let file = docs.join("gallery.md");
+    std::fs::write(&file, page()).map_err(|error| cannot(&file, error))
+}
+
+/// Arguments that draw a picture, but for where it goes.
+fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> {
+    match shown.of {
+        Of::Scene(scene, frame) => {
+            let folder = tool.scene(scene)?;
+            Ok(vec![
+                sequence(&folder, scene),
+                format!("--frames={frame}"),
+                format!("--scene={}", folder.join("scene.json").display()),
+                format!("--camera={}", folder.join("camera.json").display()),
+            ])
+        }
+        Of::Cache(file, more) => {
+            let path = public.join(file);
+            if !path.exists() {
+                return Err(format!("--public: {} is not there", path.display()));
+            }
+            let public = public.display().to_string();
+            let more = more.split_whitespace().map(|word| word.replace("{caches}", &public));
+            Ok(std::iter::once(path.display().to_string()).chain(more).collect())
+        }
+    }
+}
+
+/// As JPEG, of the highest quality that is small enough.
+fn compressed(picture: &RgbImage) -> Outcome<Vec<u8>> {
+    for quality in [94, 90, 86, 82, 78, 72, 66, 60, 50, 40, 30] {
+        let mut bytes = Vec::new();
+        let encoder = JpegEncoder::new_with_quality(&mut bytes, quality);
+        picture.write_with_encoder(encoder).map_err(|error| error.to_string())?;
+        if bytes.len() <= MOST {
+            return Ok(bytes);
+        }
+    }
+    Err(format!("a picture of {}x{} is over {MOST} bytes", picture.width(), picture.height()))
+}
+
+/// The page.
+fn page() -> String {
+    let mut text = String::from(
+        "# Gallery\n\nDefault pictures: each is what its command draws, without a setting. All are made by\n\n```sh\n\
+         cargo build --release -p whitewater-cli -p whitewater-figures\n\
+         target/release/whitewater-figures --caches DIR --gallery --public CACHES\n```\n\n\
+         DIR holds our own scenes (`whitewater simulate`), CACHES the public ones by the names below.\n",
+    );
+    for Shown { name, of, about } in &ALL {
+        let about = about.replace("{splishsplash}", SPLISHSPLASH);
+        let command = match of {
+            Of::Scene(scene, frame) => format!(
+                "'DIR/{scene}/{scene}_%04d.bgeo' --frames {frame} --scene DIR/{scene}/scene.json --camera DIR/{scene}/camera.json"
+            ),
+            Of::Cache(file, more) => {
+                format!("CACHES/{file} {}", more.replace("{caches}", "CACHES"))
+            }
+        };
+        let command = command.trim();
+        // To a text all is written.
+        let _ = write!(
+            text,
+            "\n## {about}\n\n![{name}](gallery/{name}.jpg)\n\n`whitewater render {command} -o {name}.png`\n"
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_shows_all() {
+        let text = page();
+        for shown in &ALL {
+            assert_eq!(text.matches(&format!("(gallery/{}.jpg)", shown.name)).count(), 1, "{text}");
+        }
+        assert!(!text.contains('{') && !text.contains("  "), "{text}");
+        let names: std::collections::BTreeSet<_> = ALL.iter().map(|shown| shown.name).collect();
+        assert_eq!(names.len(), ALL.len());
+    }
+
+    #[test]
+    fn pictures_are_small_enough() {
+        // Noise is the worst there is.
+        let mut state = 1_u32;
+        let noise = RgbImage::from_fn(1280, 720, |_, _| {
+            image::Rgb([(); 3].map(|()| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (state >> 24) as u8 / 4
+            }))
+        });
+        let bytes = compressed(&noise).expect("small enough");
+        assert!(bytes.len() <= MOST && bytes.starts_with(&[0xff, 0xd8]), "{}", bytes.len());
+        let grey = compressed(&RgbImage::new(64, 64)).expect("small enough");
+        assert!(grey.len() < bytes.len());
+    }
+}
