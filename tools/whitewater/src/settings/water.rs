@@ -176,10 +176,10 @@ impl WaterTable {
         self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
     }
 
-    /// What is seen through water with air behind it, in the thesis' look or ours.
-    pub fn exit(&self, thesis: bool) -> Exit {
+    /// What is seen through water with air behind it; straight on where nothing is said and that is the standard.
+    pub fn exit(&self, straight: bool) -> Exit {
         let standard = Config::new(Default::default(), Default::default(), 0).exit;
-        self.exit.map_or(if thesis { Exit::Straight } else { standard }, Into::into)
+        self.exit.map_or(if straight { Exit::Straight } else { standard }, Into::into)
     }
 
     /// The table that says all of them, and of the passes as this table does.
