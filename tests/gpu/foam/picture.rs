@@ -5,7 +5,7 @@ use whitewater::Config;
 use whitewater::water::{Fresnel, Ladder, Medium, Shading};
 
 use super::{Foamy, foaming, of};
-use crate::reference::smoothstep;
+use crate::reference::{foam, smoothstep};
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, extent};
 use crate::support::scenes::{self, Lens};
@@ -86,6 +86,90 @@ fn foam_covers_what_is_behind_it() {
             / std::f64::consts::PI;
         let found = f64::from(over.output.data[centre][0]);
         assert!((found - white).abs() < 1e-4, "{found} is not the front colour, {white}");
+    }
+}
+
+/// Thin foam is torn into threads with clear holes between them, where its frontmost lies in the world; none of it where
+/// cells are less than two pixels wide, and as smooth foam without it.
+#[test]
+fn thin_foam_is_torn_into_lace() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let mut rig = Rig::lit(&gpu, &whole(size, shading), 1);
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            let mut case = Foamy::new(size, lens, 0.0);
+            let mut random = scenes::Random(7);
+            let mut at =
+                || [random.between(-2.0, 2.0), random.between(-1.4, 1.4), random.between(2.0, 2.6)];
+            let points: Vec<_> = (0..160).map(|_| at()).collect();
+            case.shot.positions = scenes::world(&case.shot.camera, &points);
+            case.amounts = vec![[1.0, 0.0]; points.len()];
+            case.velocities = vec![[0.0; 3]; points.len()];
+            case.ids = None;
+            let spacing = case.shot.settings.water.spacing;
+            let look = &mut case.shot.settings.foam;
+            (look.noise, look.pattern, look.relief, look.veil) = (0.0, 0.0, 0.0, 0.0);
+            (look.extinction, look.front_extinction) = (4.0, 5.0);
+            (look.back_color, look.front_color) = ([0.2, 0.4, 0.6], [0.9, 0.8, 0.7]);
+            case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+            let smooth = case.draw(&mut rig);
+            case.shot.settings.foam.lace = 0.8;
+            case.shot.settings.foam.lace_size = 0.01;
+            assert!(
+                smooth.output.data == case.draw(&mut rig).output.data,
+                "cells too small to be told"
+            );
+            case.shot.settings.foam.lace_size = 3.0;
+            let drawn = case.draw(&mut rig);
+            let (found, view) = (of(&drawn), case.shot.view(size));
+            let to_world = view.view.inverse();
+            let cell = f64::from(3.0 * spacing);
+            let (mut threads, mut holes) = (0, 0);
+            for (i, color) in drawn.output.data.iter().enumerate() {
+                let z = f64::from(found.depth.data[i]);
+                if z >= 1e9 {
+                    continue;
+                }
+                let [t, front] = found.thickness.data[i].map(f64::from);
+                let ray = view.ray(i % 97, i / 97);
+                let long = ray.length();
+                let hidden = 1.0 - (-4.0 * t * long).exp();
+                let at = to_world.transform_point3(ray * z) / cell;
+                let pixels = cell / (view.slope_step().x * z).abs();
+                let covered = foam::covered(hidden, at, pixels);
+                let told = 0.8 * smoothstep(2.0, 6.0, pixels);
+                threads += usize::from(covered > 0.95 && hidden < 0.7);
+                holes += usize::from(covered < 0.05 && hidden > 0.3);
+                let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
+                let back = (-5.0 * front * long * much).exp();
+                let seen = hidden + told * (covered - hidden);
+                // What rounds a place, of a few cells from the origin, by the most that what closes it grows a cell: twice
+                // 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope draws places
+                // apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest; and into the
+                // colour's exponent.
+                let steepest = 5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
+                let place = 32.0 * U * (at.length() + to_world.w_axis.truncate().length() / cell);
+                let closed = (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
+                for c in 0..3 {
+                    let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
+                    let foam = thick + (thin - thick) * back;
+                    let scene = f64::from(case.shot.color[i][c]);
+                    let expected = scene + (foam - scene) * seen;
+                    let bound = (400.0 * U
+                        + closed * (1.0 + 5.0 * front * long / hidden.max(0.05)))
+                        * (1.0 + expected);
+                    let off = (f64::from(color[c]) - expected).abs();
+                    assert!(
+                        off <= bound,
+                        "{lens:?} {i} {c}: {}, not {expected}, by {bound}",
+                        color[c]
+                    );
+                    assert!(bound < 0.02, "{bound} says nothing");
+                }
+            }
+            assert!(threads > 50 && holes > 50, "{lens:?}: {threads} in threads, {holes} in holes");
+        }
     }
 }
 
