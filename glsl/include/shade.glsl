@@ -7,7 +7,7 @@
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam, thickness and
 // light of diffuse particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
-// shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl.
+// shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -415,6 +415,7 @@ float through_lace(vec2 pixel, float z, float kept, out float much) {
 
 // How far around it foam is asked for its shape, in spacings, and in texels at most.
 const vec2 SHAPE_REACH = vec2(6.0, 32.0);
+const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.0), vec2(-0.70710678, 0.70710678));
 // Cosines to the sun of what is wholly turned away and wholly lit: light goes on in foam.
 const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
 // How much of the sky's light neighbours take that stand wholly before it.
@@ -440,8 +441,7 @@ vec2 shape_light(vec2 pixel, float z) {
     vec2 slope = vec2(0.0);
     float hollow = 0.0;
     for (int i = 0; i < 8; ++i) {
-        float turn = 0.78539816 * float(i);
-        vec2 way = vec2(cos(turn), sin(turn));
+        vec2 way = SHAPE_WAYS[i & 3] * (i < 4 ? 1.0 : -1.0);
         float beyond = foam_beyond(middle + way * texels, z, reach);
         slope += way * beyond;
         hollow += max(-beyond, 0.0);

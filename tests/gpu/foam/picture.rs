@@ -5,7 +5,8 @@ use whitewater::Config;
 use whitewater::water::{Fresnel, Ladder, Medium, Shading};
 
 use super::{Foamy, foaming, of};
-use crate::reference::{foam, smoothstep};
+use crate::reference::foam::{self, Pattern};
+use crate::reference::{is_surface, smoothstep};
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, extent};
 use crate::support::scenes::{self, Lens};
@@ -89,8 +90,8 @@ fn foam_covers_what_is_behind_it() {
     }
 }
 
-/// Thin foam is torn into threads with clear holes between them, where its frontmost lies in the world; none of it where
-/// cells are less than two pixels wide, and as smooth foam without it.
+/// Thin foam is torn into threads with clear holes between them, where its frontmost lies in the world, and that it carries
+/// along; none of it where cells are less than two pixels wide, and as smooth foam without it.
 #[test]
 fn thin_foam_is_torn_into_lace() {
     let gpu = Gpu::shared();
@@ -105,9 +106,11 @@ fn thin_foam_is_torn_into_lace() {
             let points: Vec<_> = (0..160).map(|_| at()).collect();
             case.shot.positions = scenes::world(&case.shot.camera, &points);
             case.amounts = vec![[1.0, 0.0]; points.len()];
-            case.velocities = vec![[0.0; 3]; points.len()];
-            case.ids = None;
             let spacing = case.shot.settings.water.spacing;
+            // Of whole steps.
+            let velocity = [3.0, -1.5, 0.5].map(|v| v * spacing);
+            case.velocities = vec![velocity; points.len()];
+            case.ids = None;
             let look = &mut case.shot.settings.foam;
             (look.noise, look.pattern, look.relief, look.veil) = (0.0, 0.0, 0.0, 0.0);
             (look.extinction, look.front_extinction) = (4.0, 5.0);
@@ -125,6 +128,11 @@ fn thin_foam_is_torn_into_lace() {
             let (found, view) = (of(&drawn), case.shot.view(size));
             let to_world = view.view.inverse();
             let cell = f64::from(3.0 * spacing);
+            let drift = DVec3::from(velocity.map(f64::from)) / cell;
+            let look = &case.shot.settings.foam;
+            let (size, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
+            let phases = Pattern { strength: 0.0, size, period, time: look.time }.phases();
+            assert!(phases.iter().all(|phase| phase.part > 0.1 && phase.carried.abs() > 0.05));
             let (mut threads, mut holes) = (0, 0);
             for (i, color) in drawn.output.data.iter().enumerate() {
                 let z = f64::from(found.depth.data[i]);
@@ -137,7 +145,7 @@ fn thin_foam_is_torn_into_lace() {
                 let hidden = 1.0 - (-4.0 * t * long).exp();
                 let at = to_world.transform_point3(ray * z) / cell;
                 let pixels = cell / (view.slope_step().x * z).abs();
-                let covered = foam::covered(hidden, at, pixels);
+                let covered = foam::covered(hidden, at, (drift, &phases), pixels);
                 let told = 0.8 * smoothstep(2.0, 6.0, pixels);
                 threads += usize::from(covered > 0.95 && hidden < 0.7);
                 holes += usize::from(covered < 0.05 && hidden > 0.3);
@@ -149,7 +157,8 @@ fn thin_foam_is_torn_into_lace() {
                 // apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest; and into the
                 // colour's exponent.
                 let steepest = 5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
-                let place = 32.0 * U * (at.length() + to_world.w_axis.truncate().length() / cell);
+                let far = at.length() + to_world.w_axis.truncate().length() / cell + 256.0;
+                let place = 16.0 * U * far;
                 let closed = (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
                 for c in 0..3 {
                     let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
@@ -370,6 +379,89 @@ fn the_relief_of_foam_follows_the_sun() {
             darker += usize::from(factor < 0.98);
         }
         assert!(lighter > 30 && darker > 30, "{lens:?}: {lighter} lighter, {darker} darker");
+    }
+}
+
+/// What foam within six spacings, eight ways, leaves of the light on it: turned away from the sun the light in the shade, and
+/// less of that in hollows.
+#[test]
+fn the_shape_of_a_splash_lights_its_foam() {
+    const AROUND: f64 = 6.0;
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config {
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        ..foaming(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+        let mut case = Foamy::new(size, lens, 0.0);
+        // A hill of foam, and some behind it.
+        let mut random = scenes::Random(9);
+        let mut at = || {
+            let [x, y] = [0; 2].map(|_| random.between(-0.7, 0.7));
+            [x, y, 3.0 - 0.9 * (-4.0 * (x * x + y * y)).exp() + random.between(0.0, 0.1)]
+        };
+        let points: Vec<_> = (0..240).map(|_| at()).collect();
+        case.shot.positions = scenes::world(&case.shot.camera, &points);
+        (case.amounts, case.ids) = (vec![[1.0, 0.0]; 240], None);
+        case.velocities = vec![[0.0; 3]; 240];
+        let look = &mut case.shot.settings.foam;
+        (look.extinction, look.veil, look.relief) = (1.0e6, 0.0, 0.0);
+        let sun = DVec3::new(-0.6, 0.48, 0.64);
+        let view = case.shot.view(size);
+        let world = case.shot.camera_view().inverse().transform_vector3(sun);
+        case.shot.settings.light.direction = world.as_vec3().to_array();
+        case.shot.settings.light.irradiance = [2.0; 3];
+        case.shot.settings.light.shade = [0.5; 3];
+        let flat = case.draw(&mut rig);
+        case.shot.settings.foam.shape = 0.8;
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn);
+        let reach = AROUND * case.settings().spacing;
+        let beyond = |at: DVec2, z: f64| -> f64 {
+            let at = at.clamp(DVec2::splat(0.5), DVec2::new(96.5, 60.5));
+            let one = |&(x, y, weight): &(isize, isize, f64)| {
+                let there = f64::from(found.depth.clamped(x, y));
+                weight * (if is_surface(there) { there - z } else { reach }).clamp(-reach, reach)
+            };
+            found.depth.bilinear(at).iter().map(one).sum()
+        };
+        let (mut shaded, mut lit, mut hollow) = (0, 0, 0);
+        for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+            let z = f64::from(found.depth.at(x, y));
+            if z >= 1e9 || found.thickness.at(x, y)[0] < 1e-4 {
+                continue;
+            }
+            let wide = view.slope_step() * z;
+            let texels = (reach / wide.abs()).min(DVec2::splat(32.0));
+            let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let (mut slope, mut before) = (DVec2::ZERO, 0.0);
+            for way in (0..8).map(|i| DVec2::from_angle(f64::from(i) * std::f64::consts::FRAC_PI_4))
+            {
+                let there = beyond(middle + way * texels, z);
+                slope += way * there;
+                before += (-there).max(0.0);
+            }
+            let slope = 0.25 * slope / (texels * wide);
+            let normal = DVec3::new(slope.x, slope.y, 1.0).normalize();
+            let turned = smoothstep(-0.5, 0.6, normal.dot(sun));
+            let sky = 1.0 - 0.6 * before / (8.0 * reach);
+            let of_sun = 1.0 + 0.8 * (turned - 1.0);
+            let factor = (0.25 + 0.75 * of_sun) * (1.0 + 0.8 * (sky - 1.0));
+            let expected = factor * f64::from(flat.output.at(x, y)[0]);
+            let found = f64::from(drawn.output.at(x, y)[0]);
+            // A place to 32 texels from a pixel is off by 64u, between depths that may be two reaches apart; of the eight's
+            // sum over four reaches the angle, of which smoothstep's steepest is 1.5 / 1.1.
+            let bound = 1.4 * 8.0 * (2.0 * 64.0 + 16.0 * z / reach) / 4.0 * U + 100.0 * U;
+            assert!((found - expected).abs() <= bound * expected, "{found}, not {expected}");
+            shaded += usize::from(turned < 0.5);
+            lit += usize::from(turned > 0.9);
+            hollow += usize::from(sky < 0.9);
+        }
+        let all = [shaded, lit, hollow];
+        assert!(all.iter().all(|count| *count > 30), "{lens:?}: {all:?}");
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::super::smoothstep;
 use super::noise::noise;
+use super::pattern::Phase;
 use glam::{DVec3, IVec3};
 
 /// Radii from the least to the largest, in cells.
@@ -69,10 +70,16 @@ pub fn ends(pixels: f64) -> f64 {
     (ENDS.1 / pixels).max(ENDS.0)
 }
 
-/// Share that threads hide of a place, of which smooth foam hides a share.
-pub fn covered(hidden: f64, place: DVec3, pixels: f64) -> f64 {
+/// Share that threads hide of a place, of which smooth foam hides a share: of two phases of the pattern, whose distances from
+/// the median are added by their parts, of foam that goes so many cells a second.
+pub fn covered(hidden: f64, place: DVec3, (drift, phases): (DVec3, &[Phase]), pixels: f64) -> f64 {
     let much = LOGISTIC.0 + LOGISTIC.1 * (hidden.max(1.0e-6) / (1.0 - hidden).max(1.0e-6)).ln();
-    let (closes, ends) = (closes(place, pixels), ends(pixels));
+    let of = |phase: &Phase| {
+        let at = place - drift * phase.carried + phase.began;
+        phase.part * (closes(at, pixels) - LOGISTIC.0)
+    };
+    let closes = LOGISTIC.0 + phases.iter().map(of).sum::<f64>();
+    let ends = ends(pixels);
     if hidden > 0.0 { smoothstep(closes - ends, closes + ends, much) } else { 0.0 }
 }
 
@@ -80,6 +87,10 @@ pub fn covered(hidden: f64, place: DVec3, pixels: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::support::scenes::Random;
+
+    /// One phase, and foam at rest.
+    const STILL: (DVec3, &[Phase]) =
+        (DVec3::ZERO, &[Phase { part: 1.0, carried: 0.0, began: 0.0 }]);
 
     /// As much of the picture is hidden as by smooth foam, whatever share that is.
     #[test]
@@ -90,19 +101,19 @@ mod tests {
             .collect();
         for tenth in 1..10 {
             let hidden = 0.1 * f64::from(tenth);
-            let all: f64 = places.iter().map(|place| covered(hidden, *place, 100.0)).sum();
+            let all: f64 = places.iter().map(|place| covered(hidden, *place, STILL, 100.0)).sum();
             let mean = all / places.len() as f64;
             // The distribution is not quite logistic.
             assert!((mean - hidden).abs() < 0.075, "{hidden}: {mean}");
             // Of little and of much: threads or holes, nearly nothing between.
             let veiled =
-                places.iter().filter(|p| (0.1..0.9).contains(&covered(hidden, **p, 100.0)));
+                places.iter().filter(|p| (0.1..0.9).contains(&covered(hidden, **p, STILL, 100.0)));
             assert!(veiled.count() < places.len() / 6, "{hidden}: a veil");
         }
         let all: f64 = places.iter().map(|place| inside(*place)).sum();
         assert!((all / places.len() as f64 - MEAN).abs() < 0.005, "the mean of the bubbles");
-        assert_eq!(covered(0.0, places[0], 100.0), 0.0);
-        assert_eq!(covered(1.0, places[0], 100.0), 1.0);
+        assert_eq!(covered(0.0, places[0], STILL, 100.0), 0.0);
+        assert_eq!(covered(1.0, places[0], STILL, 100.0), 1.0);
     }
 
     /// Nothing jumps where cells meet: eight of them hold all that reach a place.

@@ -327,12 +327,15 @@ const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
 /// relief is as large as a particle, which makes gravel here; its veil, a cloud.)
 fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
     *foam = FoamLook {
-        extinction: 0.25 / spacing,
+        extinction: 0.35 / spacing,
+        front_extinction: 0.5 / spacing,
         veil: 0.0,
         relief: 0.0,
         lace: 1.0,
         lace_size: 2.5,
-        shape: 0.7,
+        shape: 0.8,
+        back_color: [0.78; 3],
+        front_color: [0.93; 3],
         ..*foam
     };
 }
