@@ -119,10 +119,16 @@ fn thin_foam_is_torn_into_lace() {
             let smooth = case.draw(&mut rig);
             case.shot.settings.foam.lace = 0.8;
             case.shot.settings.foam.lace_size = 0.01;
-            assert!(
-                smooth.output.data == case.draw(&mut rig).output.data,
-                "cells too small to be told"
-            );
+            // Two differences from 1.
+            let fine = case.draw(&mut rig);
+            let both = smooth.output.data.iter().flatten().zip(fine.output.data.iter().flatten());
+            for (a, b) in both {
+                let apart = f64::from(a - b).abs();
+                assert!(
+                    apart <= 16.0 * U * (1.0 + f64::from(a.abs())),
+                    "{a}, with small cells {b}"
+                );
+            }
             case.shot.settings.foam.lace_size = 3.0;
             let drawn = case.draw(&mut rig);
             let (found, view) = (of(&drawn), case.shot.view(size));
@@ -392,24 +398,25 @@ fn the_shape_of_a_splash_lights_its_foam() {
     let config = Config {
         output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
         thickness_level: 0,
+        max_particles: 600,
         ..foaming(size)
     };
     let mut rig = Rig::lit(&gpu, &config, 1);
     for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
         let mut case = Foamy::new(size, lens, 0.0);
-        // A hill of foam, and some behind it.
+        // A steep hill of foam on a plain.
         let mut random = scenes::Random(9);
         let mut at = || {
-            let [x, y] = [0; 2].map(|_| random.between(-0.7, 0.7));
-            [x, y, 3.0 - 0.9 * (-4.0 * (x * x + y * y)).exp() + random.between(0.0, 0.1)]
+            let [x, y] = [0; 2].map(|_| random.between(-2.0, 2.0));
+            [x, y, 4.5 - 2.5 * (-2.0 * (x * x + y * y)).exp() + random.between(0.0, 0.1)]
         };
-        let points: Vec<_> = (0..240).map(|_| at()).collect();
+        let points: Vec<_> = (0..600).map(|_| at()).collect();
         case.shot.positions = scenes::world(&case.shot.camera, &points);
-        (case.amounts, case.ids) = (vec![[1.0, 0.0]; 240], None);
-        case.velocities = vec![[0.0; 3]; 240];
+        (case.amounts, case.ids) = (vec![[1.0, 0.0]; 600], None);
+        case.velocities = vec![[0.0; 3]; 600];
         let look = &mut case.shot.settings.foam;
         (look.extinction, look.veil, look.relief) = (1.0e6, 0.0, 0.0);
-        let sun = DVec3::new(-0.6, 0.48, 0.64);
+        let sun = DVec3::new(-0.9, 0.3, 0.1_f64.sqrt());
         let view = case.shot.view(size);
         let world = case.shot.camera_view().inverse().transform_vector3(sun);
         case.shot.settings.light.direction = world.as_vec3().to_array();

@@ -34,7 +34,7 @@ pub use layers::{depth, seen, thickness};
 pub use loose::LooseEllipse;
 pub use noise::{noise, noise_reach, noise_rounding, noise_slope, origin};
 pub use off::{Off, ray_off};
-pub use pattern::{Pattern, Phase};
+pub use pattern::Pattern;
 pub use texels::{pixels, scene_depth};
 
 /// Drawn radius of a whole particle over the spacing.
