@@ -139,7 +139,7 @@ fn thin_foam_is_torn_into_lace() {
             let (size, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
             let phases = Pattern { strength: 0.0, size, period, time: look.time }.phases();
             assert!(phases.iter().all(|phase| phase.part > 0.1 && phase.carried.abs() > 0.05));
-            let (mut threads, mut holes) = (0, 0);
+            let (mut threads, mut holes, mut offs) = (0, 0, Vec::new());
             for (i, color) in drawn.output.data.iter().enumerate() {
                 let z = f64::from(found.depth.data[i]);
                 if z >= 1e9 {
@@ -158,31 +158,32 @@ fn thin_foam_is_torn_into_lace() {
                 let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
                 let back = (-5.0 * front * long * much).exp();
                 let seen = hidden + told * (covered - hidden);
-                // What rounds a place, of a few cells from the origin, by the most that what closes it grows a cell: twice
-                // 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope draws places
-                // apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest; and into the
-                // colour's exponent.
+                // What rounds a place: 16u of the cells from the origin, 5u of where a phase begins, by the most that what
+                // closes it grows a cell: twice 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope
+                // draws places apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest.
                 let steepest = 5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
-                let far = at.length() + to_world.w_axis.truncate().length() / cell + 256.0;
-                let place = 16.0 * U * far;
-                let closed = (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
+                let origin = to_world.w_axis.truncate().length() / cell;
+                let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
+                let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
+                let closed = told * (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
                 for c in 0..3 {
                     let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
                     let foam = thick + (thin - thick) * back;
                     let scene = f64::from(case.shot.color[i][c]);
                     let expected = scene + (foam - scene) * seen;
-                    let bound = (400.0 * U
-                        + closed * (1.0 + 5.0 * front * long / hidden.max(0.05)))
-                        * (1.0 + expected);
+                    let by_color =
+                        (thin - thick).abs() * back * 5.0 * front * long / hidden.max(0.05);
+                    let by_share = (scene - foam).abs();
+                    let bound =
+                        400.0 * U * (1.0 + expected) + closed * (by_share + seen * by_color);
                     let off = (f64::from(color[c]) - expected).abs();
-                    assert!(
-                        off <= bound,
-                        "{lens:?} {i} {c}: {}, not {expected}, by {bound}",
-                        color[c]
-                    );
-                    assert!(bound < 0.02, "{bound} says nothing");
+                    assert!(off <= bound, "{lens:?} {i} {c}: {}, not {expected}", color[c]);
+                    offs.push(off);
                 }
             }
+            // The bound is of the worst place there may be; they are nearly all much nearer.
+            let mean = offs.iter().sum::<f64>() / offs.len() as f64;
+            assert!(mean < 1.0e-4, "{lens:?}: {mean} in the mean");
             assert!(threads > 50 && holes > 50, "{lens:?}: {threads} in threads, {holes} in holes");
         }
     }

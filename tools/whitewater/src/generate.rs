@@ -145,8 +145,11 @@ impl Generate {
         settings: &GenerateSettings,
     ) -> Outcome<[Option<f32>; 3]> {
         let mut columns = Columns::default();
+        // With room for another number those of the frames to come begin anew.
+        let most = self.max_particles();
+        let room = if most > 1 { most - 1 } else { 2 };
         self.each_probe(headless, |headless| {
-            headless.generate_snapshot(0, settings, self.max_particles())?;
+            headless.generate_snapshot(0, settings, room)?;
             let made = headless.generated()?;
             let made =
                 Particles { kinds: Some(made.kinds), ..Particles::from_positions(made.positions) };
