@@ -15,6 +15,8 @@
 #include "sunlight.glsl"
 #include "shore_light.glsl"
 #include "surface_noise.glsl"
+#include "random.glsl"
+#include "gradient_noise.glsl"
 #include "scene_color.glsl"
 #include "shade.glsl"
 

@@ -252,6 +252,7 @@ impl Composite {
             (25, soap[0]),
             (26, soap[1]),
             (31, coat),
+            (33, Resource::buffer(layers.drift.unwrap_or(&layers.split.lists))),
         ];
         let arguments = layers.split.arguments.handle;
         let first = |i: u32| layers.split.most * i;

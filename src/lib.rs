@@ -169,6 +169,8 @@
 //! - Foam is thick here and thin there by one noise in space that it carries along ([`water::FoamLook::pattern`]); in the
 //!   thesis each sprite has a noise of its own, and many over each other are a mist. It is there as
 //!   [`water::FoamLook::noise`], with a pattern of 0.
+//! - Thin foam may be torn into threads with clear holes between them ([`water::FoamLook::lace`]), and lit by the shape of a
+//!   whole splash ([`water::FoamLook::shape`]); the thesis' is a veil, and flat.
 //! - The thickness of foam shades it as a relief, and where there is little it is less ([`water::FoamLook`]);
 //!   the thesis' foam is flat. Shadows on it are those of its sprites, one look a particle; the thesis
 //!   looks nine times a pixel, at depths that jump from sprite to sprite.

@@ -31,8 +31,8 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 ambient;       // w: 1 = composed as the source does
     vec4 foam;          // extinction of all and of the front layer, motion threshold, front layer's depth
     vec4 foam_noise;    // its amplitude, cells a second; relief; least thickness that is whole
-    vec4 foam_pattern;  // its strength, 0 0; half its period in seconds
-    vec4 foam_octaves;  // spacings of its first octave; where its two phases begin in the noise; 0
+    vec4 foam_pattern;  // its strength; that of the lace, its cells in metres; half its period in seconds
+    vec4 foam_octaves;  // spacings of its first octave; where its two phases begin in the noise; how much its shape lights it
     vec4 foam_phases;   // how much there is of each; how far it is carried, of half a period, -1 to 1
     vec4 foam_back;     // radiance of little foam, and of much; w: step of its thickness
     vec4 foam_front;    // w: power of the other rule, or 0

@@ -4,10 +4,10 @@
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
 // Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
 // What it mirrors: the environment and, by a march over the screen, the scene.
-// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, thickness and
+// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam, thickness and
 // light of diffuse particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
-// shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl.
+// shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 
 // Where the thickness lies: 0 at full resolution, 1 at the smoothing's, 2 elsewhere.
 layout(constant_id = 0) const uint THICKNESS = 1;
@@ -30,6 +30,8 @@ layout(set = 0, binding = 23) uniform sampler2D diffuse_light;
 layout(set = 0, binding = 26) uniform sampler2D soap;
 
 #include "ripples.glsl"
+#include "foam_drift.glsl"
+#include "lace.glsl"
 #include "march.glsl"
 
 // Derivatives of the unsmoothed depth, per pixel; never steep.
@@ -396,6 +398,65 @@ bool beside(vec2 pixel) {
     return FOAM == 1u && foam_seen(pixel).depth < EMPTY || spray_at(ivec2(pixel));
 }
 
+// Depth of the frontmost foam, of the texels' the mean: the least changes in steps.
+float foam_middle(FoamTexels foam) {
+    vec4 w = mix(vec4(0.0), foam.shown, lessThan(foam.z, vec4(EMPTY)));
+    float sum = w.x + w.y + w.z + w.w;
+    return sum > 0.0 ? dot(w, mix(vec4(0.0), foam.z, greaterThan(w, vec4(0.0)))) / sum : foam.depth;
+}
+
+// Share of the light from behind that lace of foam lets through, which the same foam lets through where it is smooth. Where
+// cells are less than two pixels wide it is smooth. much: how much more foam there is where a thread is.
+float through_lace(vec2 pixel, float z, float kept, out float much) {
+    vec3 at = (frame.world * vec4(z * vec3(ray_slope(pixel, frame.slope), -1.0), 1.0)).xyz / frame.foam_pattern.z;
+    at -= LACE_WRAP * floor(at / LACE_WRAP + 0.5);
+    float pixels = frame.foam_pattern.z / (z * frame.texel.x);
+    float told = frame.foam_pattern.y * smoothstep(2.0, 6.0, pixels);
+    vec3 way = drift_at(pixel) * (frame.foam_pattern.w / frame.foam_pattern.z);
+    float covered = laced(1.0 - kept, at, way, pixels);
+    much = mix(1.0, covered / max(1.0 - kept, 0.05), told);
+    return 1.0 - mix(1.0 - kept, covered, told);
+}
+
+// How far around it foam is asked for its shape, in spacings, and in texels at most.
+const vec2 SHAPE_REACH = vec2(6.0, 32.0);
+const vec2 SHAPE_WAYS[4] = vec2[](vec2(1.0, 0.0), vec2(0.70710678), vec2(0.0, 1.0), vec2(-0.70710678, 0.70710678));
+// Cosines to the sun of what is wholly turned away and wholly lit: light goes on in foam.
+const vec2 SHAPE_LIT = vec2(-0.5, 0.6);
+// How much of the sky's light neighbours take that stand wholly before it.
+const float SHAPE_HOLLOW = 0.6;
+
+// Foam at a place between texels, by how much it lies farther than a depth; no farther than a reach, as nothing does.
+float foam_beyond(vec2 h, float z, float reach) {
+    h = clamp(h, vec2(0.0), frame.thick_extent.xy - 1.0);
+    vec2 base = min(floor(h), frame.thick_extent.xy - 2.0);
+    vec2 f = h - base;
+    vec4 near = textureGather(foam_depth, (base + 1.0) / vec2(textureSize(foam_depth, 0))).wzxy;
+    vec4 beyond = clamp(near - z, -reach, reach);
+    return mix(mix(beyond.x, beyond.y, f.x), mix(beyond.z, beyond.w, f.x), f.y);
+}
+
+// What its shape leaves of the sun's light and of the sky's, by how far before it or behind it the foam around it lies:
+// a splash has a side in the shade, and hollows. Not in the source.
+vec2 shape_light(vec2 pixel, float z) {
+    float reach = SHAPE_REACH.x * frame.particle.y;
+    vec2 texels = min(reach / (z * abs(frame.thick_slope.xy)), vec2(SHAPE_REACH.y));
+    vec2 metres = texels * frame.thick_slope.xy * z;
+    vec2 middle = pixel / frame.thick_extent.z - 0.5;
+    vec2 slope = vec2(0.0);
+    float hollow = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        vec2 way = SHAPE_WAYS[i & 3] * (i < 4 ? 1.0 : -1.0);
+        float beyond = foam_beyond(middle + way * texels, z, reach);
+        slope += way * beyond;
+        hollow += max(-beyond, 0.0);
+    }
+    // Of eight on a circle the squares of either coordinate sum up to four.
+    vec3 normal = normalize(vec3(0.25 * slope / metres, 1.0));
+    return vec2(smoothstep(SHAPE_LIT.x, SHAPE_LIT.y, dot(normal, frame.sun_direction.xyz)),
+                1.0 - SHAPE_HOLLOW * hollow / (8.0 * reach));
+}
+
 // Thesis Sec. 3.2.3: the more foam right behind the frontmost, the nearer the front colour (Listing
 // A.20; Eq. 3.9 has them the other way round). What of it the sun lights is the sprites' (the source asks at
 // the mean of nine depths): a sprite by itself is no surface, its outline would be a shadow's.
@@ -419,6 +480,15 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     float along = length(vec3(ray_slope(pixel, frame.slope), 1.0));
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * along * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
+    float local = 1.0; // much of it in a thread
+    // An end of a loop, not a branch: a CPU runs branches whole.
+    bool there = t.x > 0.0 && texels.depth < EMPTY;
+    float z = foam_middle(texels);
+    bool torn = frame.foam_pattern.y > 0.0 && there;
+    while (torn) {
+        foam.kept = through_lace(pixel, z, foam.kept, local);
+        torn = false;
+    }
     // A spacing more for what is far: where that becomes the frontmost nothing changes. What hides what is behind
     // it is seen from its front, before its middle by the room that so much foam takes among as much water.
     float middle = frame.particle.y * far * (1.0 + 1.0 / (1.0 - far));
@@ -426,11 +496,17 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     // Or the source's other rule.
     float power = frame.foam_front.w;
     float part = clamp(t.y / max(frame.foam.w, 1.0e-9), 1.0e-6, 1.0);
-    float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * along * t.y);
+    float much = power > 0.0 ? pow(part, power) : 1.0 - exp(-frame.foam.y * along * t.y * local);
     foam.color = mix(frame.foam_back.rgb, frame.foam_front.rgb, much);
     float sun = SHADOW == 1u ? past_scene(vec3(0.0), pixel) : 1.0;
     sun *= (SHADOW > 1u || CAST == 1u) && t.y > 0.0 ? clamp(t.z / t.y, 0.0, 1.0) : 1.0;
-    foam.color *= under(vec3(sun)) * relief(pixel, foam.depth, sun);
+    vec2 shape = vec2(1.0);
+    bool shaped = frame.foam_octaves.w > 0.0 && there;
+    while (shaped) {
+        shape = mix(shape, shape_light(pixel, z), frame.foam_octaves.w);
+        shaped = false;
+    }
+    foam.color *= under(vec3(sun * shape.x)) * (shape.y * relief(pixel, foam.depth, sun));
     return foam;
 }
 

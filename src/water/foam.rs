@@ -13,6 +13,7 @@
 //! Sprites are few texels wide, so that a triangle's setup costs as much as its fragments; a lost depth is
 //! found by a read; what is behind the front layer, mostly nothing, is counted by itself. Both sum whole
 //! steps, in any order.
+//! How foam drifts is summed on the screen, coarsely, for the lace that it carries along.
 //! Spray is none: as the density falls `spray` takes over.
 //! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
 //! where there is none; foam thickness, RGBA32F: metres of all, of the layer right behind the frontmost, of
@@ -33,8 +34,8 @@ use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
 use crate::gpu::Gpu;
 use crate::gpu::access::{
-    self, Access, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
-    COMPUTE_WRITE, COPY_READ, FRAGMENT_SAMPLED, VERTEX_READ, buffer,
+    self, Access, CLEAR, COLOR_ATTACHMENT, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_SAMPLED,
+    COMPUTE_WRITE, COPY_READ, FRAGMENT_READ, FRAGMENT_SAMPLED, VERTEX_READ, buffer,
 };
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::Resource;
@@ -49,6 +50,8 @@ pub const SPRITE: u64 = 64;
 
 /// Both images are read by compute (`reduce`) and by what shades.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
+/// What shades reads how foam drifts.
+const DRIFT_READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
@@ -274,9 +277,23 @@ enum Path {
     Compute(Box<Splats>),
 }
 
+/// Pixels from node to node of what it is known of how foam drifts, and words of a node (glsl/include/foam_drift.glsl).
+const DRIFT: [u32; 2] = [16, 4];
+
+/// For frames of an extent.
+fn drift(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
+    let [cell, words] = DRIFT;
+    let nodes = |pixels: u32| u64::from(pixels.div_ceil(cell) + 1);
+    let bytes = 4 * u64::from(words) * nodes(config.extent.width) * nodes(config.extent.height);
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+    Buffer::new(gpu, "water/foam/drift", bytes, usage, MemoryLocation::GpuOnly)
+}
+
 /// The pass.
 pub struct Foam {
     sprites: Sprites,
+    drifting: Pipeline,
+    drift: Buffer,
     path: Path,
     /// Times that both images are halved.
     pub level: u32,
@@ -290,14 +307,19 @@ impl Foam {
             Splat::Raster => {
                 let depth = Blended::new(gpu, config, Kind::Depth)?;
                 let thickness = Blended::new(gpu, config, Kind::Thickness)?;
-                (sprites(VERTEX_READ)?, Path::Raster(Box::new([depth, thickness])))
+                (
+                    sprites(VERTEX_READ.and(COMPUTE_READ))?,
+                    Path::Raster(Box::new([depth, thickness])),
+                )
             }
             Splat::Compute => {
                 let splats = Box::new(Splats::new(gpu, config)?);
                 (sprites(COMPUTE_READ)?, Path::Compute(splats))
             }
         };
-        Ok(Self { sprites, path, level: config.thickness_level })
+        let drifting = Pipeline::compute(gpu, shader::WATER_FOAM_DRIFT_COMP, &[])?;
+        let drift = drift(gpu, config)?;
+        Ok(Self { sprites, drifting, drift, path, level: config.thickness_level })
     }
 
     pub fn resize(
@@ -306,6 +328,7 @@ impl Foam {
         config: &Config,
         retired: &mut RetireList,
     ) -> Result<(), Error> {
+        retired.replace(&mut self.drift, drift(gpu, config)?);
         match &mut self.path {
             Path::Raster(both) => {
                 let [depth, thickness] = &mut **both;
@@ -330,6 +353,11 @@ impl Foam {
             Path::Raster(_) => None,
             Path::Compute(splats) => Some(&splats.words),
         }
+    }
+
+    /// How it drifts, [`DRIFT_READ`] after the pass.
+    pub fn drift(&self) -> &Buffer {
+        &self.drift
     }
 
     /// Metres of foam.
@@ -372,6 +400,7 @@ impl Foam {
                 }
             })?;
         }
+        self.record_drift(r, list, any)?;
         match &self.path {
             Path::Raster(both) => {
                 let [depth, thickness] = &**both;
@@ -384,12 +413,32 @@ impl Foam {
         Ok(())
     }
 
+    fn record_drift(
+        &self,
+        r: &mut Recording<'_>,
+        list: &SphereList,
+        any: bool,
+    ) -> Result<(), Error> {
+        let (gpu, cmd, drift) = (r.gpu, r.cmd, self.drift.handle);
+        gpu.barriers(cmd, &[], &[buffer(drift, DRIFT_READ, CLEAR)]);
+        // SAFETY: a buffer that may be copied to, outside a render pass.
+        unsafe { gpu.device.cmd_fill_buffer(cmd, drift, 0, vk::WHOLE_SIZE, 0) };
+        if any {
+            gpu.barriers(cmd, &[], &[buffer(drift, CLEAR, COMPUTE_READ_WRITE)]);
+            let more = [(5, Resource::buffer(&self.drift))];
+            self.sprites.splat(r, list, &self.drifting, cull::FOAM_GROUPS, &more)?;
+        }
+        let last = if any { COMPUTE_READ_WRITE } else { CLEAR };
+        gpu.barriers(cmd, &[], &[buffer(drift, last, DRIFT_READ)]);
+        Ok(())
+    }
+
     /// Bytes of images and buffers.
     pub fn memory(&self) -> (u64, u64) {
         let words = match &self.path {
             Path::Raster(_) => 0,
             Path::Compute(splats) => splats.words.size,
         };
-        (self.depth().size + self.thickness().size, self.sprites.memory() + words)
+        (self.depth().size + self.thickness().size, self.sprites.memory() + self.drift.size + words)
     }
 }

@@ -139,6 +139,8 @@ pub(crate) struct WaterLayers<'a> {
     pub boundaries: Option<&'a Buffer>,
     /// Depth and thickness of the foam, where there may be some.
     pub foam: Option<[&'a Image; 2]>,
+    /// How that drifts: read by compute and by fragments.
+    pub drift: Option<&'a Buffer>,
     /// Spray, where there may be some.
     pub spray: Option<&'a Image>,
     /// Height of the surface noise, where it is drawn.
@@ -331,6 +333,7 @@ impl Water {
             sheets: self.thickness.sheets.as_ref(),
             boundaries: self.sheets.as_ref().map(|sheets| &sheets.gaps.boundaries),
             foam: self.foam.as_ref().map(|foam| [foam.depth(), foam.thickness()]),
+            drift: self.foam.as_ref().map(foam::Foam::drift),
             spray: self.spray.as_ref().map(spray::Spray::image),
             noise: self.noise.as_ref().map(noise::Noise::image),
         }

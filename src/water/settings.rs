@@ -501,6 +501,11 @@ pub struct FoamLook {
     pub pattern_size: f32,
     /// Seconds after which a clump is drawn out and another has taken its place, (0, 1e3], default 1.
     pub pattern_period: f32,
+    /// How much thin foam is torn into threads with clear holes between them, which close where there is much of it, [0, 1]:
+    /// as much of the picture is hidden as by smooth foam. Default 0: none of that, thin foam is a veil. Not in the source.
+    pub lace: f32,
+    /// Width of the cells of the largest holes, spacings, (0, 1e3], default 4. Those of less than two pixels are not drawn.
+    pub lace_size: f32,
     /// The time of the frame in seconds, by which the pattern moves on; default 0. One that stands still leaves the
     /// pattern where it is in space, and foam moves through it.
     pub time: f64,
@@ -510,6 +515,9 @@ pub struct FoamLook {
     /// How much its shape shows: light lost where its front layer is turned from the sun, [0, 2],
     /// default 0.35.
     pub relief: f32,
+    /// How much the light on it goes by the shape of a whole splash, [0, 1]: the foam within six spacings turns it to the sun
+    /// or away, which leaves it the sky's light, and dims the sky in hollows. Default 0: not at all. Not in the source.
+    pub shape: f32,
     /// Sunlight that it takes from what is behind it, per metre, [0, ∞), default 0.25 / spacing: less than
     /// its extinction, for most of the light goes on.
     pub shadow: f32,
@@ -534,9 +542,12 @@ impl FoamLook {
             pattern: 1.0,
             pattern_size: 3.0,
             pattern_period: 1.0,
+            lace: 0.0,
+            lace_size: 4.0,
             time: 0.0,
             veil: spacing,
             relief: 0.35,
+            shape: 0.0,
             shadow: 0.25 / spacing,
             back_color: [0.65; 3],
             front_color: [0.9; 3],
@@ -580,6 +591,8 @@ impl FoamLook {
             return Err(crate::error::Error::bad("Settings.foam.noise", why));
         }
         range("Settings.foam.pattern_size", self.pattern_size, 1.0e-3, 1.0e3)?;
+        range("Settings.foam.lace", self.lace, 0.0, 1.0)?;
+        range("Settings.foam.lace_size", self.lace_size, 1.0e-3, 1.0e3)?;
         range("Settings.foam.pattern_period", self.pattern_period, 1.0e-3, 1.0e3)?;
         if !self.time.is_finite() {
             let why = format!("{}: not finite", self.time);
@@ -588,6 +601,7 @@ impl FoamLook {
         range("Settings.foam.shadow", self.shadow, 0.0, f32::MAX)?;
         range("Settings.foam.veil", self.veil, 0.0, f32::MAX)?;
         range("Settings.foam.relief", self.relief, 0.0, 2.0)?;
+        range("Settings.foam.shape", self.shape, 0.0, 1.0)?;
         range("Settings.foam.noise_rate", self.noise_rate, 0.0, 1.0e3)?;
         for (back, front) in self.back_color.into_iter().zip(self.front_color) {
             range("Settings.foam.back_color", back, 0.0, 1.0)?;

@@ -5,7 +5,8 @@ use whitewater::Config;
 use whitewater::water::{Fresnel, Ladder, Medium, Shading};
 
 use super::{Foamy, foaming, of};
-use crate::reference::smoothstep;
+use crate::reference::foam::{self, Pattern};
+use crate::reference::{is_surface, smoothstep};
 use crate::support::device::Gpu;
 use crate::support::rig::{Drawn, Rig, extent};
 use crate::support::scenes::{self, Lens};
@@ -86,6 +87,105 @@ fn foam_covers_what_is_behind_it() {
             / std::f64::consts::PI;
         let found = f64::from(over.output.data[centre][0]);
         assert!((found - white).abs() < 1e-4, "{found} is not the front colour, {white}");
+    }
+}
+
+/// Thin foam is torn into threads with clear holes between them, where its frontmost lies in the world, and that it carries
+/// along; none of it where cells are less than two pixels wide, and as smooth foam without it.
+#[test]
+fn thin_foam_is_torn_into_lace() {
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    for shading in [Shading::Raster, Shading::Compute] {
+        let mut rig = Rig::lit(&gpu, &whole(size, shading), 1);
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            let mut case = Foamy::new(size, lens, 0.0);
+            let mut random = scenes::Random(7);
+            let mut at =
+                || [random.between(-2.0, 2.0), random.between(-1.4, 1.4), random.between(2.0, 2.6)];
+            let points: Vec<_> = (0..160).map(|_| at()).collect();
+            case.shot.positions = scenes::world(&case.shot.camera, &points);
+            case.amounts = vec![[1.0, 0.0]; points.len()];
+            let spacing = case.shot.settings.water.spacing;
+            // Of whole steps.
+            let velocity = [3.0, -1.5, 0.5].map(|v| v * spacing);
+            case.velocities = vec![velocity; points.len()];
+            case.ids = None;
+            let look = &mut case.shot.settings.foam;
+            (look.noise, look.pattern, look.relief, look.veil) = (0.0, 0.0, 0.0, 0.0);
+            (look.extinction, look.front_extinction) = (4.0, 5.0);
+            (look.back_color, look.front_color) = ([0.2, 0.4, 0.6], [0.9, 0.8, 0.7]);
+            case.shot.settings.light.irradiance = [std::f32::consts::PI; 3];
+            let smooth = case.draw(&mut rig);
+            case.shot.settings.foam.lace = 0.8;
+            case.shot.settings.foam.lace_size = 0.01;
+            // Two differences from 1.
+            let fine = case.draw(&mut rig);
+            let both = smooth.output.data.iter().flatten().zip(fine.output.data.iter().flatten());
+            for (a, b) in both {
+                let apart = f64::from(a - b).abs();
+                assert!(
+                    apart <= 16.0 * U * (1.0 + f64::from(a.abs())),
+                    "{a}, with small cells {b}"
+                );
+            }
+            case.shot.settings.foam.lace_size = 3.0;
+            let drawn = case.draw(&mut rig);
+            let (found, view) = (of(&drawn), case.shot.view(size));
+            let to_world = view.view.inverse();
+            let cell = f64::from(3.0 * spacing);
+            let drift = DVec3::from(velocity.map(f64::from)) / cell;
+            let look = &case.shot.settings.foam;
+            let (size, period) = (f64::from(look.pattern_size), f64::from(look.pattern_period));
+            let phases = Pattern { strength: 0.0, size, period, time: look.time }.phases();
+            assert!(phases.iter().all(|phase| phase.part > 0.1 && phase.carried.abs() > 0.05));
+            let (mut threads, mut holes, mut offs) = (0, 0, Vec::new());
+            for (i, color) in drawn.output.data.iter().enumerate() {
+                let z = f64::from(found.depth.data[i]);
+                if z >= 1e9 {
+                    continue;
+                }
+                let [t, front] = found.thickness.data[i].map(f64::from);
+                let ray = view.ray(i % 97, i / 97);
+                let long = ray.length();
+                let hidden = 1.0 - (-4.0 * t * long).exp();
+                let at = to_world.transform_point3(ray * z) / cell;
+                let pixels = cell / (view.slope_step().x * z).abs();
+                let covered = foam::covered(hidden, at, (drift, &phases), pixels);
+                let told = 0.8 * smoothstep(2.0, 6.0, pixels);
+                threads += usize::from(covered > 0.95 && hidden < 0.7);
+                holes += usize::from(covered < 0.05 && hidden > 0.3);
+                let much = 1.0 + told * (covered / hidden.max(0.05) - 1.0);
+                let back = (-5.0 * front * long * much).exp();
+                let seen = hidden + told * (covered - hidden);
+                // What rounds a place: 16u of the cells from the origin, 5u of where a phase begins, by the most that what
+                // closes it grows a cell: twice 2 r / r^2 of the bubbles, by parts over widths, all as the noise's slope
+                // draws places apart, 1 + 0.3 27 / 2.6. Over the way in which a thread ends, 1.5 at its steepest.
+                let steepest = 5.8 * (0.5 + 0.32 / 0.4 + 0.18 / 0.16) * (1.0 + 0.3 * 27.0 / 2.6);
+                let origin = to_world.w_axis.truncate().length() / cell;
+                let begun = phases.iter().map(|phase| phase.began).fold(0.0, f64::max);
+                let place = U * (16.0 * (at.length() + origin) + 5.0 * (begun + at.length()));
+                let closed = told * (place * steepest + 32.0 * U) * 0.75 / foam::ends(pixels);
+                for c in 0..3 {
+                    let (thin, thick) = ([0.2, 0.4, 0.6][c], [0.9, 0.8, 0.7][c]);
+                    let foam = thick + (thin - thick) * back;
+                    let scene = f64::from(case.shot.color[i][c]);
+                    let expected = scene + (foam - scene) * seen;
+                    let by_color =
+                        (thin - thick).abs() * back * 5.0 * front * long / hidden.max(0.05);
+                    let by_share = (scene - foam).abs();
+                    let bound =
+                        400.0 * U * (1.0 + expected) + closed * (by_share + seen * by_color);
+                    let off = (f64::from(color[c]) - expected).abs();
+                    assert!(off <= bound, "{lens:?} {i} {c}: {}, not {expected}", color[c]);
+                    offs.push(off);
+                }
+            }
+            // The bound is of the worst place there may be; they are nearly all much nearer.
+            let mean = offs.iter().sum::<f64>() / offs.len() as f64;
+            assert!(mean < 1.0e-4, "{lens:?}: {mean} in the mean");
+            assert!(threads > 50 && holes > 50, "{lens:?}: {threads} in threads, {holes} in holes");
+        }
     }
 }
 
@@ -286,6 +386,90 @@ fn the_relief_of_foam_follows_the_sun() {
             darker += usize::from(factor < 0.98);
         }
         assert!(lighter > 30 && darker > 30, "{lens:?}: {lighter} lighter, {darker} darker");
+    }
+}
+
+/// What foam within six spacings, eight ways, leaves of the light on it: turned away from the sun the light in the shade, and
+/// less of that in hollows.
+#[test]
+fn the_shape_of_a_splash_lights_its_foam() {
+    const AROUND: f64 = 6.0;
+    let gpu = Gpu::shared();
+    let size = extent(97, 61);
+    let config = Config {
+        output_format: ash::vk::Format::R32G32B32A32_SFLOAT,
+        thickness_level: 0,
+        max_particles: 600,
+        ..foaming(size)
+    };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+        let mut case = Foamy::new(size, lens, 0.0);
+        // A steep hill of foam on a plain.
+        let mut random = scenes::Random(9);
+        let mut at = || {
+            let [x, y] = [0; 2].map(|_| random.between(-2.0, 2.0));
+            [x, y, 4.5 - 2.5 * (-2.0 * (x * x + y * y)).exp() + random.between(0.0, 0.1)]
+        };
+        let points: Vec<_> = (0..600).map(|_| at()).collect();
+        case.shot.positions = scenes::world(&case.shot.camera, &points);
+        (case.amounts, case.ids) = (vec![[1.0, 0.0]; 600], None);
+        case.velocities = vec![[0.0; 3]; 600];
+        let look = &mut case.shot.settings.foam;
+        (look.extinction, look.veil, look.relief) = (1.0e6, 0.0, 0.0);
+        let sun = DVec3::new(-0.9, 0.3, 0.1_f64.sqrt());
+        let view = case.shot.view(size);
+        let world = case.shot.camera_view().inverse().transform_vector3(sun);
+        case.shot.settings.light.direction = world.as_vec3().to_array();
+        case.shot.settings.light.irradiance = [2.0; 3];
+        case.shot.settings.light.shade = [0.5; 3];
+        let flat = case.draw(&mut rig);
+        case.shot.settings.foam.shape = 0.8;
+        let drawn = case.draw(&mut rig);
+        let found = of(&drawn);
+        let reach = AROUND * case.settings().spacing;
+        let beyond = |at: DVec2, z: f64| -> f64 {
+            let at = at.clamp(DVec2::splat(0.5), DVec2::new(96.5, 60.5));
+            let one = |&(x, y, weight): &(isize, isize, f64)| {
+                let there = f64::from(found.depth.clamped(x, y));
+                weight * (if is_surface(there) { there - z } else { reach }).clamp(-reach, reach)
+            };
+            found.depth.bilinear(at).iter().map(one).sum()
+        };
+        let (mut shaded, mut lit, mut hollow) = (0, 0, 0);
+        for (x, y) in (0..61).flat_map(|y| (0..97).map(move |x| (x, y))) {
+            let z = f64::from(found.depth.at(x, y));
+            if z >= 1e9 || found.thickness.at(x, y)[0] < 1e-4 {
+                continue;
+            }
+            let wide = view.slope_step() * z;
+            let texels = (reach / wide.abs()).min(DVec2::splat(32.0));
+            let middle = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+            let (mut slope, mut before) = (DVec2::ZERO, 0.0);
+            for way in (0..8).map(|i| DVec2::from_angle(f64::from(i) * std::f64::consts::FRAC_PI_4))
+            {
+                let there = beyond(middle + way * texels, z);
+                slope += way * there;
+                before += (-there).max(0.0);
+            }
+            let slope = 0.25 * slope / (texels * wide);
+            let normal = DVec3::new(slope.x, slope.y, 1.0).normalize();
+            let turned = smoothstep(-0.5, 0.6, normal.dot(sun));
+            let sky = 1.0 - 0.6 * before / (8.0 * reach);
+            let of_sun = 1.0 + 0.8 * (turned - 1.0);
+            let factor = (0.25 + 0.75 * of_sun) * (1.0 + 0.8 * (sky - 1.0));
+            let expected = factor * f64::from(flat.output.at(x, y)[0]);
+            let found = f64::from(drawn.output.at(x, y)[0]);
+            // A place to 32 texels from a pixel is off by 64u, between depths that may be two reaches apart; of the eight's
+            // sum over four reaches the angle, of which smoothstep's steepest is 1.5 / 1.1.
+            let bound = 1.4 * 8.0 * (2.0 * 64.0 + 16.0 * z / reach) / 4.0 * U + 100.0 * U;
+            assert!((found - expected).abs() <= bound * expected, "{found}, not {expected}");
+            shaded += usize::from(turned < 0.5);
+            lit += usize::from(turned > 0.9);
+            hollow += usize::from(sky < 0.9);
+        }
+        let all = [shaded, lit, hollow];
+        assert!(all.iter().all(|count| *count > 30), "{lens:?}: {all:?}");
     }
 }
 

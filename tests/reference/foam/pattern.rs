@@ -49,11 +49,14 @@ pub struct Pattern {
 }
 
 /// One of the two at a time.
-struct Phase {
-    part: f64,
+#[derive(Clone, Copy, Debug)]
+pub struct Phase {
+    /// Of both squares the sum is 1.
+    pub part: f64,
     /// Seconds by which places are carried.
-    carried: f64,
-    began: f64,
+    pub carried: f64,
+    /// Where in the noise it begins, in cells of the first octave.
+    pub began: f64,
 }
 
 /// A place in cells, and how far it may be off.
@@ -64,7 +67,8 @@ struct Place {
 }
 
 impl Pattern {
-    fn phases(&self) -> [Phase; 2] {
+    /// Both.
+    pub fn phases(&self) -> [Phase; 2] {
         let gone = |late: f64| (self.time / self.period + late).rem_euclid(1.0);
         let weight = |late| 1.0 - (2.0 * gone(late) - 1.0).abs();
         let whole = f64::hypot(weight(0.0), weight(0.5));

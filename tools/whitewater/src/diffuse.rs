@@ -105,7 +105,7 @@ impl Sizes {
 
 /// How many of each kind lie in columns of one spacing squared.
 #[derive(Default)]
-struct Columns {
+pub struct Columns {
     /// Of the frame that is looked at.
     here: HashMap<[i64; 2], [u32; KINDS]>,
     /// Of all: particles, and columns with any.
@@ -113,7 +113,8 @@ struct Columns {
 }
 
 impl Columns {
-    fn add(&mut self, part: &Particles, kind: Option<u32>, up: Up, spacing: f32) {
+    /// Those of a frame, or a part of them.
+    pub fn add(&mut self, part: &Particles, kind: Option<u32>, up: Up, spacing: f32) {
         for (i, &[x, y, z]) in part.positions.iter().enumerate() {
             let gone =
                 part.lifetimes.as_ref().is_some_and(|left| left[i].is_nan() || left[i] <= 0.0);
@@ -127,7 +128,7 @@ impl Columns {
         }
     }
 
-    fn end_frame(&mut self) {
+    pub fn end_frame(&mut self) {
         for counts in self.here.drain().map(|(_, counts)| counts) {
             for (sums, count) in self.sums.iter_mut().zip(counts).filter(|(_, count)| *count > 0) {
                 *sums = [sums[0] + u64::from(count), sums[1] + 1];
@@ -135,7 +136,8 @@ impl Columns {
         }
     }
 
-    fn means(&self) -> [Option<f32>; KINDS] {
+    /// Particles to a column of those that hold any, of each kind.
+    pub fn means(&self) -> [Option<f32>; KINDS] {
         self.sums.map(|[all, columns]| (columns > 0).then(|| all as f32 / columns as f32))
     }
 }

@@ -1,15 +1,19 @@
 //! `--whitewater generate`: spray, foam and bubbles that are made of the water's particles.
 
 use glam::Vec3;
+use whitewater::Settings;
 use whitewater::foam::{GenerateSettings, Limits};
 use whitewater::headless::Headless;
 use whitewater::io::particles::Particles;
 
+use crate::args::Up;
 use crate::bounds::Bounds;
+use crate::diffuse::{Columns, Sizes};
 use crate::failure::Outcome;
 use crate::foam::quantile;
 use crate::render::round;
 use crate::session::PRE_ROLLED;
+use crate::settings::SettingsFile;
 use crate::settings::generate::GenerateTable;
 
 /// Most diffuse particles at a time, where nothing is said.
@@ -39,6 +43,8 @@ pub struct Generate {
     seconds: Option<f32>,
     probes: Vec<Particles>,
     found: Option<GenerateSettings>,
+    /// Of each kind, how many a column holds that holds any, in the frames that are looked at.
+    columns: [Option<f32>; 3],
 }
 
 /// The limits of trapped air, wave crests and energy by those that particles have. `fall`: the squared speed, over 2, of a fall
@@ -72,7 +78,8 @@ impl Generate {
         let bounds = [bounds.min - aside, bounds.max + aside + up].map(|corner| corner.to_array());
         let moving = |frame: &Particles| frame.velocities.is_some();
         let probes = probes.into_iter().filter(moving).collect();
-        Ok(Self { table, spacing, bounds, seconds, probes, found: None })
+        let columns = [None; 3];
+        Ok(Self { table, spacing, bounds, seconds, probes, found: None, columns })
     }
 
     /// Most diffuse particles at a time.
@@ -97,6 +104,7 @@ impl Generate {
             return Ok((found, None));
         }
         let found = self.find(headless)?;
+        self.columns = self.count(headless, &found)?;
         self.found = Some(found);
         self.probes = Vec::new();
         let limits = |limits: Limits| format!("{} to {}", round(limits.least), round(limits.most));
@@ -110,6 +118,46 @@ impl Generate {
             found.wave_crest_rate,
         );
         Ok((found, Some(line)))
+    }
+
+    /// How opaque they are, and how large, by how close together they lie: once the settings are found. What the file of
+    /// settings says is left, and the thesis' look.
+    pub fn choose(&self, file: &SettingsFile, settings: &mut Settings) -> Option<String> {
+        if file.is_thesis() || self.columns == [None; 3] {
+            return None;
+        }
+        let Sizes { radii: [foam, spray, _], half } = Sizes::of_columns(self.columns, self.spacing);
+        // They have one radius for all: of foam, of which there is most, where there is any.
+        let radius = if self.columns[0].is_some() { foam } else { spray };
+        let table = &file.diffuse;
+        settings.diffuse.radius = table.radius.unwrap_or(radius);
+        settings.diffuse.half = table.half.unwrap_or(half);
+        let [radius, half] = [settings.diffuse.radius, settings.diffuse.half].map(round);
+        Some(format!(
+            "radius {radius} and half = {half} of them (found; table [diffuse] sets them)"
+        ))
+    }
+
+    /// Columns of what is made of each frame by itself, which is about what there is of it in a sequence.
+    fn count(
+        &self,
+        headless: &mut Headless,
+        settings: &GenerateSettings,
+    ) -> Outcome<[Option<f32>; 3]> {
+        let mut columns = Columns::default();
+        // With room for another number those of the frames to come begin anew.
+        let most = self.max_particles();
+        let room = if most > 1 { most - 1 } else { 2 };
+        self.each_probe(headless, |headless| {
+            headless.generate_snapshot(0, settings, room)?;
+            let made = headless.generated()?;
+            let made =
+                Particles { kinds: Some(made.kinds), ..Particles::from_positions(made.positions) };
+            columns.add(&made, None, Up::Y, self.spacing);
+            columns.end_frame();
+            Ok(())
+        })?;
+        Ok(columns.means())
     }
 
     fn find(&self, headless: &mut Headless) -> Outcome<GenerateSettings> {

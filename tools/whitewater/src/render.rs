@@ -5,6 +5,7 @@ use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
+use whitewater::water::FoamLook;
 use whitewater::water::settings::Medium;
 
 use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Whitewater};
@@ -339,9 +340,22 @@ impl Probes {
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
 const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
 
-/// Of foam in caches, whose particles are as large as its bumps then: with the library's 0.35 it is gravel. (Half of the
-/// library's extinction makes it steam.)
-const FOAM_RELIEF: f32 = 0.1;
+/// Puts the look of foam in caches over the library's: thin foam is lace, lit by the shape of the splash. (The library's
+/// relief is as large as a particle, which makes gravel here; its veil, a cloud.)
+fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
+    *foam = FoamLook {
+        extinction: 0.35 / spacing,
+        front_extinction: 0.5 / spacing,
+        veil: 0.0,
+        relief: 0.0,
+        lace: 1.0,
+        lace_size: 2.5,
+        shape: 0.8,
+        back_color: [0.78; 3],
+        front_color: [0.93; 3],
+        ..*foam
+    };
+}
 
 /// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
 const SMALL: f32 = 2.0;
@@ -483,7 +497,7 @@ fn look(
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
         settings.spray.densities = SPRAY_DENSITIES;
-        settings.foam.relief = FOAM_RELIEF;
+        foam_of_caches(&mut settings.foam, spacing);
         if bounds.size().x.max(bounds.size().z) < SMALL {
             settings.water.medium = Medium::CLEAR;
         }

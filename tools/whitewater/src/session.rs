@@ -465,6 +465,9 @@ impl<'a> Session<'a> {
             let (settings, line) = times.step("limits", number, || made.settings(headless))?;
             if let Some(line) = line {
                 self.times.say(&line);
+                if let Some(line) = made.choose(&self.look.file, &mut self.look.settings) {
+                    self.times.say(&line);
+                }
             }
             self.making = Some((settings, made.max_particles()));
         }

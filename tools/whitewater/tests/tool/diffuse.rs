@@ -303,8 +303,13 @@ fn diffuse_particles_are_made_of_the_water() {
     let run = folder.run(&format!("{full} --whitewater generate -o f_%d.png")).ok();
     assert_eq!(run.stderr().matches("there is room for 50 diffuse particles").count(), 1);
     // A frame by itself.
-    folder.run(&format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate -o d.exr")).ok();
-    assert!(amount("d.exr") > 0.0);
+    let alone = format!("render torn_1.csv {SMALL} {FRONT} --whitewater generate");
+    let run = folder.run(&format!("{alone} -o d.exr")).ok();
+    // How large and how opaque they are is found by how many there are, where it is not said.
+    assert!(run.stderr().contains(" of them (found; table [diffuse]"), "{}", run.stderr());
+    folder.text("half.toml", "[diffuse]\nhalf = 3.0\nradius = 0.002\n");
+    folder.run(&format!("{alone} --settings half.toml -o e.exr")).ok();
+    assert!(amount("d.exr") > 2.0 * amount("e.exr") && amount("e.exr") > 0.0);
 }
 
 /// At the same rates a frame by itself has what its water brings, beside what the first of a sequence makes in a moment.

@@ -1,0 +1,99 @@
+// The lace of foam: bubbles of unlike sizes, between which its threads run, and by which thin foam is torn open. A power
+// diagram of spheres, of three sizes (Worley 1996 has distances to points), drawn about by the slope of a gradient noise,
+// that lies in the world, told at each pixel, and that the foam carries along as pattern.glsl has it. Not in the source, whose thin foam is a veil.
+// Needs frame.glsl, gradient_noise.glsl, foam_drift.glsl. Reads: drift.
+
+layout(set = 0, binding = 33, std430) readonly buffer Drift { int drift[]; };
+
+// Radii in cells, from the least to the largest, and how far a middle lies from its cell's. So eight cells hold all that
+// reach a place: 0.5 + 0.5 - 0.3 is the largest.
+const vec2 BUBBLE_RADII = vec2(0.5, 0.7);
+const float BUBBLE_STRAY = 0.3;
+// Of large, middling and small bubbles: their cells, where those begin, and what they count.
+const vec3 BUBBLE_CELLS = vec3(1.0, 0.4, 0.16);
+const vec3 BUBBLE_BEGIN = vec3(0.0, 31.7, 77.3);
+const vec3 BUBBLE_PART = vec3(0.5, 0.32, 0.18);
+// What they count in the mean, as they do where cells are less than a pixel and a half wide.
+const float BUBBLE_MEAN = 0.232;
+// Cells of the noise to the large bubbles', by how many of those its slope draws them, and what it counts itself.
+const float DRAWN_CELL = 2.6;
+const float DRAWN = 0.3;
+const float RAGGED = 0.3;
+// Median of what closes a place, and the scale of the logistic distribution next to its own: of a hidden share a tenth to
+// nine tenths that much closes, within 0.065.
+const vec2 CLOSES = vec2(0.21, 0.115);
+// Half the way in that over which a thread ends, at least and for each cell of a pixel.
+const vec2 THREAD_ENDS = vec2(0.04, 0.7);
+
+// Cells from the world's origin, half of them to each side, after which they begin again: single precision holds their
+// parts.
+const float LACE_WRAP = 65536.0;
+
+// How far inside of a bubble a place is, beyond the wall to the next: 0 on walls and between all, 1 in the middle of the
+// largest by itself.
+float bubbles_at(vec3 p) {
+    p -= 0.5;
+    vec3 cell = floor(p);
+    vec3 f = p - cell;
+    vec2 deepest = vec2(0.0);
+    for (int i = 0; i < 8; ++i) {
+        uvec3 side = uvec3(i & 1, i >> 1 & 1, i >> 2);
+        uvec3 at = (uvec3(ivec3(cell)) + side) * LATTICE;
+        uint h = at.x ^ at.y ^ at.z;
+        h = (h ^ (h >> 15)) * 0x27D4EB2Fu;
+        h ^= h >> 13;
+        vec4 own = vec4(uvec4(h, h >> 8, h >> 16, h >> 24) & 255u) / 255.0;
+        vec3 apart = vec3(side) + BUBBLE_STRAY * (2.0 * own.xyz - 1.0) - f;
+        float radius = mix(BUBBLE_RADII.x, BUBBLE_RADII.y, own.w);
+        float power = max(radius * radius - dot(apart, apart), 0.0);
+        deepest.y = max(deepest.y, min(power, deepest.x));
+        deepest.x = max(deepest.x, power);
+    }
+    return (deepest.x - deepest.y) / (BUBBLE_RADII.y * BUBBLE_RADII.y);
+}
+
+// How much foam it takes to close a place, in cells of the large bubbles that are so many pixels wide: little on a thread,
+// most in the middle of a hole.
+float lace_at(vec3 place, float pixels) {
+    vec4 noise = gradient_noise_slope(place / DRAWN_CELL);
+    place += DRAWN * noise.xyz;
+    float closes = RAGGED * noise.w;
+    for (int i = 0; i < 3; ++i) {
+        float told = smoothstep(1.5, 4.0, pixels * BUBBLE_CELLS[i]);
+        float own = bubbles_at(place / BUBBLE_CELLS[i] + BUBBLE_BEGIN[i]);
+        closes += BUBBLE_PART[i] * mix(BUBBLE_MEAN, own, told);
+    }
+    return closes;
+}
+
+// Velocity in the world of the foam about a pixel.
+vec3 drift_at(vec2 pixel) {
+    vec2 at = pixel / DRIFT_CELL;
+    ivec2 base = ivec2(at);
+    vec2 f = at - vec2(base);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        vec2 part = mix(1.0 - f, f, vec2(side));
+        uint word = drift_word(base + side);
+        sum += part.x * part.y * vec4(drift[word], drift[word + 1u], drift[word + 2u], drift[word + 3u]);
+    }
+    return sum.x > 0.0 ? sum.yzw * (frame.particle.y / (DRIFT_STEPS * sum.x)) : vec3(0.0);
+}
+
+// Share of a pixel that threads hide, where smooth foam hides a share of it: of a place in cells, of so many pixels, that
+// is carried by so many cells in half a period. Two phases have their parts as those of the pattern.
+float laced(float hidden, vec3 place, vec3 way, float pixels) {
+    float much = CLOSES.x + CLOSES.y * log(max(hidden, 1.0e-6) / max(1.0 - hidden, 1.0e-6));
+    float ends = max(THREAD_ENDS.x, THREAD_ENDS.y / pixels);
+    float closes = CLOSES.x;
+    for (int i = 0; i < 2; ++i) {
+        float part = frame.foam_phases[i];
+        vec3 at = place - way * frame.foam_phases[2 + i] + frame.foam_octaves[1 + i];
+        // An end of a loop, not a branch: a CPU runs branches whole.
+        for (bool any = part > 0.0; any; any = false) {
+            closes += part * (lace_at(at, pixels) - CLOSES.x);
+        }
+    }
+    return hidden > 0.0 ? smoothstep(closes - ends, closes + ends, much) : 0.0;
+}
