@@ -745,6 +745,7 @@ pub fn check_settings(water: &WaterSettings, light: &Light) -> Result<(), Error>
     at_least("Settings.water.density_full", water.density_full, water.density_threshold)?;
     at_least("Settings.water.smoothing_width", water.smoothing_width, 0.0)?;
     at_least("Settings.water.depth_falloff", water.depth_falloff, 0.0)?;
+    water.ellipsoids.check()?;
     at_least("Settings.water.refraction", water.refraction, 0.0)?;
     at_least("Settings.water.specular", water.specular, 0.0)?;
     at_least("Settings.water.shininess", water.shininess, 1.0)?;

@@ -134,6 +134,7 @@
 //! | shadow map of the host's, filtered (`Shadows::Convolution`): N texels a side, 16 terms of 8 bits | 48 N² | 48 MiB for 1024 | |
 //! | sunlight: the lit scene, in place of the copy | 8 w h | 7.0 MiB | 15.8 MiB |
 //! | which particles are in packets (`foam`, `spray`, `motion`, `noise` or `cast`) | n/8 | 8 KiB for 65 536 | 1.3 MB for 10 million |
+//! | ellipsoids: grid, shapes, lists (`kernels`) | 92 to 96 n | 5.8 MiB for 65 536 | 960 MB for 10 million |
 //! | spheres, all and front | 32 n | 2.0 MiB for 65 536 | 320 MB for 10 million |
 //!
 //! A [`State`] takes 68 bytes a particle, a [`foam::Generator`] 76 to 80 a particle of the fluid and 44 a diffuse one, a

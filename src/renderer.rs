@@ -28,7 +28,7 @@ use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
 use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
 use crate::shore::{Given, Shore, ShoreUniforms};
-use crate::water::{Beside, Recording, Water, buffers_of};
+use crate::water::{Beside, Recording, Water, buffers_of, shape_sets};
 
 /// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
 const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
@@ -297,7 +297,7 @@ impl Renderer {
         let blobs = frame.bubbles.or(handed_over.map(|(blobs, _)| blobs));
         let bubbles = self.bubbles.as_ref().map(|bubbles| (bubbles, blobs.as_ref()));
         let beside = Beside { light: self.light.as_ref(), diffuse, bubbles };
-        self.water.record(&mut r, &frame.particles, &beside)?;
+        self.water.record(&mut r, &frame.particles, &frame.settings.water, &beside)?;
         let given = Given::new(frame.shore.as_ref(), gpu);
         if let Some(shore) = &self.shore {
             shore.record_shoreline(&mut r, &given, general)?;
@@ -375,6 +375,7 @@ impl Renderer {
             levels: Some(levels),
             tiles: Some(self.water.tiles()),
             sheets: self.water.boundaries(),
+            shapes: self.water.shaped(),
             bubbles: self.bubbles.as_ref().map(Bubbles::layers),
             blobs: self.bubbles.as_ref().map(Bubbles::counts),
         };
@@ -653,7 +654,11 @@ impl SlotState {
         let water = crate::water::chunks(&gpu.limits, config).1;
         let near = config.diffuse.filter(|_| config.bubbles.is_some_and(|own| own.hand_over));
         let near = near.map_or(0, |diffuse| near_sets(&gpu.limits, &diffuse));
-        149 + 27 * water + 4 * diffuse + near + diffuse_sets(&gpu.limits, config)
+        149 + shape_sets(config, water)
+            + 27 * water
+            + 4 * diffuse
+            + near
+            + diffuse_sets(&gpu.limits, config)
     }
 
     /// The slot's earlier work is complete: its sets and its framebuffer can go.

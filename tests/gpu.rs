@@ -63,6 +63,8 @@ mod sea;
 mod settings;
 #[path = "gpu/shading.rs"]
 mod shading;
+#[path = "gpu/shape.rs"]
+mod shape;
 #[path = "gpu/sheets/mod.rs"]
 mod sheets;
 #[path = "gpu/shore/mod.rs"]

@@ -9,11 +9,9 @@ struct GenerateCounts {
     uint lost;   // for want of slots, in all
 };
 
-// A particle of the fluid, as the grid has it: what is of it, and its number in the step.
-struct Place {
-    vec3 position;
-    uint id;
-};
+#include "place.glsl"
+
+// And its number in the step.
 struct Motion {
     vec3 velocity;
     uint number;

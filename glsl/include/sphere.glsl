@@ -15,17 +15,21 @@ bool sphere_bounds(vec3 centre, float radius, out vec4 bounds) {
     return true;
 }
 
-// Eye depth of the nearest point of the sphere on the ray (slope, -1); EMPTY when missed or in
-// front of the near plane (the far root is never taken). The discriminant is that of the distance
+// How many times the ray w the nearest point of the sphere on it is away; EMPTY when missed or nearer than
+// `near` (the far root is never taken). The discriminant is that of the distance
 // between centre and ray: the textbook one loses half a radius to rounding at 1000 radii.
-float sphere_hit(vec2 slope, vec3 centre, float radius, float near) {
-    vec3 w = vec3(slope, -1.0);
+float ray_hit(vec3 w, vec3 centre, float radius, float near) {
     float inverse = 1.0 / dot(w, w);
     float along = dot(w, centre) * inverse;
     vec3 off = centre - w * along;
     float left = radius * radius - dot(off, off);
     float t = along - sqrt(max(left, 0.0) * inverse);
     return left < 0.0 || t < near ? EMPTY : t;
+}
+
+// Eye depth of the nearest point of the sphere on the ray (slope, -1).
+float sphere_hit(vec2 slope, vec3 centre, float radius, float near) {
+    return ray_hit(vec3(slope, -1.0), centre, radius, near);
 }
 
 // Slope bounds to pixel bounds (min xy, max xy) of an image.

@@ -1,10 +1,11 @@
 #version 460
-// Pass `back`, second part: exact depth of the spheres behind the boundary, one sample a texel.
+// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample a texel.
 // Not in the source; the hit is that of pass `depth`.
 // Reads: Counts, visible, boundaries, blocks, levels. Writes: back bits.
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 #include "level.glsl"
 #include "sheets.glsl"
@@ -21,14 +22,14 @@ layout(set = 0, binding = 4, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
-void splat(ivec2 texel, vec4 sphere, Level level) {
+void splat(ivec2 texel, Ellipsoid body, Level level) {
     int edge = int(level.texel.z);
     ivec2 pixel = min(texel * edge + (edge >> 1), ivec2(frame.extent.xy) - 1);
-    if (-sphere.z < boundary_at(pixel)) {
+    if (-body.sphere.z < boundary_at(pixel)) {
         return;
     }
     vec2 slope = ray_slope(vec2(texel) + 0.5, level.slope);
-    float depth = sphere_hit(slope, sphere.xyz, sphere.w, frame.depth.z);
+    float depth = ellipsoid_hit(slope, body, frame.depth.z);
     if (depth < EMPTY) {
         uint bits = floatBitsToUint(depth);
         if (bits < imageLoad(back_bits, texel).x) {
@@ -37,14 +38,14 @@ void splat(ivec2 texel, vec4 sphere, Level level) {
     }
 }
 
-ivec4 span(vec4 sphere, Level level) {
+ivec4 span(Ellipsoid body, Level level) {
     vec4 slopes;
-    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    ellipsoid_bounds(body, slopes);
     return pixel_span(pixel_bounds(slopes, level.slope), vec2(level.rect.zw));
 }
 
 // The part of a box of texels in whose blocks a sphere may be of a back sheet.
-ivec4 behind_boundary(vec4 sphere, ivec4 box, int edge) {
+ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     // By the middle of each texel.
     ivec2 most = ivec2(frame.extent.xy) - 1;
@@ -53,7 +54,7 @@ ivec4 behind_boundary(vec4 sphere, ivec4 box, int edge) {
     // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
-            if (-sphere.z >= blocks[y * columns + x]) {
+            if (-body.sphere.z >= blocks[y * columns + x]) {
                 part = ivec4(min(part.xy, ivec2(x, y)), max(part.zw, ivec2(x, y)));
             }
         }
@@ -71,30 +72,30 @@ void main() {
         if (index >= counts.small) {
             return;
         }
-        vec4 sphere = visible[index];
-        ivec4 box = span(sphere, level);
+        Ellipsoid body = ellipsoid_in(visible, index);
+        ivec4 box = span(body, level);
         if (box.x > box.z || box.y > box.w) {
             return;
         }
-        box = behind_boundary(sphere, box, int(level.texel.z));
+        box = behind_boundary(body, box, int(level.texel.z));
         if (box.x > box.z || box.y > box.w) {
             return;
         }
         // One loop, its condition last: see thickness.comp.
         ivec2 p = box.xy;
         do {
-            splat(p, sphere, level);
+            splat(p, body, level);
             p = p.x < box.z ? ivec2(p.x + 1, p.y) : ivec2(box.x, p.y + 1);
         } while (p.y <= box.w);
         return;
     }
     for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
-        vec4 sphere = visible[push.capacity - 1u - i];
-        ivec4 box = span(sphere, level);
+        Ellipsoid body = ellipsoid_in(visible, push.capacity - 1u - i);
+        ivec4 box = span(body, level);
         ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
         for (int y = box.y + lane.y; y <= box.w; y += 8) {
             for (int x = box.x + lane.x; x <= box.z; x += 8) {
-                splat(ivec2(x, y), sphere, level);
+                splat(ivec2(x, y), body, level);
             }
         }
     }

@@ -2,11 +2,12 @@
 // Pass `cull`: the border. Drops NaN and infinite particles, sets spray aside, tests the rest
 // against the frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the
 // survivors in eye space: small sprites from the front of the list, large ones from its back.
-// Reads: positions, densities, packets. Writes: Counts, visible, members.
+// Reads: positions, of ellipsoids with their shapes, densities, packets. Writes: Counts, visible, members.
 
 #include "frame.glsl"
 #include "frustum.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 #include "density.glsl"
 
@@ -18,7 +19,7 @@ layout(constant_id = 1) const uint FOAM = 0;
 // 1: passes go over the host's particles again, and ask which are in packets.
 layout(constant_id = 2) const uint MEMBERS = 0;
 
-layout(set = 0, binding = 1, std430) readonly buffer Positions { float positions[]; };
+layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Densities { float densities[]; };
 layout(set = 0, binding = 3, std430) readonly buffer HostPackets { uint packets[]; };
 layout(set = 0, binding = 4, std430) buffer CountBuffer { Counts counts; };
@@ -56,8 +57,42 @@ const uint LARGE = 2u;
 // Less water than this is none.
 const float LEAST_SHARE = 1.0 / 256.0;
 
-uint classify(uint index, out vec4 sphere, out float share) {
+// What pass `shape` left behind a position, turned to eye space.
+vec4 seen_shape(uint at) {
+    mat3 axes = unpack_axes(uvec3(positions[at], positions[at + 1u], positions[at + 2u]));
+    mat3 turn = mat3(frame.view);
+    return vec4(uintBitsToFloat(pack_axes(turn * axes * transpose(turn))), 0.0);
+}
+
+// Small or large by what of an ellipsoid is on the screen: itself, and the sprite of its thickness.
+uint classify_ellipsoid(Ellipsoid body) {
+    vec3 centre = body.sphere.xyz;
+    float times = frame.particle.z / frame.particle.x;
+    // The sprite lies in the plane of the centre, sheared along the ray.
+    float reach = times * body.sphere.w * ellipsoid_reach(body);
+    if (!in_frustum(centre, reach * max(length(centre) / max(-centre.z, frame.depth.z), 1.0))) {
+        return NONE;
+    }
+    vec4 slopes;
+    if (!ellipsoid_bounds(body, slopes) || -centre.z <= frame.depth.z) {
+        return LARGE;
+    }
+    Disc disc = ellipsoid_disc(body, times, frame.thick_slope);
+    vec4 sprite = vec4(centre.xy - disc.reach, centre.xy + disc.reach) / -centre.z;
+    vec4 own = pixel_bounds(slopes, frame.slope);
+    vec4 wide = pixel_bounds(sprite, frame.slope);
+    vec2 size = max(own.zw - own.xy, wide.zw - wide.xy);
+    bool small = max(size.x, size.y) <= push.small_limit;
+    if (push.small_inside == 1u) {
+        vec4 middles = 0.5 * vec4(own.xy + own.zw, wide.xy + wide.zw);
+        small = small && all(greaterThan(middles, vec4(0.0))) && all(lessThan(middles, frame.extent.xyxy));
+    }
+    return small ? SMALL : LARGE;
+}
+
+uint classify(uint index, out vec4 sphere, out vec4 shape, out float share) {
     sphere = vec4(0.0);
+    shape = vec4(0.0);
     share = 1.0;
     if (FOAM == 1u && push.foam_stride > 0u) {
         float foam = amounts[push.foam_word + index * push.foam_stride];
@@ -65,7 +100,7 @@ uint classify(uint index, out vec4 sphere, out float share) {
         share = foam > 0.0 ? 1.0 - min(foam, 1.0) : 1.0;
     }
     uint at = push.position_word + index * push.position_stride;
-    vec3 position = vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+    vec3 position = uintBitsToFloat(uvec3(positions[at], positions[at + 1u], positions[at + 2u]));
     // Comparisons with NaN are false.
     if (!(all(lessThan(abs(position), vec3(1.0e18))))) {
         atomicAdd(counts.dropped, 1u);
@@ -88,6 +123,10 @@ uint classify(uint index, out vec4 sphere, out float share) {
     if (share < LEAST_SHARE) {
         return NONE;
     }
+    if (ELLIPSOIDS == 1u) {
+        shape = seen_shape(at + 3u);
+        return classify_ellipsoid(ellipsoid_of(vec4(centre, radius), shape));
+    }
     // The thickness sprite is the wider one: its half-axis bounds both.
     float reach = radius * frame.particle.z / frame.particle.x;
     if (!in_frustum(centre, reach)) {
@@ -107,7 +146,7 @@ uint classify(uint index, out vec4 sphere, out float share) {
     return small ? SMALL : LARGE;
 }
 
-void append(uint kind, vec4 sphere, float share) {
+void append(uint kind, vec4 sphere, vec4 shape, float share) {
     uint local = gl_LocalInvocationIndex;
     if (local == 0u) {
         group_small = 0u;
@@ -129,7 +168,10 @@ void append(uint kind, vec4 sphere, float share) {
     barrier();
     if (kind != NONE) {
         uint at = kind == SMALL ? first_small + slot : push.capacity - 1u - first_large - slot;
-        visible[at] = sphere;
+        visible[ENTRIES * at] = sphere;
+        if (ELLIPSOIDS == 1u) {
+            visible[ENTRIES * at + 1u] = shape;
+        }
         if (FOAM == 1u) {
             shares[at] = share;
         }
@@ -152,11 +194,12 @@ void enter(Packet packet) {
 void main() {
     uint here = counts.particles;
     vec4 sphere = vec4(0.0);
+    vec4 shape = vec4(0.0);
     float share = 1.0;
     if (PACKETS == 0u) {
         uint index = gl_GlobalInvocationID.x;
-        uint kind = index < here ? classify(index, sphere, share) : NONE;
-        append(kind, sphere, share);
+        uint kind = index < here ? classify(index, sphere, shape, share) : NONE;
+        append(kind, sphere, shape, share);
         return;
     }
     Packet packet = packet_at(gl_WorkGroupID.x, push.chunk_first, here);
@@ -170,7 +213,7 @@ void main() {
     }
     for (uint i = packet.first; i < packet.past; i += gl_WorkGroupSize.x) {
         uint index = i + gl_LocalInvocationIndex;
-        uint kind = index < packet.past ? classify(index, sphere, share) : NONE;
-        append(kind, sphere, share);
+        uint kind = index < packet.past ? classify(index, sphere, shape, share) : NONE;
+        append(kind, sphere, shape, share);
     }
 }

@@ -1,11 +1,12 @@
 #version 460
-// Pass `depth`, compute path: exact sphere depth (thesis Sec. 4.6.1, with the ray's true hit in
+// Pass `depth`, compute path: exact depth of spheres or ellipsoids (thesis Sec. 4.6.1, with the ray's true hit in
 // place of the billboard's offset). Positive floats order as their bits do, so the nearest one is
 // an integer atomic.
 // Reads: Counts, visible. Writes: depth bits (nearest eye depth, EMPTY elsewhere).
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 
 layout(local_size_x = 64) in;
@@ -18,9 +19,9 @@ layout(set = 0, binding = 3, r32ui) uniform uimage2D depth_bits;
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
-void splat(ivec2 pixel, vec4 sphere) {
+void splat(ivec2 pixel, Ellipsoid body) {
     vec2 slope = ray_slope(vec2(pixel) + 0.5, frame.slope);
-    float depth = sphere_hit(slope, sphere.xyz, sphere.w, frame.depth.z);
+    float depth = ellipsoid_hit(slope, body, frame.depth.z);
     if (depth < EMPTY) {
         uint bits = floatBitsToUint(depth);
         // Most sprites lose: a read is cheaper than an atomic.
@@ -30,9 +31,9 @@ void splat(ivec2 pixel, vec4 sphere) {
     }
 }
 
-ivec4 span(vec4 sphere) {
+ivec4 span(Ellipsoid body) {
     vec4 slopes;
-    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    ellipsoid_bounds(body, slopes);
     return pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
 }
 
@@ -42,22 +43,22 @@ void main() {
         if (index >= counts.small) {
             return;
         }
-        vec4 sphere = visible[index];
-        ivec4 box = span(sphere);
+        Ellipsoid body = ellipsoid_in(visible, index);
+        ivec4 box = span(body);
         for (int y = box.y; y <= box.w; ++y) {
             for (int x = box.x; x <= box.z; ++x) {
-                splat(ivec2(x, y), sphere);
+                splat(ivec2(x, y), body);
             }
         }
         return;
     }
     for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
-        vec4 sphere = visible[push.capacity - 1u - i];
-        ivec4 box = span(sphere);
+        Ellipsoid body = ellipsoid_in(visible, push.capacity - 1u - i);
+        ivec4 box = span(body);
         ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
         for (int y = box.y + lane.y; y <= box.w; y += 8) {
             for (int x = box.x + lane.x; x <= box.z; x += 8) {
-                splat(ivec2(x, y), sphere);
+                splat(ivec2(x, y), body);
             }
         }
     }

@@ -5,13 +5,19 @@
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 
 layout(location = 0) flat in vec4 sphere;
+layout(location = 1) flat in vec3 diagonal;
+layout(location = 2) flat in vec3 off;
 layout(location = 0) out float depth;
 
 void main() {
-    vec2 slope = ray_slope(gl_FragCoord.xy, frame.slope);
-    depth = sphere_hit(slope, sphere.xyz, sphere.w, frame.depth.z);
+    vec3 ray = vec3(ray_slope(gl_FragCoord.xy, frame.slope), -1.0);
+    if (ELLIPSOIDS == 1u) {
+        ray = diagonal * ray + off.zzy * ray.yxx + off.yxx * ray.zzy;
+    }
+    depth = ray_hit(ray, sphere.xyz, sphere.w, frame.depth.z);
     if (depth >= EMPTY) {
         discard;
     }

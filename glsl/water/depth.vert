@@ -1,10 +1,11 @@
 #version 460
-// Pass `depth`, raster path: one sprite a sphere, as a point where it fits, else as a quad (thesis Sec. 4.5,
+// Pass `depth`, raster path: one sprite a sphere or ellipsoid, as a point where it fits, else as a quad (thesis Sec. 4.5,
 // 4.6.1, Listing A.8: points alone). The footprint is conservative; the hit test alone decides coverage.
 // Reads: visible. Writes: the sprite's corners.
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 
 // 0: points from the front of the list. 1: quads from its back.
 layout(constant_id = 0) const uint QUADS = 0;
@@ -13,12 +14,18 @@ layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; }
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
 layout(location = 0) flat out vec4 sphere;
+// Of ellipsoids what takes the ray to where that sphere is: xx, yy, zz; yz, xz, xy.
+layout(location = 1) flat out vec3 diagonal;
+layout(location = 2) flat out vec3 off;
 
 void main() {
     uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
-    sphere = visible[index];
+    Ellipsoid body = ellipsoid_in(visible, index);
+    sphere = vec4(body.centre, body.sphere.w);
+    diagonal = vec3(body.inverse[0].x, body.inverse[1].y, body.inverse[2].z);
+    off = vec3(body.inverse[2].y, body.inverse[2].x, body.inverse[1].x);
     vec4 slopes;
-    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    ellipsoid_bounds(body, slopes);
     vec4 pixels = pixel_bounds(slopes, frame.slope);
     // Sub-pixel snapping (1/16 at worst) must not cut the footprint.
     pixels += vec4(-0.125, -0.125, 0.125, 0.125);

@@ -5,6 +5,7 @@
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 
 layout(local_size_x = 64) in;
@@ -24,9 +25,9 @@ layout(push_constant, std430) uniform Push {
 shared uint group_count;
 shared uint group_first;
 
-bool can_show(vec4 sphere) {
+bool can_show(Ellipsoid body) {
     vec4 slopes;
-    sphere_bounds(sphere.xyz, sphere.w, slopes);
+    ellipsoid_bounds(body, slopes);
     ivec4 span = pixel_span(pixel_bounds(slopes, frame.slope), frame.extent.xy);
     if (span.z < span.x || span.w < span.y) {
         return false;
@@ -36,7 +37,7 @@ bool can_show(vec4 sphere) {
     if (touched.z - touched.x > 7 || touched.w - touched.y > 7) {
         return true;
     }
-    uint near = floatBitsToUint(max(-sphere.z - sphere.w, frame.depth.z));
+    uint near = floatBitsToUint(max(ellipsoid_nearest(body), frame.depth.z));
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (near < cells[uint(y * push.columns + x)]) {
@@ -47,13 +48,17 @@ bool can_show(vec4 sphere) {
     return false;
 }
 
+void copy(uint from, uint to) {
+    for (uint i = 0u; i < ENTRIES; ++i) {
+        front[ENTRIES * to + i] = visible[ENTRIES * from + i];
+    }
+}
+
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    vec4 sphere = vec4(0.0);
     bool keep = false;
     if (index < counts.small) {
-        sphere = visible[index];
-        keep = can_show(sphere);
+        keep = can_show(ellipsoid_in(visible, index));
     }
     if (gl_LocalInvocationIndex == 0u) {
         group_count = 0u;
@@ -66,7 +71,7 @@ void main() {
     }
     barrier();
     if (keep) {
-        front[group_first + slot] = sphere;
+        copy(index, group_first + slot);
     }
     // Large sprites are few: they are copied.
     uint large = counts.large;
@@ -74,6 +79,6 @@ void main() {
         front_counts.large = large;
     }
     for (uint i = index; i < large; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
-        front[push.capacity - 1u - i] = visible[push.capacity - 1u - i];
+        copy(push.capacity - 1u - i, push.capacity - 1u - i);
     }
 }

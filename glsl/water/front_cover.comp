@@ -1,12 +1,13 @@
 #version 460
 // Pass `front`, first part: for each cell of 4x4 pixels the depth behind which nothing shows,
 // because one sphere covers all of it. Each small sprite tries the four cells nearest its centre.
-// The part of a sphere's front before some depth has a convex outline, so that the farthest point
+// The part of a convex body's front before some depth has a convex outline, so that the farthest point
 // over a cell is at one of its corners. Not in the source.
 // Reads: Counts, visible. Writes: cells (bits of the depth; EMPTY where none covers).
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 
 layout(local_size_x = 64) in;
@@ -26,9 +27,10 @@ void main() {
     if (index >= counts.small) {
         return;
     }
-    vec4 sphere = visible[index];
+    Ellipsoid body = ellipsoid_in(visible, index);
+    vec4 sphere = body.sphere;
     // Too small to cover a cell (its half diagonal is 2.83 pixels).
-    if (sphere.w * 2.9 < 8.0 * frame.texel.x * -sphere.z) {
+    if (ellipsoid_reach(body) * sphere.w * 2.9 < 8.0 * frame.texel.x * -sphere.z) {
         return;
     }
     vec2 middle = (sphere.xy / -sphere.z - frame.slope.zw) / frame.slope.xy;
@@ -36,7 +38,7 @@ void main() {
     float hit[9];
     for (int i = 0; i < 9; ++i) {
         vec2 corner = vec2(first + ivec2(i % 3, i / 3)) * 4.0;
-        hit[i] = sphere_hit(ray_slope(corner, frame.slope), sphere.xyz, sphere.w, frame.depth.z);
+        hit[i] = ellipsoid_hit(ray_slope(corner, frame.slope), body, frame.depth.z);
     }
     for (int i = 0; i < 4; ++i) {
         ivec2 cell = first + ivec2(i & 1, i >> 1);

@@ -1,11 +1,12 @@
 #version 460
 // Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then which slices
-// of depth behind it hold water. The spheres' whole footprints: a cell without air is closed by
+// of depth behind it hold water. The spheres' whole footprints, of ellipsoids too: a cell without air is closed by
 // what lies beside its pixels too. Not in the source (its limitation, Fig. 5.13).
 // Reads: Counts, visible, nearest. Writes: nearest (1), marks (2).
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 #include "gaps.glsl"
 
@@ -61,7 +62,7 @@ void main() {
         if (index >= counts.small) {
             return;
         }
-        vec4 sphere = visible[index];
+        vec4 sphere = visible[ENTRIES * index];
         ivec4 box = touched(sphere);
         if (box.z < box.x) {
             return;
@@ -75,7 +76,7 @@ void main() {
         return;
     }
     for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
-        vec4 sphere = visible[push.capacity - 1u - i];
+        vec4 sphere = visible[ENTRIES * (push.capacity - 1u - i)];
         ivec4 box = touched(sphere);
         ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
         for (int y = box.y + lane.y; y <= box.w; y += 8) {

@@ -10,6 +10,7 @@
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "counts.glsl"
 #include "kernel.glsl"
 #include "sheets.glsl"
@@ -38,12 +39,14 @@ layout(set = 0, binding = 8, std430) readonly buffer FoamWords { uint foam_words
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
-// A sphere at its particle's full size, and the share of it that is water.
-vec4 whole(uint index, out float share) {
-    vec4 sphere = visible[index];
-    share = FOAM == 1u ? shares[index] : 1.0;
-    return vec4(sphere.xyz, FOAM == 1u ? sphere.w / share : sphere.w);
-}
+// What is splatted of a particle.
+struct Sprite {
+    vec3 centre;
+    vec3 conic;  // rho^2 of ellipsoids
+    vec2 reach;  // half of the box round it, in the plane of the centre
+    float inverse_axis; // of spheres
+    float scale; // units
+};
 
 // A smaller sprite holds the same volume.
 float units(float radius) {
@@ -51,10 +54,32 @@ float units(float radius) {
     return UNITS * grown * grown;
 }
 
+// At its particle's full size, by the share of it that is water.
+Sprite sprite_of(uint index) {
+    Ellipsoid body = ellipsoid_in(visible, index);
+    float water = FOAM == 1u ? shares[index] : 1.0;
+    body.sphere.w = FOAM == 1u ? body.sphere.w / water : body.sphere.w;
+    float times = frame.particle.z / frame.particle.x;
+    Sprite sprite = Sprite(body.sphere.xyz, vec3(0.0), vec2(0.0), 0.0, 0.0);
+    if (ELLIPSOIDS == 1u) {
+        Disc disc = ellipsoid_disc(body, times, frame.thick_slope);
+        sprite.conic = disc.conic;
+        sprite.reach = disc.reach;
+        sprite.scale = water * UNITS * frame.particle.z * frame.particle.z / disc.area;
+        return sprite;
+    }
+    float widened;
+    float axis = drawn_axis(times * body.sphere.w, -body.sphere.z, frame.thick_slope, widened);
+    sprite.reach = vec2(axis);
+    sprite.inverse_axis = 1.0 / axis;
+    sprite.scale = water * units(body.sphere.w) / widened;
+    return sprite;
+}
+
 // Bounds of the disc in the plane of the centre: exact, it is parallel to the image.
-ivec4 span(vec4 sphere, float axis) {
-    float inverse = 1.0 / -sphere.z;
-    vec4 slopes = vec4(sphere.xy - axis, sphere.xy + axis) * inverse;
+ivec4 span(Sprite sprite) {
+    float inverse = 1.0 / -sprite.centre.z;
+    vec4 slopes = vec4(sprite.centre.xy - sprite.reach, sprite.centre.xy + sprite.reach) * inverse;
     return pixel_span(pixel_bounds(slopes, frame.thick_slope), frame.thick_extent.xy);
 }
 
@@ -75,9 +100,10 @@ void add(uint at, float amount, uint other, float more) {
     } while (units > 0u);
 }
 
-void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
+void splat(ivec2 texel, Sprite sprite) {
     vec2 slope = ray_slope(vec2(texel) + 0.5, frame.thick_slope);
-    float rho2 = thickness_rho2(slope, sphere.xyz, inverse_axis);
+    float rho2 = ELLIPSOIDS == 1u ? disc_rho2(slope, sprite.centre, sprite.conic)
+                                  : thickness_rho2(slope, sprite.centre, sprite.inverse_axis);
     if (rho2 > 1.0) {
         return;
     }
@@ -93,24 +119,24 @@ void splat(ivec2 texel, vec4 sphere, float inverse_axis, float scale) {
     } else {
         scene = eye_depth(texelFetch(scene_depth, scene_texel((vec2(texel) + 0.5) * frame.thick_extent.z), 0).x);
     }
-    if (scene > 0.0 && -sphere.z >= scene) {
+    if (scene > 0.0 && -sprite.centre.z >= scene) {
         return;
     }
-    float amount = thickness_kernel(rho2) * scale;
+    float amount = thickness_kernel(rho2) * sprite.scale;
     uint texels = uint(frame.thick_extent.x) * uint(frame.thick_extent.y);
     if (APART == 0u) {
-        add(at, amount, at + texels, foam < EMPTY ? amount * share_before(-sphere.z, foam) : 0.0);
+        add(at, amount, at + texels, foam < EMPTY ? amount * share_before(-sprite.centre.z, foam) : 0.0);
         return;
     }
     float boundary = boundaries[at];
     if (boundary < EMPTY) {
-        vec3 parts = sheet_shares(-sphere.z, boundary);
+        vec3 parts = sheet_shares(-sprite.centre.z, boundary);
         add(at + (1u + FOAM) * texels, amount * parts.x, at + (2u + FOAM) * texels, amount * parts.z);
     }
 }
 
 // The part of a box of texels in whose blocks a sphere may add to a front sheet or a window.
-ivec4 before_boundary(vec4 sphere, ivec4 box) {
+ivec4 before_boundary(Sprite sprite, ivec4 box) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
     int bits = BLOCK_BITS - findMSB(int(frame.thick_extent.z)); // of the texels of a block
     ivec4 touched = box >> bits;
@@ -118,7 +144,7 @@ ivec4 before_boundary(vec4 sphere, ivec4 box) {
     // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
-            if (-sphere.z < blocks[y * columns + x] + frame.particle.y) {
+            if (-sprite.centre.z < blocks[y * columns + x] + frame.particle.y) {
                 part = ivec4(min(part.xy, ivec2(x, y)), max(part.zw, ivec2(x, y)));
             }
         }
@@ -128,27 +154,22 @@ ivec4 before_boundary(vec4 sphere, ivec4 box) {
 }
 
 void main() {
-    float share = frame.particle.z / frame.particle.x;
     if (LARGE == 0u) {
         uint index = gl_GlobalInvocationID.x;
         if (index >= counts.small) {
             return;
         }
-        float water;
-        vec4 sphere = whole(index, water);
+        Sprite sprite = sprite_of(index);
         // A centre behind the near plane has no sprite.
-        if (-sphere.z <= frame.depth.z) {
+        if (-sprite.centre.z <= frame.depth.z) {
             return;
         }
-        float widened;
-        float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
-        float scale = water * units(sphere.w) / widened;
-        ivec4 box = span(sphere, axis);
+        ivec4 box = span(sprite);
         if (box.x > box.z || box.y > box.w) {
             return;
         }
         if (APART == 1u) {
-            box = before_boundary(sphere, box);
+            box = before_boundary(sprite, box);
             if (box.x > box.z || box.y > box.w) {
                 return;
             }
@@ -157,25 +178,21 @@ void main() {
         // one with the most pixels once, not once a row, and none runs an empty round.
         ivec2 p = box.xy;
         do {
-            splat(p, sphere, 1.0 / axis, scale);
+            splat(p, sprite);
             p = p.x < box.z ? ivec2(p.x + 1, p.y) : ivec2(box.x, p.y + 1);
         } while (p.y <= box.w);
         return;
     }
     for (uint i = gl_WorkGroupID.x; i < counts.large; i += gl_NumWorkGroups.x) {
-        float water;
-        vec4 sphere = whole(push.capacity - 1u - i, water);
-        if (-sphere.z <= frame.depth.z) {
+        Sprite sprite = sprite_of(push.capacity - 1u - i);
+        if (-sprite.centre.z <= frame.depth.z) {
             continue;
         }
-        float widened;
-        float axis = drawn_axis(share * sphere.w, -sphere.z, frame.thick_slope, widened);
-        float scale = water * units(sphere.w) / widened;
-        ivec4 box = span(sphere, axis);
+        ivec4 box = span(sprite);
         ivec2 lane = ivec2(gl_LocalInvocationIndex & 7u, gl_LocalInvocationIndex >> 3);
         for (int y = box.y + lane.y; y <= box.w; y += 8) {
             for (int x = box.x + lane.x; x <= box.z; x += 8) {
-                splat(ivec2(x, y), sphere, 1.0 / axis, scale);
+                splat(ivec2(x, y), sprite);
             }
         }
     }

@@ -4,6 +4,7 @@
 
 #include "frame.glsl"
 #include "sphere.glsl"
+#include "ellipsoid.glsl"
 #include "kernel.glsl"
 
 // 0: points from the front of the list. 1: quads from its back.
@@ -15,12 +16,14 @@ layout(set = 0, binding = 1, std430) readonly buffer Visible { vec4 visible[]; }
 layout(set = 0, binding = 6, std430) readonly buffer Shares { float shares[]; };
 layout(push_constant, std430) uniform Push { uint capacity; } push;
 
-layout(location = 0) flat out vec4 disc; // centre, 1 / half-axis
+layout(location = 0) flat out vec4 disc; // centre; of spheres 1 / half-axis
 layout(location = 1) flat out float amplitude;
+layout(location = 2) flat out vec3 conic; // of ellipsoids
 
 void main() {
     uint index = QUADS == 0u ? uint(gl_VertexIndex) : push.capacity - 1u - uint(gl_InstanceIndex);
-    vec4 sphere = visible[index];
+    Ellipsoid body = ellipsoid_in(visible, index);
+    vec4 sphere = body.sphere;
     float share = FOAM == 1u ? shares[index] : 1.0;
     // The sprite keeps its size.
     sphere.w = FOAM == 1u ? sphere.w / share : sphere.w;
@@ -30,7 +33,16 @@ void main() {
     // A smaller sprite holds the same volume.
     float grown = frame.particle.x / sphere.w;
     amplitude = share * frame.particle.w * grown * grown / widened;
-    vec4 slopes = vec4(sphere.xy - axis, sphere.xy + axis) / -sphere.z;
+    vec2 reach = vec2(axis);
+    conic = vec3(0.0);
+    if (ELLIPSOIDS == 1u) {
+        body.sphere.w = sphere.w;
+        Disc ellipse = ellipsoid_disc(body, frame.particle.z / frame.particle.x, frame.thick_slope);
+        conic = ellipse.conic;
+        reach = ellipse.reach;
+        amplitude = share * frame.particle.w * frame.particle.z * frame.particle.z / ellipse.area;
+    }
+    vec4 slopes = vec4(sphere.xy - reach, sphere.xy + reach) / -sphere.z;
     vec4 pixels = pixel_bounds(slopes, frame.thick_slope);
     pixels += vec4(-0.125, -0.125, 0.125, 0.125);
     pixels = clamp(pixels, vec4(-1.0), frame.thick_extent.xyxy + 1.0);

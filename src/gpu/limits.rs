@@ -7,7 +7,7 @@ use crate::contract::Config;
 use crate::error::Error;
 use crate::foam::Splat;
 use crate::water::coarsening;
-use crate::water::settings::{Shading, Smoothing};
+use crate::water::settings::{Kernels, Shading, Smoothing};
 
 /// A limit that a configuration needs.
 #[derive(Clone, Copy, Debug)]
@@ -130,6 +130,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
         "water" if of(&["noise"]) => config.noise.is_some(),
         "water" if of(&["motion"]) => config.motion,
         "water" if of(&["back", "gaps"]) => config.sheets > 1,
+        "water" if of(&["shape"]) => config.kernels == Kernels::Ellipsoids,
         "water" if of(&["level"]) => coarsening(config) > 0,
         "water" if of(&["smooth_fused"]) => {
             matches!(config.smoothing, None | Some(Smoothing::Fused))
@@ -146,7 +147,7 @@ fn uses(config: &Config, int64_atomics: bool, file: &str) -> bool {
         "bubbles" if of(&["heap"]) => false, // a `Heap`'s
         "bubbles" if of(&["near"]) => config.bubbles.is_some_and(|own| own.hand_over),
         "bubbles" => config.bubbles.is_some(),
-        "gpu" => config.bubbles.is_some(),
+        "gpu" => config.bubbles.is_some() || config.kernels == Kernels::Ellipsoids,
         "shore" if of(&["map"]) => false, // a `ShoreMap`'s
         "shore" => config.shore.is_some(),
         // A `Generator`'s, and the stand-in scene's.

@@ -12,7 +12,9 @@ use crate::foam::splat::word_bytes;
 use crate::gpu::{limits, loaded};
 use crate::shore::bytes_bound as shore_bytes;
 use crate::water::settings::{Gate, Shading, Smoothing, Splat};
-use crate::water::{DEFAULT_SPLAT, foam_bytes, smoothing_extent, thickness_bytes, water_bytes};
+use crate::water::{
+    DEFAULT_SPLAT, foam_bytes, shape_bytes, smoothing_extent, thickness_bytes, water_bytes,
+};
 
 pub use limits::Limit;
 
@@ -316,6 +318,15 @@ impl Offer {
                 );
                 return Err(Error::bad(field, why));
             }
+        }
+        let shapes = shape_bytes(config);
+        if shapes > range {
+            let why = format!(
+                "the ellipsoids of {} particles take {shapes} bytes, over the {range} that the device binds at once: \
+                 fewer particles, or Kernels::Spheres",
+                config.max_particles
+            );
+            return Err(Error::bad("Config.max_particles", why));
         }
         let most = self.largest();
         let over = |extent: vk::Extent2D| extent.width > most.width || extent.height > most.height;

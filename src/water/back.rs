@@ -9,7 +9,6 @@
 
 use ash::vk;
 
-use super::Recording;
 use super::cull::SphereList;
 use super::depth::dispatch_sprites;
 use super::gaps::{blocks_buffer, dispatch_blocks};
@@ -17,6 +16,7 @@ use super::level::{Level, coarsening};
 use super::reduce::{PLAN_AFTER, rule_constant};
 use super::smooth::Smooth;
 use super::tiles::{TILE, Tiles};
+use super::{Recording, shape};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::reduced;
@@ -56,11 +56,15 @@ pub struct Into<'a> {
 impl Back {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let rule = [(1, rule_constant(config.rule))];
+        let splat = |large| {
+            let constants = [(0, large), shape::constant(config)];
+            Pipeline::compute(gpu, shader::WATER_BACK_COMP, &constants)
+        };
         Ok(Self {
             nearest: Pipeline::compute(gpu, shader::WATER_GAPS_BLOCKS_COMP, &[(0, 1)])?,
             begin: Pipeline::compute(gpu, shader::WATER_BACK_BEGIN_COMP, &[])?,
-            small: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 0)])?,
-            large: Pipeline::compute(gpu, shader::WATER_BACK_COMP, &[(0, 1)])?,
+            small: splat(0)?,
+            large: splat(1)?,
             plan: Pipeline::compute(gpu, shader::WATER_BACK_PLAN_COMP, &rule)?,
             image: Self::image(gpu, config)?,
             level: config.smoothing_level + 1,

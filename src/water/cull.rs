@@ -13,7 +13,7 @@ use ash::vk;
 use bytemuck::{NoUninit, Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
-use super::Recording;
+use super::{Recording, shape};
 use crate::contract::{Config, Count, Particles, Stream};
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -125,12 +125,18 @@ pub fn chunks(limits: &vk::PhysicalDeviceLimits, config: &Config) -> (u32, u32) 
         (false, true) => super::spray::SPRITE as u32,
         (false, false) => 16,
     };
+    let own = own.max(entry_bytes(config));
     let fits = (range / u64::from(config.max_stride.max(own))).min(u64::from(MOST_CHUNK)) as u32;
     let unit = chunk_unit(config);
     // More than fit is not asked for, nor rounded up beyond what is a number.
     let wanted = config.max_particles.clamp(1, fits.max(1)).next_multiple_of(unit);
     let size = wanted.min(fits - fits % unit).max(unit);
     (size, config.max_particles.max(1).div_ceil(size))
+}
+
+/// Bytes of a particle in a list: its sphere, and its shape where it is an ellipsoid.
+fn entry_bytes(config: &Config) -> u32 {
+    if shape::is_on(config) { 32 } else { 16 }
 }
 
 /// Whether passes after `cull` go over the host's particles again.
@@ -150,8 +156,8 @@ pub const LIST_USE: Access = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
 pub struct SphereList {
     /// `Counts` of every chunk.
     pub counts: Buffer,
-    /// Centre and radius of each sphere: small sprites from the front of each chunk's part, large
-    /// ones from its back.
+    /// Centre and radius of each sphere, behind that of an ellipsoid its shape (glsl/include/ellipsoid.glsl): small
+    /// sprites from the front of each chunk's part, large ones from its back.
     pub spheres: Buffer,
     /// The share of its particle that each is, where others are foam.
     pub shares: Option<Buffer>,
@@ -159,6 +165,8 @@ pub struct SphereList {
     pub members: Option<Buffer>,
     pub chunk_size: u32,
     pub chunks: u32,
+    /// Bytes of an entry.
+    entry: u32,
 }
 
 /// One chunk's part of a list.
@@ -196,7 +204,7 @@ impl SphereList {
             spheres: Buffer::new(
                 gpu,
                 &format!("{name}/spheres"),
-                16 * u64::from(chunks) * u64::from(chunk_size),
+                u64::from(entry_bytes(config)) * u64::from(chunks) * u64::from(chunk_size),
                 storage,
                 MemoryLocation::GpuOnly,
             )?,
@@ -204,6 +212,7 @@ impl SphereList {
             members: None,
             chunk_size,
             chunks,
+            entry: entry_bytes(config),
         })
     }
 
@@ -238,11 +247,12 @@ impl SphereList {
 
     /// One chunk.
     pub fn chunk(&self, index: u32) -> Chunk {
-        let bytes = 16 * u64::from(self.chunk_size);
-        let spheres = Resource::Buffer(self.spheres.handle, bytes * u64::from(index), bytes);
-        let shares = self.shares.as_ref().map_or(spheres, |shares| {
-            Resource::Buffer(shares.handle, bytes / 4 * u64::from(index), bytes / 4)
-        });
+        let part = |buffer: &Buffer, each: u32| {
+            let bytes = u64::from(each) * u64::from(self.chunk_size);
+            Resource::Buffer(buffer.handle, bytes * u64::from(index), bytes)
+        };
+        let spheres = part(&self.spheres, self.entry);
+        let shares = self.shares.as_ref().map_or(spheres, |shares| part(shares, 4));
         let members = self.members.as_ref().map_or(spheres, |members| {
             let bytes = member_bytes(self.chunk_size);
             Resource::Buffer(members.handle, bytes * u64::from(index), bytes)
@@ -283,7 +293,7 @@ impl Cull {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let (foam, again) = (u32::from(config.foam), u32::from(goes_over_particles(config)));
         let each = |packets| {
-            let constants = [(0, packets), (1, foam), (2, again)];
+            let constants = [(0, packets), (1, foam), (2, again), shape::constant(config)];
             Pipeline::compute(gpu, shader::WATER_CULL_COMP, &constants)
         };
         Ok(Self {
@@ -383,7 +393,7 @@ impl Cull {
             gpu.barriers(cmd, &[], &[buffer(members.handle, CLEAR, COMPUTE_READ_WRITE)]);
         }
 
-        let most = self.most(particles);
+        let most = most(particles, self.max_particles);
         let (count, from_gpu, host_count) = match particles.count {
             Count::Cpu(count) => (count.min(most), false, Resource::buffer(&list.counts)),
             Count::Gpu { buffer, offset } => (most, true, Resource::Buffer(buffer, offset, 4)),
@@ -413,11 +423,6 @@ impl Cull {
         gpu.barriers(cmd, &[], &written.chain(entered).collect::<Vec<_>>());
         r.end(scope);
         Ok(())
-    }
-
-    /// Particles of which every stream holds the value.
-    fn most(&self, particles: &Particles) -> u32 {
-        streams(particles).map(capacity).fold(self.max_particles, u32::min)
     }
 
     fn record_chunk(
@@ -488,6 +493,11 @@ impl Cull {
         }
         Ok(())
     }
+}
+
+/// Particles of which every stream holds the value, at most so many.
+pub fn most(particles: &Particles, max_particles: u32) -> u32 {
+    streams(particles).map(capacity).fold(max_particles, u32::min)
 }
 
 /// Particles of which a stream holds the value, of so many bytes: the last one needs no more.

@@ -7,8 +7,8 @@
 
 use ash::vk;
 
-use super::Recording;
 use super::cull::{self, SphereList};
+use super::{Recording, shape};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::EMPTY;
@@ -54,10 +54,10 @@ pub fn sprites(
     fragment: shader::Shader,
     pass: vk::RenderPass,
     blend: &[vk::PipelineColorBlendAttachmentState],
-    foam: bool,
+    config: &Config,
 ) -> Result<(Pipeline, Pipeline), Error> {
     let make = |topology, quads| {
-        let constants = &[(0, quads), (9, u32::from(foam))];
+        let constants = &[(0, quads), (9, u32::from(config.foam)), shape::constant(config)];
         Pipeline::graphics(gpu, &Graphics { vertex, fragment, topology, pass, blend, constants })
     };
     Ok((
@@ -79,15 +79,18 @@ impl Depth {
                     shader::WATER_DEPTH_FRAG,
                     pass,
                     &[blend(vk::BlendOp::MIN)],
-                    false,
+                    config,
                 )?;
                 let framebuffer = gpu.framebuffer("water/depth", pass, image.view, image.extent)?;
                 Path::Raster { points, quads, pass, framebuffer }
             }
-            Splat::Compute => Path::Compute {
-                small: Pipeline::compute(gpu, shader::WATER_DEPTH_COMP, &[(0, 0)])?,
-                large: Pipeline::compute(gpu, shader::WATER_DEPTH_COMP, &[(0, 1)])?,
-            },
+            Splat::Compute => {
+                let make = |large| {
+                    let constants = [(0, large), shape::constant(config)];
+                    Pipeline::compute(gpu, shader::WATER_DEPTH_COMP, &constants)
+                };
+                Path::Compute { small: make(0)?, large: make(1)? }
+            }
         };
         Ok(Self { path, image })
     }

@@ -10,8 +10,8 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
-use super::Recording;
 use super::cull::{Cull, LIST_USE, SMALL_GROUPS, SphereList};
+use super::{Recording, shape};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -53,8 +53,12 @@ impl Front {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let (columns, rows, cells) = Self::cells(gpu, config)?;
         Ok(Self {
-            cover: Pipeline::compute(gpu, shader::WATER_FRONT_COVER_COMP, &[])?,
-            keep: Pipeline::compute(gpu, shader::WATER_FRONT_COMP, &[])?,
+            cover: Pipeline::compute(
+                gpu,
+                shader::WATER_FRONT_COVER_COMP,
+                &[shape::constant(config)],
+            )?,
+            keep: Pipeline::compute(gpu, shader::WATER_FRONT_COMP, &[shape::constant(config)])?,
             cells,
             columns,
             rows,

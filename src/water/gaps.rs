@@ -14,9 +14,9 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use gpu_allocator::MemoryLocation;
 
-use super::Recording;
 use super::cull::SphereList;
 use super::depth::dispatch_sprites;
+use super::{Recording, shape};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::{EMPTY, reduced};
@@ -96,8 +96,10 @@ impl Push {
 impl Gaps {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
         let make = |marks| {
-            let make =
-                |large| Pipeline::compute(gpu, shader::WATER_GAPS_COMP, &[(0, large), (1, marks)]);
+            let make = |large| {
+                let constants = [(0, large), (1, marks), shape::constant(config)];
+                Pipeline::compute(gpu, shader::WATER_GAPS_COMP, &constants)
+            };
             Ok::<_, Error>([make(0)?, make(1)?])
         };
         let [cells, found, spread_out, boundaries, blocks] = Self::sized(gpu, config)?;

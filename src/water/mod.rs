@@ -13,6 +13,7 @@ mod motion;
 mod noise;
 mod reduce;
 pub mod settings;
+mod shape;
 mod smooth;
 mod smooth_query;
 pub(crate) mod split;
@@ -47,10 +48,11 @@ pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use foam::word_bytes as foam_bytes;
 pub(crate) use level::{MOST_COARSENING, coarsening};
 pub use settings::{
-    Amplitude, Bed, Compositing, Convolution, Exit, FoamLook, FoamSettings, Fresnel, Gate, Ladder,
-    Medium, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing, Splat, SprayLook,
-    WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, FoamLook, FoamSettings, Fresnel,
+    Gate, Kernels, Ladder, Medium, NoiseLook, Rule, Shading, ShadowFilter, Shadows, Smoothing,
+    Splat, SprayLook, WaterSettings,
 };
+pub(crate) use shape::{bytes_bound as shape_bytes, sets as shape_sets};
 pub(crate) use thickness::sum_bytes as thickness_bytes;
 
 /// Size of the image that holds all levels of the smoothing.
@@ -167,6 +169,7 @@ impl Sheets {
 
 /// The technique: its passes in the order of the frame.
 pub(crate) struct Water {
+    shape: Option<shape::Shape>,
     cull: cull::Cull,
     front: front::Front,
     depth: depth::Depth,
@@ -185,7 +188,9 @@ pub(crate) struct Water {
 
 impl Water {
     pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        let shape = shape::is_on(config).then(|| shape::Shape::new(gpu, config)).transpose()?;
         Ok(Self {
+            shape,
             cull: cull::Cull::new(gpu, config)?,
             front: front::Front::new(gpu, config)?,
             depth: depth::Depth::new(gpu, config)?,
@@ -240,6 +245,7 @@ impl Water {
         &self,
         r: &mut Recording<'_>,
         particles: &Particles,
+        settings: &WaterSettings,
         beside: &Beside<'_>,
     ) -> Result<(), Error> {
         let Beside { light, diffuse, bubbles } = *beside;
@@ -253,7 +259,11 @@ impl Water {
             }
             bubbles.record_lists(r, blobs)?;
         }
-        self.cull.record(r, particles, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
+        let (ellipsoids, spacing) = (&settings.ellipsoids, settings.spacing);
+        let shaped = self.shape.as_ref().map(|own| own.record(r, particles, ellipsoids, spacing));
+        let shaped = shaped.transpose()?;
+        let drawn = shaped.as_ref().unwrap_or(particles);
+        self.cull.record(r, drawn, self.depth.point_limit(r.gpu), self.depth.uses_points())?;
         if let Some(light) = light {
             let diffuse = diffuse.as_ref().and_then(|(_, particles)| particles.as_ref());
             light.record_maps(r, particles, &self.cull.list, diffuse)?;
@@ -353,6 +363,11 @@ impl Water {
         }
     }
 
+    /// Particles with their shapes, where they are ellipsoids.
+    pub fn shaped(&self) -> Option<vk::Buffer> {
+        self.shape.as_ref().map(|own| own.shaped.handle)
+    }
+
     /// The tiles of the smoothing at work.
     pub fn tiles(&self) -> vk::Buffer {
         self.tiles.arguments.handle
@@ -428,6 +443,7 @@ impl Water {
                 + droplets
                 + sums
                 + ripples
+                + self.shape.as_ref().map_or(0, shape::Shape::memory)
                 + self.cull.list.memory()
                 + self.front.memory()
                 + self.level.memory()

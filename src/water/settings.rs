@@ -135,6 +135,8 @@ pub struct WaterSettings {
     pub smoothing_width: f32,
     /// Depth steps over this many drawn radii are silhouettes, not smoothed over. Default 5.3.
     pub depth_falloff: f32,
+    /// Shapes of the particles, with [`Kernels::Ellipsoids`].
+    pub ellipsoids: Ellipsoids,
     /// What a particle adds to the thickness.
     pub amplitude: Amplitude,
     /// Optical properties.
@@ -163,6 +165,7 @@ impl Default for WaterSettings {
             density_full: 0.45,
             smoothing_width: 1.5,
             depth_falloff: 5.3,
+            ellipsoids: Ellipsoids::default(),
             amplitude: Amplitude::Volume,
             medium: Medium::POOL,
             fresnel: Fresnel::Schlick { f0: 0.02 },
@@ -242,6 +245,55 @@ pub enum Exit {
     TwoInterfaces,
     /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis), as that is under water with both.
     Straight,
+}
+
+/// What of a particle is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kernels {
+    /// A sphere, as in the thesis.
+    Spheres,
+    /// An ellipsoid of the same volume by where its neighbours are (Yu and Turk 2013): flat in a sheet, long in a stream, round inside
+    /// the water; as [`WaterSettings::ellipsoids`] says. Of particles in packets all that there are count as neighbours, also those in
+    /// no packet. The light's maps, foam, spray, motion vectors, and what tells two sheets apart go by spheres still.
+    Ellipsoids,
+}
+
+/// How ellipsoids come from neighbours. Of no effect without [`Kernels::Ellipsoids`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipsoids {
+    /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. They count by `1 − (d/reach)³`. The time
+    /// that the pass takes grows with its cube.
+    pub reach: f32,
+    /// Longest half-axis over the shortest, at most, [1, 8], default 4 as the source. 1: spheres.
+    pub ratio: f32,
+    /// Sum of the neighbours' weights from which on a particle is an ellipsoid, [0, 64], default 3: there are 2.9 in a line
+    /// of particles, 11 in a sheet of one layer, 32 inside. Up to half of it a particle is a sphere (the source: up to 25
+    /// neighbours).
+    pub fewest: f32,
+    /// Radius of a particle with so few neighbours that it is a sphere, in what it would be, [0.25, 1], default 1 (the
+    /// source: 0.5). It holds the same volume.
+    pub lone: f32,
+    /// How far a particle is drawn on the way to the middle of itself and its neighbours, less what these are on average, at the
+    /// surface above all (by the source water would shrink from its walls); [0, 1], default 0.9 as the source. Sheets and
+    /// rims are smooth. 0 saves half the time of the pass.
+    pub centred: f32,
+}
+
+impl Default for Ellipsoids {
+    fn default() -> Self {
+        Self { reach: 2.5, ratio: 4.0, fewest: 3.0, lone: 1.0, centred: 0.9 }
+    }
+}
+
+impl Ellipsoids {
+    /// Checks the ranges; the message names the field.
+    pub(crate) fn check(&self) -> Result<(), crate::error::Error> {
+        range("Settings.water.ellipsoids.reach", self.reach, 1.0, 4.0)?;
+        range("Settings.water.ellipsoids.ratio", self.ratio, 1.0, 8.0)?;
+        range("Settings.water.ellipsoids.fewest", self.fewest, 0.0, 64.0)?;
+        range("Settings.water.ellipsoids.lone", self.lone, 0.25, 1.0)?;
+        range("Settings.water.ellipsoids.centred", self.centred, 0.0, 1.0)
+    }
 }
 
 /// Steps of the march of [`Exit::TwoInterfaces`].

@@ -16,11 +16,11 @@
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use super::Recording;
 use super::cull::SphereList;
 use super::depth::{DEFAULT_SPLAT, dispatch_sprites, draw_sprites, sprites};
 use super::foam::{self, Foam};
 use super::gaps::{self, Gaps};
+use super::{Recording, shape};
 use crate::contract::Config;
 use crate::error::Error;
 use crate::frame::reduced;
@@ -90,7 +90,8 @@ impl Thickness {
         let foam = u32::from(config.foam);
         let compute = |shader, large, apart| {
             let words = (10, foam::words_of(config));
-            Pipeline::compute(gpu, shader, &[(0, large), (1, apart), (9, foam), words])
+            let constants = [(0, large), (1, apart), (9, foam), words, shape::constant(config)];
+            Pipeline::compute(gpu, shader, &constants)
         };
         let path = match config.thickness_splat.unwrap_or(DEFAULT_SPLAT) {
             Splat::Raster => {
@@ -111,7 +112,7 @@ impl Thickness {
                     },
                     pass,
                     &vec![blend(vk::BlendOp::ADD); formats.len()],
-                    config.foam,
+                    config,
                 )?;
                 let framebuffer = Self::framebuffer(gpu, pass, &image, sheets.as_ref())?;
                 Path::Raster { points, quads, pass, framebuffer }

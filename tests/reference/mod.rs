@@ -25,6 +25,7 @@ pub mod light;
 pub mod motion;
 pub mod noise;
 pub mod reduce;
+pub mod shape;
 pub mod sheets;
 pub mod shore;
 pub mod smooth;

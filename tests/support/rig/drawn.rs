@@ -52,6 +52,8 @@ pub struct Drawn {
     pub shore: Option<Image<[u8; 4]>>,
     /// The host's shadow map as a Fourier basis, all pages.
     pub shadow_basis: Option<Image<[f32; 4]>>,
+    /// Words of the particles with their shapes, of ellipsoids.
+    pub shapes: Option<Vec<u32>>,
     pub work: Work,
 }
 
@@ -82,6 +84,7 @@ impl Drawn {
             soap: None,
             shore: None,
             shadow_basis: None,
+            shapes: None,
             work: Work::default(),
         }
     }
@@ -184,6 +187,8 @@ impl Rig<'_> {
                 drawn.work.front += words[0] + words[5];
             }
         }
+        let count = 6 * self.config.max_particles;
+        drawn.shapes = recorded.shapes.map(|buffer| self.words_of(buffer, count));
         if let Some(tiles) = recorded.tiles {
             let back = self.stub.sized(16 * 259, vk::BufferUsageFlags::TRANSFER_DST);
             self.stub.run(|cmd| self.stub.record_buffer_copy(cmd, tiles, &back));

@@ -6,7 +6,7 @@ mod drawn;
 mod shot;
 
 use ash::vk;
-use whitewater::water::{Exit, Shading, Splat};
+use whitewater::water::{Exit, Kernels, Shading, Splat};
 use whitewater::{
     Access, Config, Count, DiffuseParticles, EnvironmentSource, Equirectangular, Error, Frame,
     HostImage, Particles, Renderer, Slot, Stream,
@@ -42,6 +42,7 @@ pub fn config(size: vk::Extent2D) -> Config {
         // Most twins see no more of the scene than what is behind.
         mirror_steps: 0,
         exit: Exit::Straight,
+        kernels: Kernels::Spheres,
         coarsening: if slow() { Config::new(size, OUTPUT, 1).coarsening } else { 0 },
         ..Config::new(size, OUTPUT, 4096)
     }

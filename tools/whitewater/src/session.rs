@@ -279,6 +279,7 @@ impl<'a> Session<'a> {
         config.mirror_steps = self.look.file.water.mirror_steps(thesis);
         // Of water alone the scene behind is another's: what leaves it goes straight on.
         config.exit = self.look.file.water.exit(thesis || self.look.matte);
+        config.kernels = self.look.file.water.kernels();
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
         config.diffuse = self.look.diffuse.as_ref().map(|source| {

@@ -31,6 +31,7 @@ pub struct SettingsFile {
     /// Over what all the tables are laid.
     pub look: Option<LookWord>,
     pub water: water::WaterTable,
+    pub ellipsoids: water::EllipsoidTable,
     pub foam: water::FoamTable,
     pub spray: water::SprayTable,
     pub diffuse: diffuse::DiffuseTable,
@@ -123,6 +124,7 @@ impl SettingsFile {
             liquid.put(settings);
         }
         self.water.apply(&mut settings.water);
+        self.ellipsoids.put(&mut settings.water.ellipsoids);
         self.foam.put(&mut settings.foam);
         self.spray.put(&mut settings.spray);
         self.diffuse.put(&mut settings.diffuse);
@@ -154,6 +156,7 @@ impl SettingsFile {
         Self {
             look: self.look,
             water: self.water.all(water, self.is_thesis()),
+            ellipsoids: water::EllipsoidTable::of(&water.ellipsoids),
             foam: self.foam.all(foam, found.foam),
             spray: water::SprayTable::of(spray),
             diffuse: self.diffuse.all(diffuse),

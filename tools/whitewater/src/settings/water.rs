@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 use whitewater::water::settings::{
-    Amplitude, Bed, Compositing, Convolution, Exit, Fresnel, Medium, ShadowFilter, Shadows,
-    WaterSettings,
+    Amplitude, Bed, Compositing, Convolution, Ellipsoids, Exit, Fresnel, Kernels, Medium,
+    ShadowFilter, Shadows, WaterSettings,
 };
 use whitewater::water::{FoamLook, FoamSettings, NoiseLook, SprayLook};
 use whitewater::{Config, Light};
@@ -31,18 +31,20 @@ table! {
         shininess: f32,
     }
     optional {}
-    not { medium }
+    not { medium, ellipsoids }
     beside {
         medium: MediumTable,
         /// Not of the settings, but of the passes.
         mirror_steps: u32,
         exit: ExitWord,
+        kernels: KernelWord,
     }
 }
 
 words!(AmplitudeWord of Amplitude { Volume, Source });
 words!(CompositingWord of Compositing { Mixed, Source });
 words!(ExitWord of Exit { TwoInterfaces, Straight });
+words!(KernelWord of Kernels { Spheres, Ellipsoids });
 words!(BedWord of Bed { Submerged, Source });
 
 /// A medium by name or by its numbers.
@@ -182,15 +184,30 @@ impl WaterTable {
         self.exit.map_or(if straight { Exit::Straight } else { standard }, Into::into)
     }
 
+    /// What of each particle is drawn.
+    pub fn kernels(&self) -> Kernels {
+        self.kernels.map_or(Kernels::Spheres, Into::into)
+    }
+
     /// The table that says all of them, and of the passes as this table does.
     pub fn all(&self, water: &WaterSettings, thesis: bool) -> Self {
         Self {
             medium: Some(water.medium.into()),
             mirror_steps: Some(self.mirror_steps(thesis)),
             exit: Some(self.exit(thesis).into()),
+            kernels: Some(self.kernels().into()),
             ..Self::of(water)
         }
     }
+}
+
+table! {
+    /// Table `[ellipsoids]`: of particles with `[water] kernels = 'ellipsoids'`.
+    EllipsoidTable of Ellipsoids
+    keys { reach: f32, ratio: f32, fewest: f32, lone: f32, centred: f32 }
+    optional {}
+    not {}
+    beside {}
 }
 
 table! {

@@ -1,0 +1,35 @@
+// Eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations (Golub and Van Loan 2013, Sec. 8.5): as many of
+// them whatever the matrix, so that none keeps a device. Needs nothing.
+
+// Turns the axes p and q so that a_pq is 0; r is the third.
+void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {
+    float d = qq - pp;
+    // The smaller of both angles. Of a diagonal one that is a multiple of the identity 0, not 0 / 0.
+    float t = (d < 0.0 ? -2.0 : 2.0) * pq / max(abs(d) + sqrt(d * d + 4.0 * pq * pq), 1.0e-30);
+    float c = inversesqrt(1.0 + t * t);
+    float s = t * c;
+    pp -= t * pq;
+    qq += t * pq;
+    pq = 0.0;
+    vec2 off = vec2(c * pr - s * qr, s * pr + c * qr);
+    pr = off.x;
+    qr = off.y;
+    vec3 turned = c * p - s * q;
+    q = s * p + c * q;
+    p = turned;
+}
+
+// Of (xx, yy, zz) and (yz, xz, xy): the values, the vectors as columns. What is left beside the diagonal after three sweeps is
+// less than single precision tells.
+vec3 eigen(vec3 diagonal, vec3 off, out mat3 vectors) {
+    vec3 x = vec3(1.0, 0.0, 0.0);
+    vec3 y = vec3(0.0, 1.0, 0.0);
+    vec3 z = vec3(0.0, 0.0, 1.0);
+    for (int sweep = 0; sweep < 4; ++sweep) {
+        turn(diagonal.x, diagonal.y, off.z, off.y, off.x, x, y);
+        turn(diagonal.x, diagonal.z, off.y, off.z, off.x, x, z);
+        turn(diagonal.y, diagonal.z, off.x, off.z, off.y, y, z);
+    }
+    vectors = mat3(x, y, z);
+    return diagonal;
+}

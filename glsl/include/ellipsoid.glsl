@@ -1,0 +1,128 @@
+// What of a particle is drawn: its sphere, or an ellipsoid (Yu and Turk 2013) under a perspective: footprint, exact hit and
+// the sprite of its thickness. In lists of ellipsoids the entry after a sphere's holds its shape. Needs frame.glsl,
+// sphere.glsl.
+
+#include "axes.glsl"
+
+// 1: ellipsoids.
+layout(constant_id = 15) const uint ELLIPSOIDS = 0;
+// Entries of a list (vec4) a particle takes.
+const uint ENTRIES = 1u + ELLIPSOIDS;
+
+struct Ellipsoid {
+    vec4 sphere;  // eye-space centre; radius
+    mat3 axes;    // takes a sphere of that radius to it; as all below of ellipsoids alone
+    mat3 inverse; // what takes it to that sphere
+    vec3 centre;  // there
+};
+
+Ellipsoid ellipsoid_of(vec4 sphere, vec4 shape) {
+    Ellipsoid e = Ellipsoid(sphere, mat3(1.0), mat3(1.0), sphere.xyz);
+    if (ELLIPSOIDS == 1u) {
+        e.axes = unpack_axes(floatBitsToUint(shape.xyz));
+        e.inverse = inverse(e.axes);
+        e.centre = e.inverse * sphere.xyz;
+    }
+    return e;
+}
+
+// Entry of a list. LIST is its name there.
+#define ellipsoid_in(LIST, INDEX) \
+    ellipsoid_of(LIST[ENTRIES * (INDEX)], LIST[ENTRIES * (INDEX) + ELLIPSOIDS])
+
+// Its square in the dual sense: a plane with the unit normal n touches it at the distance sqrt(n.B n) from the centre.
+mat3 ellipsoid_dual(Ellipsoid e, float radius) {
+    return (radius * radius) * (e.axes * e.axes);
+}
+
+// As sphere_bounds: a plane through the eye, x = s depth, touches it where (c_x - s depth)^2 = (1, s).B (1, s).
+bool ellipsoid_bounds(Ellipsoid e, out vec4 bounds) {
+    if (ELLIPSOIDS == 0u) {
+        return sphere_bounds(e.sphere.xyz, e.sphere.w, bounds);
+    }
+    mat3 b = ellipsoid_dual(e, e.sphere.w);
+    vec2 c = e.sphere.xy;
+    float d = -e.sphere.z;
+    if (d <= 1.01 * sqrt(b[2].z)) {
+        bounds = vec4(-1.0e10, -1.0e10, 1.0e10, 1.0e10);
+        return false;
+    }
+    vec2 square = vec2(b[0].x, b[1].y);
+    vec2 mixed = b[2].xy;
+    // Of two positive forms the difference, not of fourth powers of the depth.
+    vec2 root = square * (d * d) + 2.0 * c * d * mixed + c * c * b[2].z - (square * b[2].z - mixed * mixed);
+    vec2 reach = sqrt(max(root, vec2(0.0)));
+    vec2 middle = c * d + mixed;
+    bounds = vec4(middle - reach, middle + reach) / (d * d - b[2].z);
+    return true;
+}
+
+// Eye depth of its nearest point.
+float ellipsoid_nearest(Ellipsoid e) {
+    if (ELLIPSOIDS == 0u) {
+        return -e.sphere.z - e.sphere.w;
+    }
+    // Rounding must not put it behind a hit: 1.0e-5 of the root, and of the depth.
+    return -e.sphere.z * (1.0 - 1.0e-5) - 1.00001 * sqrt(ellipsoid_dual(e, e.sphere.w)[2].z);
+}
+
+// As sphere_hit: what is a multiple of the ray is so too where it is a sphere.
+float ellipsoid_hit(vec2 slope, Ellipsoid e, float near) {
+    if (ELLIPSOIDS == 0u) {
+        return sphere_hit(slope, e.sphere.xyz, e.sphere.w, near);
+    }
+    return ray_hit(e.inverse * vec3(slope, -1.0), e.centre, e.sphere.w, near);
+}
+
+// The longest that it reaches from its centre, or somewhat more, in its radius.
+float ellipsoid_reach(Ellipsoid e) {
+    vec3 rows = abs(e.axes[0]) + abs(e.axes[1]) + abs(e.axes[2]);
+    return max(rows.x, max(rows.y, rows.z));
+}
+
+// The sprite of a thickness: what its shadow along the ray through its centre is in the plane of the centre, an ellipse.
+struct Disc {
+    vec3 conic;   // (xx, xy, yy) of the form that is rho^2
+    vec2 reach;   // half of the box round it
+    float area;   // product of the half-axes
+};
+
+// Of an ellipsoid with so many times its radius. No half-axis is less than a pixel: with its amplitude over `area` it
+// holds the same volume.
+Disc ellipsoid_disc(Ellipsoid e, float scale, vec4 slope) {
+    mat3 b = ellipsoid_dual(e, scale * e.sphere.w);
+    float depth = -e.sphere.z;
+    vec2 w = e.sphere.xy / depth;
+    float xx = b[0].x + w.x * (2.0 * b[2].x + w.x * b[2].z);
+    float yy = b[1].y + w.y * (2.0 * b[2].y + w.y * b[2].z);
+    float xy = b[0].y + w.x * b[2].y + w.y * b[2].x + w.x * w.y * b[2].z;
+    float least = depth * max(abs(slope.x), abs(slope.y));
+    least *= least;
+    float middle = 0.5 * (xx + yy);
+    float apart = length(vec2(0.5 * (xx - yy), xy));
+    vec2 squares = vec2(middle + apart, max(middle - apart, 0.0)); // of the half-axes
+    if (squares.x <= least) {
+        xx = least;
+        yy = least;
+        xy = 0.0;
+    } else if (squares.y < least) {
+        // The shorter one alone: by the projector on it.
+        float more = (least - squares.y) / (squares.x - squares.y);
+        vec3 onto = vec3(squares.x - xx, -xy, squares.x - yy) * more;
+        xx += onto.x;
+        xy += onto.y;
+        yy += onto.z;
+    }
+    float area2 = max(squares.x, least) * max(squares.y, least);
+    Disc disc;
+    disc.conic = vec3(yy, -xy, xx) / area2;
+    disc.reach = sqrt(vec2(xx, yy));
+    disc.area = sqrt(area2);
+    return disc;
+}
+
+// rho^2 of the point where the ray meets the plane of the sprite's centre.
+float disc_rho2(vec2 slope, vec3 centre, vec3 conic) {
+    vec2 off = slope * -centre.z - centre.xy;
+    return off.x * (conic.x * off.x + 2.0 * conic.y * off.y) + conic.z * off.y * off.y;
+}

@@ -1,0 +1,34 @@
+// Particles by the cells of a grid as wide as their support, in a hash table (Teschner et al. 2003): those of a bucket lie
+// next to each other, behind those of the bucket before. Needs random.glsl, place.glsl and what cells.glsl needs.
+// Reads: the grid (where buckets end, places).
+//
+//     for (int c = 0; c < 27; ++c) {
+//         ivec3 cell = neighbour_cell(position, c);
+//         uvec2 range = range_of(cell);
+//         for (uint j = range.x; j < range.y; ++j) { if (in_cell(places[j].position, cell)) ... }
+//     }
+
+// Where a bucket's particles end.
+layout(set = 0, binding = 1, std430) readonly buffer Ends { uint ends[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Places { Place places[]; };
+
+// No more of a bucket are looked at: particles heaped on one spot must not hang a device. Of water there
+// are eight in a cell of two spacings.
+const uint MOST_IN_BUCKET = 256u;
+
+#include "cells.glsl"
+
+ivec3 neighbour_cell(vec3 position, int c) {
+    return cell_of(position) + ivec3(c % 3, c / 3 % 3, c / 9) - 1;
+}
+
+uvec2 range_of(ivec3 cell) {
+    uint bucket = bucket_of(cell);
+    uint begin = bucket > 0u ? ends[bucket - 1u] : 0u;
+    return uvec2(begin, min(ends[bucket], begin + MOST_IN_BUCKET));
+}
+
+// Cells share buckets.
+bool in_cell(vec3 position, ivec3 cell) {
+    return all(equal(cell_of(position), cell));
+}

@@ -1,0 +1,61 @@
+#version 460
+// Pass `shape`, last part: particles go towards the middle of their neighbours, so that sheets and rims are smooth (Yu and
+// Turk 2013, Eq. 6), less what their neighbours do on average (Vollmer, Mencl, Mueller 1999): by Eq. 6 alone all at the surface of
+// a body go inwards, and it shrinks from its walls. Those count that go far, at the surface as it does.
+// Reads: the grid, counts, shifts. Writes: shaped (places).
+
+#include "random.glsl"
+#include "place.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(push_constant, std430) uniform Push {
+    float cells;   // of the grid along a unit of length: one over the reach
+    uint buckets;  // a power of two
+    float centred; // how far they go
+} push;
+
+#include "grid.glsl"
+#include "shaped.glsl"
+
+layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; };
+layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Shifts { vec4 shifts[]; };
+
+// Steps of sums, whose addends are at most 1: those of 27 full buckets fit.
+const float STEPS = 65536.0;
+
+void visit(uint i) {
+    vec3 position = places[i].position;
+    vec4 own = shifts[i];
+    float length_of_own = length(own.xyz);
+    int weights = int(length_of_own * STEPS + 0.5);
+    ivec3 sum = ivec3(round(own.xyz * (length_of_own * STEPS)));
+    for (int c = 0; c < 27; ++c) {
+        ivec3 cell = neighbour_cell(position, c);
+        uvec2 range = range_of(cell);
+        for (uint j = range.x; j < range.y; ++j) {
+            vec3 to = (places[j].position - position) * push.cells;
+            float d2 = dot(to, to);
+            if (j == i || !(d2 < 1.0) || !in_cell(places[j].position, cell)) {
+                continue;
+            }
+            vec3 shift = shifts[j].xyz;
+            float weight = (1.0 - d2 * sqrt(d2)) * length(shift);
+            weights += int(weight * STEPS + 0.5);
+            sum += ivec3(round(shift * (weight * STEPS)));
+        }
+    }
+    vec3 mean = weights > 0 ? vec3(sum) / float(weights) : vec3(0.0);
+    vec3 centre = position + (own.xyz - mean) * (push.centred * own.w / push.cells);
+    uint at = SHAPED_WORDS * places[i].id;
+    for (uint k = 0u; k < 3u; ++k) {
+        shaped[at + k] = floatBitsToUint(centre[k]);
+    }
+}
+
+void main() {
+    for (uint i = gl_GlobalInvocationID.x; i < sorted; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
+        visit(i);
+    }
+}

@@ -1,0 +1,307 @@
+//! Pass `shape`: an ellipsoid for each particle in the place of its sphere (Yu and Turk, Reconstructing surfaces of
+//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4), flat in sheets, long in
+//! streams, round inside, so that thin water is one body and not a heap of balls.
+//!
+//! Not in the thesis. The neighbours are found by a grid in a hash table, made anew each frame; the weighted covariance of
+//! those within the reach has its eigenvalues by a fixed number of Jacobi's rotations. An ellipsoid holds its sphere's volume,
+//! so that thickness is metres as before, where theirs is scaled by a constant of the kernel; and it comes from a sphere by and by with
+//! the weights of the neighbours, where theirs is a sphere up to a number of them.
+//! Before `cull`, which goes over what this leaves in the place of the host's positions, once a frame: it does not know the view.
+//! Reads: positions. Writes: the grid, shaped.
+
+use ash::vk;
+use bytemuck::NoUninit;
+use gpu_allocator::MemoryLocation;
+
+use super::cull::{Window, buffers_of, most};
+use super::settings::{Ellipsoids, Kernels};
+use super::{Recording, chunks};
+use crate::contract::{Config, Count, Particles, Stream};
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::gpu::access::{
+    Access, CLEAR, COMPUTE_READ, COMPUTE_READ_WRITE, COMPUTE_WRITE, COPY_READ, buffer,
+};
+use crate::gpu::buffer::Buffer;
+use crate::gpu::descriptors::Resource;
+use crate::gpu::pipeline::Pipeline;
+use crate::gpu::scan::{self, Scan};
+use crate::gpu::shader;
+
+/// Groups of a dispatch at most: their invocations go on from particle to particle.
+const MOST_GROUPS: u32 = 4096;
+/// Bytes of a particle with its shape (glsl/include/shaped.glsl).
+const SHAPED: u32 = 24;
+/// How what a frame leaves is used until the next one.
+const AFTER: Access = COMPUTE_READ.and(COPY_READ);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct ChunkPush {
+    position_word: u32,
+    position_stride: u32,
+    chunk_first: u32,
+    chunk: u32,
+    count: u32,
+    from_gpu: u32,
+    buckets: u32,
+    cells: f32,
+}
+shader::assert_layout!(
+    shader::WATER_SHAPE_COUNT_COMP,
+    "Push",
+    ChunkPush {
+        position_word,
+        position_stride,
+        chunk_first,
+        chunk,
+        count,
+        from_gpu,
+        buckets,
+        cells,
+    }
+);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct Push {
+    cells: f32,
+    buckets: u32,
+    ratio: f32,
+    fewest: f32,
+    lone: f32,
+}
+shader::assert_layout!(
+    shader::WATER_SHAPE_COMP,
+    "Push",
+    Push { cells, buckets, ratio, fewest, lone }
+);
+
+#[repr(C)]
+#[derive(Clone, Copy, NoUninit)]
+struct CentrePush {
+    cells: f32,
+    buckets: u32,
+    centred: f32,
+}
+shader::assert_layout!(
+    shader::WATER_SHAPE_CENTRE_COMP,
+    "Push",
+    CentrePush { cells, buckets, centred }
+);
+
+/// The specialisation constant of shaders that read lists of spheres or of ellipsoids (glsl/include/ellipsoid.glsl).
+pub fn constant(config: &Config) -> (u32, u32) {
+    (15, u32::from(is_on(config)))
+}
+
+/// Whether particles are ellipsoids.
+pub fn is_on(config: &Config) -> bool {
+    config.kernels == Kernels::Ellipsoids
+}
+
+/// Bytes of what is bound whole, of all particles: these with their shapes, and where each bucket of the grid ends.
+pub fn bytes_bound(config: &Config) -> u64 {
+    let particles = u64::from(config.max_particles);
+    if is_on(config) {
+        (u64::from(SHAPED) * particles).max(4 * u64::from(buckets(config)))
+    } else {
+        0
+    }
+}
+
+/// Descriptor sets of the pass: its own, the scan's, two a chunk.
+pub fn sets(config: &Config, chunks: u32) -> u32 {
+    if is_on(config) { 2 + scan::SETS + 2 * chunks } else { 0 }
+}
+
+/// A power of two, of which every device binds as many words.
+fn buckets(config: &Config) -> u32 {
+    config.max_particles.clamp(1, 1 << 25).next_power_of_two()
+}
+
+/// The pass.
+pub struct Shape {
+    count: Pipeline,
+    fill: Pipeline,
+    shape: Pipeline,
+    centre: Pipeline,
+    scan: Scan,
+    /// How many particles there are in each bucket, then where it begins, then where it ends.
+    buckets: Buffer,
+    /// Particles by their buckets, and how many they are.
+    places: Buffer,
+    counts: Buffer,
+    /// In their order: how far each is from the middle of its neighbours.
+    shifts: Buffer,
+    /// In the order of the host's particles: place and shape.
+    pub shaped: Buffer,
+    many: u32,
+    chunk_size: u32,
+    max_particles: u32,
+}
+
+impl Shape {
+    pub fn new(gpu: &Gpu, config: &Config) -> Result<Self, Error> {
+        type Usage = vk::BufferUsageFlags;
+        let make = |name, each: u64, count: u32, usage| {
+            let usage = Usage::STORAGE_BUFFER | usage;
+            Buffer::new(gpu, name, each * u64::from(count), usage, MemoryLocation::GpuOnly)
+        };
+        let (many, particles) = (buckets(config), config.max_particles);
+        Ok(Self {
+            count: Pipeline::compute(gpu, shader::WATER_SHAPE_COUNT_COMP, &[])?,
+            fill: Pipeline::compute(gpu, shader::WATER_SHAPE_FILL_COMP, &[])?,
+            shape: Pipeline::compute(gpu, shader::WATER_SHAPE_COMP, &[])?,
+            centre: Pipeline::compute(gpu, shader::WATER_SHAPE_CENTRE_COMP, &[])?,
+            scan: Scan::new(gpu, "water/shape/scan", many)?,
+            buckets: make("water/shape/buckets", 4, many, Usage::TRANSFER_DST)?,
+            places: make("water/shape/places", 16, particles, Usage::empty())?,
+            shifts: make("water/shape/shifts", 16, particles, Usage::empty())?,
+            counts: make("water/shape/counts", 4, 1, Usage::empty())?,
+            shaped: make("water/shape/shaped", u64::from(SHAPED), particles, Usage::TRANSFER_SRC)?,
+            many,
+            chunk_size: chunks(&gpu.limits, config).0,
+            max_particles: config.max_particles,
+        })
+    }
+
+    /// The particles with shapes and without their host's positions: its buffers are read by compute from here on.
+    pub fn record(
+        &self,
+        r: &mut Recording<'_>,
+        particles: &Particles,
+        settings: &Ellipsoids,
+        spacing: f32,
+    ) -> Result<Particles, Error> {
+        let scope = r.begin(c"shape");
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        let both = COMPUTE_READ_WRITE;
+        let (buckets, places) = (&self.buckets, &self.places);
+        let host = buffers_of(particles).into_iter();
+        let mut before: Vec<_> =
+            host.map(|handle| buffer(handle, particles.before, COMPUTE_READ)).collect();
+        before.extend([
+            buffer(buckets.handle, COMPUTE_READ, CLEAR),
+            buffer(places.handle, COMPUTE_READ, COMPUTE_WRITE),
+            buffer(self.counts.handle, both, both),
+            buffer(self.shifts.handle, COMPUTE_READ, COMPUTE_WRITE),
+            buffer(self.shaped.handle, AFTER, COMPUTE_WRITE),
+        ]);
+        gpu.barriers(cmd, &[], &before);
+        // SAFETY: cmd is recording outside a render pass; the frame before has read the buffer (barrier above).
+        unsafe { gpu.device.cmd_fill_buffer(cmd, buckets.handle, 0, vk::WHOLE_SIZE, 0) };
+        gpu.barriers(cmd, &[], &[buffer(buckets.handle, CLEAR, both)]);
+
+        let most = most(particles, self.max_particles);
+        let cells = 1.0 / (settings.reach * spacing);
+        self.record_chunks(r, &self.count, particles, &self.shaped, (most, cells))?;
+        let wait = |own: &Buffer, from, to| gpu.barriers(cmd, &[], &[buffer(own.handle, from, to)]);
+        wait(buckets, both, both);
+        let values = (buckets, self.many);
+        self.scan.record((gpu, cmd, r.descriptors), &self.counts, values, None, 0)?;
+        wait(buckets, both, both);
+        self.record_chunks(r, &self.fill, particles, places, (most, cells))?;
+        gpu.barriers(
+            cmd,
+            &[],
+            &[
+                buffer(buckets.handle, both, COMPUTE_READ),
+                buffer(places.handle, COMPUTE_WRITE, COMPUTE_READ),
+                buffer(self.counts.handle, both, COMPUTE_READ),
+                // Of those without a cell.
+                buffer(self.shaped.handle, COMPUTE_WRITE, COMPUTE_WRITE),
+            ],
+        );
+        let bound = [
+            (1, Resource::buffer(buckets)),
+            (2, Resource::buffer(places)),
+            (3, Resource::buffer(&self.counts)),
+            (4, Resource::buffer(&self.shaped)),
+            (5, Resource::buffer(&self.shifts)),
+        ];
+        r.descriptors.bind(gpu, cmd, &self.shape, &bound)?;
+        let Ellipsoids { reach: _, ratio, fewest, lone, centred } = *settings;
+        self.shape.push(gpu, cmd, &Push { cells, buckets: self.many, ratio, fewest, lone });
+        self.dispatch(r, &self.shape, most);
+        if centred > 0.0 {
+            gpu.barriers(
+                cmd,
+                &[],
+                &[
+                    buffer(self.shifts.handle, COMPUTE_WRITE, COMPUTE_READ),
+                    buffer(self.shaped.handle, COMPUTE_WRITE, COMPUTE_WRITE),
+                ],
+            );
+            r.descriptors.bind(gpu, cmd, &self.centre, &bound)?;
+            self.centre.push(gpu, cmd, &CentrePush { cells, buckets: self.many, centred });
+            self.dispatch(r, &self.centre, most);
+        }
+        gpu.barriers(cmd, &[], &[buffer(self.shaped.handle, COMPUTE_WRITE, AFTER)]);
+        r.end(scope);
+        let size = u64::from(SHAPED) * u64::from(most);
+        let positions = Stream { buffer: self.shaped.handle, size, offset: 0, stride: SHAPED };
+        Ok(Particles { positions, before: COMPUTE_READ, ..*particles })
+    }
+
+    /// Goes over the host's positions.
+    fn record_chunks(
+        &self,
+        r: &Recording<'_>,
+        pipeline: &Pipeline,
+        particles: &Particles,
+        written: &Buffer,
+        (most, cells): (u32, f32),
+    ) -> Result<(), Error> {
+        let (gpu, cmd) = (r.gpu, r.cmd);
+        // Where the host knows the count any buffer will do.
+        let (count, from_gpu, host_count) = match particles.count {
+            Count::Cpu(count) => (count.min(most), 0, Resource::buffer(&self.counts)),
+            Count::Gpu { buffer, offset } => (most, 1, Resource::Buffer(buffer, offset, 4)),
+        };
+        let mut first = 0;
+        while first < count {
+            let Some(positions) = Window::new(gpu, &particles.positions, first) else { break };
+            let chunk = self.chunk_size.min(count - first);
+            r.descriptors.bind(
+                gpu,
+                cmd,
+                pipeline,
+                &[
+                    (1, host_count),
+                    (2, positions.resource),
+                    (3, Resource::buffer(&self.buckets)),
+                    (4, Resource::buffer(written)),
+                ],
+            )?;
+            pipeline.push(
+                gpu,
+                cmd,
+                &ChunkPush {
+                    position_word: positions.word,
+                    position_stride: positions.stride,
+                    chunk_first: first,
+                    chunk,
+                    count,
+                    from_gpu,
+                    buckets: self.many,
+                    cells,
+                },
+            );
+            self.dispatch(r, pipeline, chunk);
+            first += chunk;
+        }
+        Ok(())
+    }
+
+    fn dispatch(&self, r: &Recording<'_>, pipeline: &Pipeline, invocations: u32) {
+        let groups = invocations.div_ceil(pipeline.local_size[0]).clamp(1, MOST_GROUPS);
+        // SAFETY: cmd is recording outside a render pass, pipeline and set are bound.
+        unsafe { r.gpu.device.cmd_dispatch(r.cmd, groups, 1, 1) };
+    }
+
+    pub fn memory(&self) -> u64 {
+        let own = [&self.buckets, &self.places, &self.counts, &self.shifts, &self.shaped];
+        own.iter().map(|buffer| buffer.size).sum::<u64>() + self.scan.memory()
+    }
+}

@@ -1,0 +1,604 @@
+//! Pass `shape` and what is drawn of it, against the twins and against what ellipsoids are for: sheets without holes, long
+//! streams, a smooth top, and as much water as with spheres.
+
+use std::f64::consts::PI;
+
+use ash::vk;
+use glam::{DMat3, DVec2, DVec3};
+use whitewater::water::{Ellipsoids, Kernels, Splat};
+use whitewater::{Config, Count, Particles, Region};
+
+use crate::hostile::spoil;
+use crate::invariants::{packet_bytes, same_drawn, scaled};
+use crate::reference::depth::hit;
+use crate::reference::shape::{self, Shape, eigen, norm, shapes};
+use crate::reference::thickness::{J, kernel};
+use crate::reference::{EMPTY, Image, Sphere, View, is_surface};
+use crate::support::compare;
+use crate::support::device::Gpu;
+use crate::support::rig::{Drawn, Rig, Shot, config, extent};
+use crate::support::scenes::{self, LENSES, Lens, Random};
+use crate::support::tolerance::{Between, U, eye_space, ray_distance};
+
+const BOTH: [Splat; 2] = [Splat::Raster, Splat::Compute];
+
+fn ellipsoids(size: vk::Extent2D, splat: Splat) -> Config {
+    Config {
+        kernels: Kernels::Ellipsoids,
+        depth_splat: Some(splat),
+        thickness_splat: Some(splat),
+        smoothing_level: 0,
+        thickness_level: 0,
+        ..config(size)
+    }
+}
+
+/// An ellipsoid in eye space.
+#[derive(Clone, Copy)]
+struct Body {
+    center: DVec3,
+    radius: f64,
+    /// What takes the ball of the radius to it, and how far off that may be.
+    axes: DMat3,
+    off: f64,
+}
+
+/// What the pass has left, as it was read back: centre and axes in the world.
+fn left(drawn: &Drawn, shot: &Shot) -> Vec<(DVec3, DMat3)> {
+    let words = drawn.shapes.as_ref().expect("of ellipsoids");
+    let each = words.chunks_exact(6).take(shot.positions.len());
+    each.map(|w| {
+        let center = DVec3::from([w[0], w[1], w[2]].map(|bits| f64::from(f32::from_bits(bits))));
+        let half =
+            |i: usize| f64::from((w[3 + i / 2] >> (16 * (i % 2))) as u16 as i16) * 4.0 / 32767.0;
+        let [xx, yy, zz, yz, xz, xy] = std::array::from_fn(half);
+        let rows = [DVec3::new(xx, xy, xz), DVec3::new(xy, yy, yz), DVec3::new(xz, yz, zz)];
+        (center, DMat3::from_cols(rows[0], rows[1], rows[2]))
+    })
+    .collect()
+}
+
+/// The same as `cull` has them: turned, and in 16 bits again.
+fn bodies(drawn: &Drawn, shot: &Shot) -> Vec<Body> {
+    let view = shot.camera_view();
+    let turn = DMat3::from_mat4(view);
+    let body = |(center, axes)| Body {
+        center: view.transform_point3(center),
+        radius: f64::from(shot.settings.water.radius()),
+        axes: turn * axes * turn.transpose(),
+        // Half a step in each of nine entries, and two products.
+        off: 3.0 * 0.5 * 4.0 / 32767.0 + 32.0 * U * norm(&axes),
+    };
+    left(drawn, shot).into_iter().map(body).collect()
+}
+
+fn twin_settings(shot: &Shot) -> shape::Settings {
+    let Ellipsoids { reach, ratio, fewest, lone, centred } = shot.settings.water.ellipsoids;
+    shape::Settings {
+        reach: f64::from(reach * shot.settings.water.spacing),
+        ratio: ratio.into(),
+        fewest: fewest.into(),
+        lone: lone.into(),
+        centred: centred.into(),
+    }
+}
+
+/// World points of a lattice of a spacing that lies askew about a point of the eye's (x, y, depth), of the steps that are kept.
+fn lattice(shot: &Shot, middle: [f32; 3], turn: DMat3, steps: [i32; 3]) -> Vec<[f32; 3]> {
+    let spacing = f64::from(shot.settings.water.spacing);
+    let at = DVec3::from(scenes::world(&shot.camera, &[middle])[0].map(f64::from));
+    let range = |i: usize| -steps[i]..=steps[i];
+    let all = range(2).flat_map(|z| range(1).flat_map(move |y| range(0).map(move |x| (x, y, z))));
+    let place = |(x, y, z): (i32, i32, i32)| turn * DVec3::new(x.into(), y.into(), z.into());
+    all.map(|step| (at + spacing * place(step)).as_vec3().to_array()).collect()
+}
+
+/// The eye's frame in the world: a sheet of its x and y faces the eye.
+fn facing(shot: &Shot) -> DMat3 {
+    DMat3::from_mat4(shot.camera_view()).transpose()
+}
+
+fn askew() -> DMat3 {
+    DMat3::from_axis_angle(DVec3::new(1.0, 2.0, -0.5).normalize(), 0.7)
+}
+
+/// A cloud, a sheet, a stream and a block.
+fn mixed(size: vk::Extent2D, lens: Lens) -> Shot {
+    let mut shot = Shot::new(size, lens, 0.1, &scenes::cloud(5, 500, 2.0, 9.0));
+    for (middle, steps) in
+        [([-1.0, 0.3, 4.0], [6, 6, 0]), ([0.7, 0.5, 3.5], [9, 0, 0]), ([0.4, -0.8, 4.0], [3, 3, 3])]
+    {
+        shot.positions.extend(lattice(&shot, middle, askew(), steps));
+    }
+    shot
+}
+
+#[test]
+fn shapes_are_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 24);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let usual = Ellipsoids::default();
+    let cases = [
+        ("default", usual),
+        ("wide", Ellipsoids { reach: 3.3, ..usual }),
+        ("flat", Ellipsoids { ratio: 8.0, ..usual }),
+        ("round", Ellipsoids { ratio: 1.0, ..usual }),
+        ("source", Ellipsoids { fewest: 6.0, lone: 0.5, ..usual }),
+        ("in place", Ellipsoids { centred: 0.0, ..usual }),
+        ("any", Ellipsoids { fewest: 0.0, centred: 1.0, lone: 0.25, ..usual }),
+    ];
+    for (name, settings) in cases {
+        let mut shot = mixed(size, Lens::Standard);
+        shot.settings.water.ellipsoids = settings;
+        let drawn = rig.draw(&shot);
+        let positions: Vec<_> =
+            shot.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+        let (mut worst, mut slack): (f64, Vec<f64>) = (0.0, Vec::new());
+        let expected = shapes(&positions, &twin_settings(&shot));
+        for (i, (found, expected)) in left(&drawn, &shot).into_iter().zip(expected).enumerate() {
+            let Shape { center, axes, off } = expected;
+            let (moved, turned) = ((found.0 - center).length(), norm(&(found.1 - axes)));
+            assert!(
+                moved <= off[0],
+                "{name} {i}: {moved} of {}: {}, not {center}",
+                off[0],
+                found.0
+            );
+            assert!(
+                turned <= off[1],
+                "{name} {i}: {turned} of {}: {}, not {axes}",
+                off[1],
+                found.1
+            );
+            worst = worst.max(turned / off[1]);
+            slack.push(off[1]);
+        }
+        slack.sort_by(f64::total_cmp);
+        let median = slack[slack.len() / 2];
+        if std::env::var_os("WHITEWATER_VERBOSE").is_some() {
+            eprintln!("{name}: worst {worst:.2} of its slack, whose median is {median:.1e}");
+        }
+        assert!(median < 0.01, "{name}: {median} says nothing");
+    }
+}
+
+/// A hit of the ray: the ellipsoid with its radius as much larger or smaller.
+fn hit_body(ray: DVec3, body: &Body, inverse: &DMat3, more: f64) -> Option<f64> {
+    let radius = (body.radius + more).max(0.0);
+    hit(*inverse * ray, &Sphere { center: *inverse * body.center, radius })
+}
+
+/// Bounds of the depth, as of spheres where the ellipsoid is one: there a centre is farther off by the inverse's norm,
+/// as is the surface by the axes' error.
+fn depth_bounds(bodies: &[Body], view: &View) -> Between {
+    let near = view.near();
+    let mut low = Image::new(view.width, view.height, EMPTY);
+    let mut high = low.clone();
+    for body in bodies {
+        let inverse = body.axes.inverse();
+        let (least, most) = (norm(&inverse), norm(&body.axes));
+        let d = least * (ray_distance(body.center, view) * 4.0 + body.off * body.radius);
+        let slack = d * most + 8.0 * U * (body.center.length() + body.radius);
+        let reach = (body.radius + d) * most;
+        if -body.center.z + reach < near {
+            continue;
+        }
+        let z = -body.center.z;
+        let half = DVec2::splat(reach);
+        let (columns, rows) = view.footprint(body.center.truncate(), half, z - reach, z + reach);
+        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+            let ray = view.ray(x, y);
+            let Some(nearest) = hit_body(ray, body, &inverse, d).map(|t| t - slack) else {
+                continue;
+            };
+            let farthest = hit_body(ray, body, &inverse, -d).map(|t| t + slack);
+            let inner =
+                (inverse * ray).dot(inverse * body.center) / (inverse * ray).length_squared();
+            let latest = farthest.unwrap_or(inner + slack);
+            if latest >= near * (1.0 - 8.0 * U) {
+                let pixel = low.at_mut(x, y);
+                *pixel = pixel.min(nearest.max(near * (1.0 - 8.0 * U)));
+            }
+            if let Some(farthest) = farthest.filter(|_| nearest >= near * (1.0 + 8.0 * U)) {
+                let pixel = high.at_mut(x, y);
+                *pixel = pixel.min(farthest);
+            }
+        }
+    }
+    Between { low, high }
+}
+
+#[test]
+fn depth_is_the_nearest_ellipsoid_through_every_lens() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for splat in BOTH {
+        let mut rig = Rig::new(&gpu, &ellipsoids(size, splat));
+        for lens in LENSES {
+            let mut shot = mixed(size, lens);
+            shot.positions.extend(scenes::world(&shot.camera, &scenes::cloud(9, 60, 0.0, 0.5)));
+            let drawn = rig.draw(&shot);
+            let bounds = depth_bounds(&bodies(&drawn, &shot), &shot.view(size));
+            compare::between(&format!("shape-depth-{lens:?}-{splat:?}"), &drawn.depth, &bounds);
+        }
+    }
+}
+
+/// Of ellipsoids so wide that one covers cells of `front`, those that cannot show are left out, and no others.
+#[test]
+fn what_is_left_out_does_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for splat in BOTH {
+        let mut rig = Rig::new(&gpu, &ellipsoids(size, splat));
+        for (radius, seed) in [(0.5, 3), (0.35, 4)] {
+            let shot =
+                Shot::new(size, Lens::Standard, radius, &scenes::cloud(seed, 1500, 3.0, 9.0));
+            let drawn = rig.draw(&shot);
+            assert!(drawn.work.front < drawn.work.visible * 4 / 5, "{:?}", drawn.work);
+            let bounds = depth_bounds(&bodies(&drawn, &shot), &shot.view(size));
+            compare::between(&format!("shape-front-{radius}-{splat:?}"), &drawn.depth, &bounds);
+        }
+    }
+}
+
+#[test]
+fn raster_and_compute_agree() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let shot = mixed(size, Lens::Standard);
+    let [raster, compute] = BOTH.map(|splat| Rig::new(&gpu, &ellipsoids(size, splat)).draw(&shot));
+    // Both lie in the twin's bounds; most to the bit.
+    let bounds = depth_bounds(&bodies(&raster, &shot), &shot.view(size));
+    compare::between("shape-agree-raster", &raster.depth, &bounds);
+    compare::between("shape-agree-compute", &compute.depth, &bounds);
+    let pairs = || raster.depth.data.iter().zip(&compute.depth.data);
+    let apart = pairs().filter(|(a, b)| is_surface(f64::from(**a)) != is_surface(f64::from(**b)));
+    assert!(apart.count() <= 2);
+    let off = |(a, b): (&f32, &f32)| (a - b).abs() / a;
+    assert!(pairs().map(off).fold(0.0, f32::max) < 1.0e-3);
+}
+
+/// Twin of the sprite of a thickness: its shadow along the ray through its centre. A point's rho is how near the line
+/// through it along that ray comes to the centre, where the ellipsoid is a ball; the area of the shadow of a ball along w is
+/// pi det(axes) |axes^-1 w| on a plane with w.z = 1.
+fn thickness_bounds(bodies: &[Body], view: &View, volume: f64) -> Between {
+    let mut low = Image::new(view.width, view.height, 0.0);
+    let mut high = low.clone();
+    for body in bodies {
+        let depth = -body.center.z;
+        let inverse = body.axes.inverse();
+        let along = inverse * (body.center / depth);
+        let whole = 2.0 * body.radius;
+        let area = PI * whole * whole * body.axes.determinant() * along.length();
+        let off = norm(&inverse) * body.off;
+        let uncertain = norm(&inverse) * ray_distance(body.center, view) * 4.0 / whole + 2.0 * off;
+        let reach = whole * norm(&body.axes) * body.center.length() / depth;
+        if depth < view.near() * (1.0 + 8.0 * U) + eye_space(body.center, view) {
+            continue;
+        }
+        let half = DVec2::splat(1.1 * reach);
+        let (columns, rows) = view.footprint(body.center.truncate(), half, depth, depth);
+        for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
+            let from = inverse * (view.ray(x, y) * depth - body.center);
+            let rho = (from - along * (from.dot(along) / along.length_squared())).length() / whole;
+            let at = |rho: f64| kernel((rho * rho).min(1.0)) * volume / (J * area);
+            let slack = 1.0 + 6.0 * off;
+            *low.at_mut(x, y) += at(rho + uncertain) / slack;
+            *high.at_mut(x, y) += at((rho - uncertain).max(0.0)) * slack * (1.0 + 40.0 * U);
+        }
+    }
+    for (low, high) in low.data.iter_mut().zip(&mut high.data) {
+        // A sum of some hundred, or of as many units.
+        *low = *low * (1.0 - 1.0e-4) - 1.0e-6;
+        *high = *high * (1.0 + 1.0e-4) + 1.0e-6;
+    }
+    Between { low, high }
+}
+
+#[test]
+fn thickness_is_the_twins() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for splat in BOTH {
+        let mut rig = Rig::new(&gpu, &ellipsoids(size, splat));
+        for lens in [Lens::Standard, Lens::OffAxis, Lens::LeftHanded] {
+            let mut shot = mixed(size, lens);
+            // None is narrower than a pixel, nor so near that its sprite is cut.
+            shot.settings.water.ellipsoids.ratio = 3.0;
+            let drawn = rig.draw(&shot);
+            let volume = f64::from(shot.settings.water.spacing).powi(3);
+            let bounds = thickness_bounds(&bodies(&drawn, &shot), &shot.view(size), volume);
+            let name = format!("shape-thickness-{lens:?}-{splat:?}");
+            compare::between(&name, &drawn.thickness, &bounds);
+            assert!(drawn.thickness.data.iter().any(|t| *t > 0.0), "{name}: there is water");
+        }
+    }
+}
+
+/// A block, a sheet and a stream hold as much water as their spheres, near and so far that a sprite is less than a pixel.
+/// Sums over pixels of sprites of some pixels are within a hundredth of their integrals, one of a few far ones a tenth: they
+/// meet or miss the middles of few texels.
+#[test]
+fn there_is_as_much_water_as_with_spheres() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for (splat, level) in BOTH.into_iter().flat_map(|splat| [0, 2].map(|level| (splat, level))) {
+        let config = Config { thickness_level: level, ..ellipsoids(size, splat) };
+        let round = Config { kernels: Kernels::Spheres, ..config };
+        let [mut rig, mut round] = [config, round].map(|config| Rig::new(&gpu, &config));
+        for (depth, steps) in [4.0_f32, 60.0]
+            .into_iter()
+            .flat_map(|d| [[4, 4, 4], [9, 9, 0], [9, 0, 0]].map(|s| (d, s)))
+        {
+            let mut shot = Shot::new(size, Lens::Standard, 0.06, &[]);
+            shot.positions = lattice(&shot, [0.0, 0.0, depth], askew(), steps);
+            let [found, expected] = [&mut rig, &mut round].map(|rig| -> f64 {
+                rig.draw(&shot).thickness.data.into_iter().map(f64::from).sum()
+            });
+            let off = found / expected - 1.0;
+            let most = if depth < 5.0 { 0.02 } else { 0.1 };
+            assert!(off.abs() < most, "{splat:?} {level} {depth} {steps:?}: {off}");
+        }
+    }
+}
+
+/// A sheet of one layer that faces the eye: its ellipsoids are 1 : 1 : 1/4 (the variance across is 0), so that with
+/// r = 0.656 spacings half-axes are 1.041 and 0.260 of them. The lattice's farthest point, at 0.707, is covered 0.191 before the
+/// sheet, the particles 0.260: the depth differs by no more than 0.07 spacings, where spheres leave holes.
+#[test]
+fn a_sheet_has_no_holes_and_is_flat() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    for splat in BOTH {
+        let mut shot = Shot::new(size, Lens::Standard, 0.2, &[]);
+        let (spacing, far) = (shot.settings.water.spacing, 4.0);
+        shot.positions = lattice(&shot, [0.0, 0.0, far], facing(&shot), [18, 14, 0]);
+        let drawn = Rig::new(&gpu, &ellipsoids(size, splat)).draw(&shot);
+        let round = Config { kernels: Kernels::Spheres, ..ellipsoids(size, splat) };
+        let spheres = Rig::new(&gpu, &round).draw(&shot);
+        // No neighbour's neighbour is missing there.
+        let inside = |x: usize, y: usize| {
+            let at = shot.view(size).ray(x, y).truncate() * f64::from(far / spacing);
+            at.x.abs() < 11.0 && at.y.abs() < 7.0
+        };
+        let pixels = (0..64).flat_map(|y| (0..96).map(move |x| (x, y)));
+        let (mut least, mut most, mut holes, mut count) = (f32::MAX, f32::MIN, 0, 0);
+        for (x, y) in pixels.filter(|(x, y)| inside(*x, *y)) {
+            let above = (far - drawn.depth.at(x, y)) / spacing;
+            (least, most) = (least.min(above), most.max(above));
+            holes += usize::from(!is_surface(spheres.depth.at(x, y).into()));
+            count += 1;
+        }
+        assert!(count > 2000, "{count}");
+        // Perspective sees them from beside, by up to a third of what they rise.
+        assert!(least > 0.18 && most < 0.27, "{splat:?}: {least} to {most}");
+        assert!(holes > 5, "{holes}");
+    }
+}
+
+/// A stream is a thread of long ellipsoids: nearly 1 : 1/4 : 1/4.
+#[test]
+fn a_stream_is_long() {
+    let gpu = Gpu::shared();
+    let size = extent(96, 64);
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let turn = facing(&shot);
+    shot.positions = lattice(&shot, [0.0, 0.0, 4.0], turn, [8, 0, 0]);
+    let drawn = Rig::new(&gpu, &ellipsoids(size, Splat::Compute)).draw(&shot);
+    let direction = turn * DVec3::X;
+    for (i, (_, axes)) in left(&drawn, &shot).into_iter().enumerate().skip(2).take(13) {
+        let along = (axes * direction).dot(direction);
+        let (values, _) = eigen(axes);
+        let thin = values.min_element();
+        // Weights of 2.85, which are 0.9 of the way from 1.5 to 3: all of an ellipsoid but a power of 0.972.
+        assert!((along / thin - 4.0_f64.powf(0.972)).abs() < 0.02, "{i}: {along} {thin}");
+        assert!((along * thin * thin - 1.0).abs() < 0.01, "{i}");
+    }
+}
+
+/// Where neighbours are the same all round it is a sphere: 27 layers of a block, but those at its sides.
+#[test]
+fn inside_the_water_it_is_round() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 24);
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    shot.positions = lattice(&shot, [0.0, 0.0, 4.0], askew(), [4, 4, 4]);
+    let drawn = Rig::new(&gpu, &ellipsoids(size, Splat::Compute)).draw(&shot);
+    let inner = |i: &usize| [i % 9, i / 9 % 9, i / 81].iter().all(|k| (3..6).contains(k));
+    let all = left(&drawn, &shot);
+    let mut count = 0;
+    for (i, (_, axes)) in all.into_iter().enumerate().filter(|(i, _)| inner(i)) {
+        assert!(norm(&(axes - DMat3::IDENTITY)) < 0.01, "{i}: {axes}");
+        count += 1;
+    }
+    assert_eq!(count, 27);
+}
+
+/// What particles of a sheet are off it is less when they are centred, by more than half; the middle of a block's sides stays
+/// where it is within a fifth of a spacing, where they would go in by 0.7 if they went all the way to their neighbours' middle.
+#[test]
+fn centring_smooths_a_sheet_and_keeps_a_block() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 24);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let (turn, spacing) = (facing(&shot), f64::from(shot.settings.water.spacing));
+    let (across, mut random) = ((turn * DVec3::Z).as_vec3(), Random(4));
+    let flat = lattice(&shot, [0.0, 0.0, 4.0], turn, [12, 12, 0]);
+    let moved = |p: &[f32; 3]| {
+        (glam::Vec3::from(*p) + across * random.between(-0.25, 0.25) * spacing as f32).to_array()
+    };
+    shot.positions = flat.iter().map(moved).collect();
+    let inner = |i: &usize| (5..20).contains(&(i % 25)) && (5..20).contains(&(i / 25));
+    let off = |points: &[DVec3]| -> f64 {
+        let each = points.iter().zip(&flat).enumerate().filter(|(i, _)| inner(i));
+        let normal = turn * DVec3::Z;
+        each.map(|(_, (p, f))| (*p - DVec3::from(f.map(f64::from))).dot(normal).powi(2)).sum()
+    };
+    let before: Vec<_> = shot.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+    let after: Vec<_> = left(&rig.draw(&shot), &shot).into_iter().map(|(p, _)| p).collect();
+    let less = (off(&after) / off(&before)).sqrt();
+    assert!(less < 0.5, "{less}");
+
+    shot.positions = lattice(&shot, [0.0, 0.0, 4.0], turn, [6, 6, 6]);
+    let after = left(&rig.draw(&shot), &shot);
+    // The middles of six sides: the first and the last of each axis.
+    for i in [6 * 13 + 6, 12 * 169 + 6 * 13 + 6, 6 * 169 + 6, 6 * 169 + 12 * 13 + 6] {
+        let there = DVec3::from(shot.positions[i].map(f64::from));
+        let gone = (after[i].0 - there).length() / spacing;
+        assert!(gone < 0.2, "{i}: {gone}");
+    }
+}
+
+#[test]
+fn the_order_of_the_particles_is_no_matter() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let shot = mixed(size, Lens::Standard);
+    let order = Random(3).order(shot.positions.len());
+    let positions = order.iter().map(|i| shot.positions[*i]).collect();
+    let first = rig.draw(&shot);
+    let second = rig.draw(&Shot { positions, ..shot });
+    same_drawn("shape-order", &second, &first);
+}
+
+#[test]
+fn the_unit_of_length_does_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let shot = mixed(size, Lens::Infinite);
+    // A power of two: no rounding differs.
+    let larger = scaled(&shot, 16.0);
+    let [first, second] = [&shot, &larger].map(|shot| rig.draw(shot));
+    let axes = |drawn: &Drawn, shot: &Shot| -> Vec<DMat3> {
+        left(drawn, shot).into_iter().map(|(_, axes)| axes).collect()
+    };
+    assert_eq!(axes(&first, &shot), axes(&second, &larger));
+    for (a, b) in first.depth.data.iter().zip(&second.depth.data) {
+        assert!(*a >= 1.0e9 && *b >= 1.0e9 || a * 16.0 == *b, "{a} {b}");
+    }
+}
+
+/// A count on the GPU, packets of all, and more chunks than one draw the same.
+#[test]
+fn counts_packets_and_chunks_do_not_show() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let config = ellipsoids(size, Splat::Compute);
+    let mut rig = Rig::new(&gpu, &config);
+    let shot = mixed(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    let cloud = rig.particles(&shot);
+    let plain = cloud.particles();
+    let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
+    let n = cloud.count;
+    // More than there are: clamped by the stream.
+    for count in [n, n + 1000] {
+        let counted = rig.stub.data(&count.to_le_bytes(), usage);
+        let count = Count::Gpu { buffer: counted.buffer, offset: 0 };
+        let drawn = rig.draw_particles(&shot, &Particles { count, ..plain });
+        same_drawn("shape-count", &drawn, &expected);
+    }
+    let ranges = [(0, n / 2), (n / 2, n - n / 2)];
+    let packets = rig.stub.data(&packet_bytes(&shot, &ranges), usage);
+    let packets = whitewater::Packets { buffer: packets.buffer, offset: 0, count: 2 };
+    let drawn = rig.draw_particles(&shot, &Particles { packets: Some(packets), ..plain });
+    same_drawn("shape-packets", &drawn, &expected);
+    // Of such strides the device binds few particles at a time.
+    let max_stride = 1 << 19;
+    let mut rig = Rig::new(&gpu, &Config { max_stride, ..config });
+    let drawn = rig.draw(&shot);
+    same_drawn("shape-chunks", &drawn, &expected);
+}
+
+/// With foam, spray, two sheets and the sun's maps, whatever the bits: a frame ends and is finite.
+#[test]
+fn hostile_positions_end() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    for splat in BOTH {
+        let config = Config { sheets: 2, cast: Some(64), spray: true, ..ellipsoids(size, splat) };
+        let mut rig = Rig::new(&gpu, &config);
+        let mut shot = mixed(size, Lens::Standard);
+        let center = scenes::world(&shot.camera, &[[0.0, 0.0, 5.0]])[0];
+        shot.sun.region = Some(Region { center, radius: 6.0 });
+        let on_one_spot = vec![shot.positions[3]; 1500];
+        let in_a_line = (0..700).map(|i| [i as f32 * 1.0e-20, 2.0, 0.0]).collect();
+        let far = shot.positions.iter().map(|p| p.map(|x| x * 1.0e17)).collect();
+        let mut words: Vec<u32> = bytemuck::cast_slice(&shot.positions).to_vec();
+        spoil(&mut words, 3, &mut Random(8));
+        let spoiled = bytemuck::cast_slice(&words).to_vec();
+        for (name, positions) in
+            [("one spot", on_one_spot), ("line", in_a_line), ("far", far), ("spoiled", spoiled)]
+        {
+            let drawn = rig.draw(&Shot { positions, ..shot.clone() });
+            let finite = drawn.output.data.iter().flatten().all(|c| c.is_finite());
+            assert!(finite && drawn.thickness.data.iter().all(|t| t.is_finite()), "{name}");
+        }
+    }
+}
+
+/// Particles that are not finite are dropped and counted, and no others change by them.
+#[test]
+fn strays_do_no_harm() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let shot = mixed(size, Lens::Standard);
+    let expected = rig.draw(&shot);
+    let mut more = shot.clone();
+    more.positions.extend([[f32::NAN, 0.0, 0.0], [0.0, f32::INFINITY, 0.0], [1.0e19, 0.0, 0.0]]);
+    let drawn = rig.draw(&more);
+    assert_eq!(drawn.work.dropped, 3);
+    assert_eq!(drawn.depth.data, expected.depth.data);
+    assert_eq!(drawn.thickness.data, expected.thickness.data);
+}
+
+/// Each setting does something.
+#[test]
+fn every_setting_shows() {
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let shot = mixed(size, Lens::Standard);
+    let before = rig.draw(&shot).depth.data;
+    type Change = (&'static str, fn(&mut Ellipsoids));
+    let changes: [Change; 5] = [
+        ("reach", |e| e.reach = 2.0),
+        ("ratio", |e| e.ratio = 3.0),
+        ("fewest", |e| e.fewest = 6.0),
+        ("lone", |e| e.lone = 0.5),
+        ("centred", |e| e.centred = 0.5),
+    ];
+    for (name, change) in changes {
+        let mut other = shot.clone();
+        change(&mut other.settings.water.ellipsoids);
+        assert!(rig.draw(&other).depth.data != before, "{name} does nothing");
+    }
+    // Of spheres none does.
+    let mut rig =
+        Rig::new(&gpu, &Config { kernels: Kernels::Spheres, ..ellipsoids(size, Splat::Compute) });
+    let before = rig.draw(&shot).depth.data;
+    let mut other = shot.clone();
+    other.settings.water.ellipsoids.ratio = 3.0;
+    assert_eq!(rig.draw(&other).depth.data, before);
+    assert!(before != Rig::new(&gpu, &ellipsoids(size, Splat::Compute)).draw(&shot).depth.data);
+}
+
+/// Its time is told, first of all.
+#[test]
+fn its_time_is_told() {
+    let gpu = Gpu::shared();
+    let size = extent(32, 24);
+    let mut rig = Rig::new(&gpu, &ellipsoids(size, Splat::Compute));
+    let shot = mixed(size, Lens::Standard);
+    rig.draw(&shot);
+    rig.draw(&shot);
+    let names: Vec<_> =
+        rig.renderer().timings(whitewater::Slot(0)).iter().map(|t| t.name).collect();
+    assert!(names.is_empty() || names.contains(&"shape"), "{names:?}");
+}

@@ -1,0 +1,280 @@
+//! Twin of pass `shape` (Yu and Turk 2013, Sec. 4): for each particle i with its neighbours j within the reach r, itself
+//! among them, `w_ij = 1 - (|x_i - x_j| / r)^3` (Eq. 10), `x_i^w = sum w x / sum w`,
+//! `C = sum w (x - x^w)(x - x^w)^T / sum w` (Eq. 9), and of its eigenvalues `max(sigma_k, sigma_1 / k_r)` (Eq. 15). With
+//! `m_i = x_i^w - x_i` the centre would be `x + lambda m` (Eq. 6); here it is `x + lambda (m - b)`, where
+//! `b_i = sum w |m_j| m_j / sum w |m_j|`, so that a body does not shrink (after Vollmer et al. 1999).
+//!
+//! Ours: lambda is by how much of an ellipsoid a particle is; the axes are over their geometric mean, so that the volume is the sphere's, and to the power of how much of an
+//! ellipsoid the sum of the neighbours' weights makes of a particle. Offsets, weights and products are whole steps of 1/65536 of the
+//! reach, as on the GPU; where rounding may go either way stands in the slack.
+//!
+//! The matrix is no decomposition by rotations as on the GPU: the eigenvalue that is farthest from the others by the roots of the
+//! characteristic polynomial (Smith 1961), its vector by a cross product, and the other two in the plane across it.
+
+use super::smoothstep;
+use glam::{DMat3, DVec3};
+
+/// Of the sums.
+pub const STEP: f64 = 1.0 / 65536.0;
+
+/// How shapes come from neighbours; lengths in metres.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    pub reach: f64,
+    pub ratio: f64,
+    pub fewest: f64,
+    pub lone: f64,
+    pub centred: f64,
+}
+
+/// A particle's ellipsoid: its centre, and what takes a ball of its radius to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    pub center: DVec3,
+    pub axes: DMat3,
+    /// How far off both may be on the GPU: metres, and the norm of a matrix.
+    pub off: [f64; 2],
+}
+
+/// A vector of whole steps, and how many steps of its components rounding may make one more or less.
+fn stepped(v: DVec3) -> (DVec3, DVec3) {
+    let steps = v / STEP;
+    // Single precision has 2^-24 of a number, over STEP 2^-8 of a step; a few operations.
+    let loose = |s: f64| f64::from((s.fract().abs() - 0.5).abs() < 0.05);
+    (steps.round() * STEP, DVec3::new(loose(steps.x), loose(steps.y), loose(steps.z)) * STEP)
+}
+
+/// The shapes of particles.
+pub fn shapes(positions: &[DVec3], settings: &Settings) -> Vec<Shape> {
+    let all: Vec<_> = positions.iter().map(|own| shape(*own, positions, settings)).collect();
+    let centered = |(own, of): (&DVec3, &Formed)| {
+        let (center, off) = center((*own, of), (positions, &all), settings);
+        Shape { center, axes: of.axes, off: [off, of.axes_off] }
+    };
+    positions.iter().zip(&all).map(centered).collect()
+}
+
+/// A particle's axes, and what its centre is made of.
+struct Formed {
+    axes: DMat3,
+    axes_off: f64,
+    /// m, in reaches.
+    middle: DVec3,
+    middle_off: f64,
+    /// How much of an ellipsoid it is.
+    share: f64,
+    share_off: f64,
+}
+
+/// The centre, and how far off it may be.
+fn center(
+    (own, of): (DVec3, &Formed),
+    (positions, all): (&[DVec3], &[Formed]),
+    settings: &Settings,
+) -> (DVec3, f64) {
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    let (mut sum_off, mut weights_off) = (0.0, 0.0);
+    for (other, formed) in positions.iter().zip(all) {
+        let distance = (*other - own).length() / settings.reach;
+        if distance >= 1.0 {
+            continue;
+        }
+        let length = formed.middle.length();
+        let weight = 1.0 - distance.powi(3);
+        sum += formed.middle * length * weight;
+        weights += length * weight;
+        // A step of each component may go either way.
+        sum_off += 2.0 * weight * length * formed.middle_off + STEP;
+        weights_off += weight * formed.middle_off + STEP;
+    }
+    let mean = if weights > 0.0 { sum / weights } else { DVec3::ZERO };
+    let longest = all.iter().map(|formed| formed.middle.length()).fold(0.0, f64::max);
+    let quotient = (sum_off + mean.length() * weights_off) / (weights - weights_off).max(1.0e-9);
+    let off = (of.middle - mean) * settings.centred * settings.reach;
+    let mean_off = quotient.min(2.0 * longest);
+    let moved = settings.centred
+        * settings.reach
+        * ((of.middle_off + mean_off) * of.share + (of.middle - mean).length() * of.share_off);
+    let rounded = own.abs().max_element() * 4.0 / f64::from(1 << 24);
+    (own + off * of.share, moved + rounded)
+}
+
+fn shape(own: DVec3, positions: &[DVec3], settings: &Settings) -> Formed {
+    let Settings { reach, ratio, fewest, lone, centred: _ } = *settings;
+    let mut all = 0.0;
+    let (mut first, mut diagonal, mut mixed) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+    let (mut loose, mut loose_weight) = ([DVec3::ZERO; 3], 0.0);
+    for other in positions {
+        let to = (*other - own) / reach;
+        let distance = to.length();
+        if distance >= 1.0 {
+            continue;
+        }
+        let weight = 1.0 - distance.powi(3);
+        let (w, w_loose) = stepped(DVec3::splat(weight));
+        all += w.x;
+        loose_weight += w_loose.x;
+        let products = [to, to * to, DVec3::new(to.y * to.z, to.x * to.z, to.x * to.y)];
+        for ((sum, loose), product) in
+            [&mut first, &mut diagonal, &mut mixed].into_iter().zip(&mut loose).zip(products)
+        {
+            let (steps, unsure) = stepped(product * weight);
+            *sum += steps;
+            *loose += unsure;
+        }
+    }
+    let middle = first / all;
+    let (xx, yz) = (diagonal / all, mixed / all);
+    let moments = DMat3::from_cols(
+        DVec3::new(xx.x, yz.z, yz.y),
+        DVec3::new(yz.z, xx.y, yz.x),
+        DVec3::new(yz.y, yz.x, xx.z),
+    );
+    let outer = DMat3::from_cols(middle * middle.x, middle * middle.y, middle * middle.z);
+    let covariance = moments - outer;
+
+    let (values, vectors) = eigen(covariance);
+    let most = values.max_element();
+    let mut axes = DVec3::ONE;
+    if most > 1.0e-6 {
+        axes = (values / most).max(DVec3::splat(1.0 / ratio));
+        axes /= (axes.x * axes.y * axes.z).cbrt();
+    }
+    let beside = all - 1.0;
+    let share = smoothstep(0.5 * fewest, fewest.max(1.0e-6), beside);
+    let scale = lone + (1.0 - lone) * share;
+    let of = |axes: DVec3| vectors * DMat3::from_diagonal(axes) * vectors.transpose();
+
+    // How far off the covariance is: a quotient's error is that of its terms over the sum of the weights, which is 1
+    // or more; single precision adds a few u.
+    let relative = loose_weight / all;
+    let middle_off = loose[0].length() / all + middle.length() * relative + 1.0e-6;
+    let entries = loose[1].length_squared() + 2.0 * loose[2].length_squared();
+    let covariance_off = entries.sqrt() / all
+        + norm(&moments) * relative
+        + 2.0 * middle.length() * middle_off
+        + 2.0e-6;
+    // Over the largest eigenvalue, with the others cut off at 1/k of that: each moves by its share; `axes` = b/g with
+    // g^3 = det b, whose derivative is at most 1/g across the eigenvectors, and along them as much and
+    // s_i/3 sum 1/b_j, where b_j is 1/k at least.
+    let b = (values / most.max(1.0e-6)).max(DVec3::splat(1.0 / ratio));
+    let g = (b.x * b.y * b.z).cbrt();
+    let b_off = covariance_off / most.max(1.0e-6) * (1.0 + b.length() + 3.0_f64.sqrt() / ratio);
+    let s_off = b_off * (1.0 / g + axes.length() / 3.0 * (1.0 / b.x + 1.0 / b.y + 1.0 / b.z));
+    // A power s^p by p: its logarithm times the error of p, which is 1.5 of that of what p goes by. By s: p s^(p - 1).
+    let span = (0.5 * fewest).max(1.0e-6);
+    let beside_off = loose_weight + 2.0e-6;
+    let changes = beside + beside_off > 0.5 * fewest && beside - beside_off < fewest.max(1.0e-6);
+    let share_off = if changes { (1.5 * beside_off / span).min(1.0) } else { 0.0 };
+    let logarithm = axes.to_array().into_iter().map(|a| a.ln().abs()).fold(0.0, f64::max);
+    let drawn = DVec3::from(axes.to_array().map(|a| a.powf(share)));
+    let flat =
+        if most > 1.0e-6 { s_off * share * axes.min_element().powf(share - 1.0) } else { 0.0 };
+    let axes_off = scale * (flat + drawn.length() * logarithm * share_off)
+        + (1.0 - lone) * share_off * drawn.length()
+        // Six numbers of 16 bits, signed fractions of 4: half a step in each of nine entries.
+        + 3.0 * 0.5 * 4.0 / 32767.0
+        // Rotations, powers and products in single precision.
+        + 64.0 / f64::from(1 << 24);
+    Formed { axes: of(drawn) * scale, axes_off, middle, middle_off, share, share_off }
+}
+
+/// The square root of the sum of the squares of all entries.
+pub fn norm(m: &DMat3) -> f64 {
+    m.to_cols_array().into_iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Eigenvalues and eigenvectors of a symmetric matrix.
+pub fn eigen(m: DMat3) -> (DVec3, DMat3) {
+    let mean = (m.x_axis.x + m.y_axis.y + m.z_axis.z) / 3.0;
+    let rest = m - DMat3::from_diagonal(DVec3::splat(mean));
+    let spread = norm(&rest) / 6.0_f64.sqrt();
+    if spread < 1.0e-14 {
+        return (DVec3::splat(mean), DMat3::IDENTITY);
+    }
+    // The roots are mean + 2 spread cos(angle + 2 pi k / 3).
+    let half = ((rest * (1.0 / spread)).determinant() / 2.0).clamp(-1.0, 1.0);
+    let angle = half.acos() / 3.0;
+    let root = |turn: f64| mean + 2.0 * spread * (angle + turn).cos();
+    let third = std::f64::consts::TAU / 3.0;
+    // The first is the largest, the second the smallest; the one that is far from both others is alone.
+    let alone = if half > 0.0 { root(0.0) } else { root(third) };
+    let off = m - DMat3::from_diagonal(DVec3::splat(alone));
+    let rows = [off.x_axis, off.y_axis, off.z_axis];
+    let crosses = [rows[0].cross(rows[1]), rows[1].cross(rows[2]), rows[2].cross(rows[0])];
+    let first = crosses.into_iter().max_by(|a, b| a.length().total_cmp(&b.length()));
+    let first = first.map_or(DVec3::X, DVec3::normalize);
+    let (p, q) = first.any_orthonormal_pair();
+    let (pp, qq, pq) = (p.dot(m * p), q.dot(m * q), p.dot(m * q));
+    let turn = 0.5 * (2.0 * pq).atan2(pp - qq);
+    let second = p * turn.cos() + q * turn.sin();
+    let last = q * turn.cos() - p * turn.sin();
+    let values = DVec3::new(alone, second.dot(m * second), last.dot(m * last));
+    (values, DMat3::from_cols(first, second, last))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAIN: Settings =
+        Settings { reach: 2.0, ratio: 4.0, fewest: 1.5, lone: 0.5, centred: 1.0 };
+
+    fn sorted(m: DMat3) -> [f64; 3] {
+        let mut values = eigen(m).0.to_array();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    fn turned() -> DMat3 {
+        DMat3::from_axis_angle(DVec3::new(1.0, 2.0, -0.5).normalize(), 0.7)
+    }
+
+    #[test]
+    fn a_decomposition_is_the_matrix() {
+        let r = turned();
+        for values in
+            [[3.0, 2.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1], [2.0, 2.0, 2.0], [1.0, 0.0, 0.0]]
+        {
+            let m = r * DMat3::from_diagonal(values.into()) * r.transpose();
+            let (found, vectors) = eigen(m);
+            let again = vectors * DMat3::from_diagonal(found) * vectors.transpose();
+            assert!(norm(&(again - m)) < 1.0e-12, "{values:?}");
+            let mut expected = values;
+            expected.sort_by(f64::total_cmp);
+            assert!(sorted(m).iter().zip(expected).all(|(a, b)| (a - b).abs() < 1.0e-12));
+        }
+    }
+
+    /// By hand: of a square lattice the variance across is 0, so that the axes are 1 : 1 : 1/4 over their geometric mean,
+    /// of a line 1 : 1/4 : 1/4, of a cubic lattice all the same.
+    #[test]
+    fn sheets_are_flat_lines_are_long_and_the_inside_is_round() {
+        let r = turned();
+        let range = || -3..=3;
+        let lattice = |keep: fn(i32, i32, i32) -> bool| -> Vec<DVec3> {
+            let all =
+                range().flat_map(|z| range().flat_map(move |y| range().map(move |x| (x, y, z))));
+            let kept = all.filter(|(x, y, z)| keep(*x, *y, *z));
+            kept.map(|(x, y, z)| r * DVec3::new(x.into(), y.into(), z.into())).collect()
+        };
+        let of = |points: &[DVec3]| {
+            let own = points.iter().position(|p| p.length() < 1.0e-9).unwrap();
+            shapes(points, &PLAIN)[own]
+        };
+        let k: f64 = 0.25;
+        let expected = [
+            (lattice(|_, _, z| z == 0), DVec3::new(1.0, 1.0, k) / k.cbrt()),
+            (lattice(|_, y, z| y == 0 && z == 0), DVec3::new(1.0, k, k) / (k * k).cbrt()),
+            (lattice(|_, _, _| true), DVec3::ONE),
+            // Alone: a sphere of half the size.
+            (vec![DVec3::ZERO], DVec3::splat(0.5)),
+        ];
+        for (points, axes) in expected {
+            let m = r * DMat3::from_diagonal(axes) * r.transpose();
+            let Shape { center, axes, off: [_, slack] } = of(&points);
+            assert!(norm(&(axes - m)) < slack, "{axes} for {m}, {slack}");
+            assert!(slack < 0.05 && center.length() < 1.0e-4, "{slack} {center}");
+        }
+    }
+}
