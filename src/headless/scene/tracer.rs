@@ -6,11 +6,15 @@ use std::collections::HashMap;
 
 use glam::{Quat, Vec3};
 
-use super::Scene;
 use super::bake::{Vertex, world};
+use super::{Mesh, Scene};
 
 /// Rays a vertex.
 const RAYS: usize = 64;
+/// Rays a vertex of the backdrop, and those of them to the sun, which is so wide there (tangent): leaves blur its shadows.
+const FEW: usize = 12;
+const SUNS: usize = 3;
+const PENUMBRA: f32 = 0.06;
 
 struct Triangle {
     corner: Vec3,
@@ -48,8 +52,13 @@ pub struct Tracer {
 
 impl Tracer {
     pub fn new(scene: &Scene, diagonal: f32) -> Self {
+        Self::of(&scene.meshes, scene, diagonal)
+    }
+
+    /// Of some meshes on the ground of a scene.
+    fn of<'a>(meshes: impl IntoIterator<Item = &'a Mesh>, scene: &Scene, diagonal: f32) -> Self {
         let mut triangles = Vec::new();
-        for mesh in &scene.meshes {
+        for mesh in meshes {
             let albedo = mesh.material.albedo();
             let (vertices, indices) = world(mesh);
             for t in indices.chunks_exact(3) {
@@ -62,21 +71,13 @@ impl Tracer {
                 triangles.push(Triangle { corner: a, edges: [b - a, c - a], normal, albedo });
             }
         }
-        // Cosine-weighted about +z, by a Fibonacci spiral.
-        let directions = (0..RAYS)
-            .map(|i| {
-                let u = (i as f32 + 0.5) / RAYS as f32;
-                let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
-                Vec3::new(u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).sqrt())
-            })
-            .collect();
         let mut tracer = Self {
             triangles,
             nodes: Vec::new(),
             ground: scene.ground.as_ref().map(|g| (g.y, g.material.albedo())),
             sun: Vec3::from(scene.sun.direction).normalize_or(Vec3::Y),
             lift: 5e-4 * diagonal,
-            directions,
+            directions: directions(RAYS),
         };
         tracer.nodes.push(Node { low: Vec3::ZERO, high: Vec3::ZERO, first: 0, count: 0 });
         tracer.build(0, 0, tracer.triangles.len());
@@ -257,6 +258,84 @@ impl Tracer {
     }
 }
 
+/// Cosine-weighted about +z, by a Fibonacci spiral.
+fn directions(count: usize) -> Vec<Vec3> {
+    (0..count)
+        .map(|i| {
+            let u = (i as f32 + 0.5) / count as f32;
+            let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
+            Vec3::new(u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).sqrt())
+        })
+        .collect()
+}
+
+/// Light of the backdrop: by few rays, as it is far and much of it is leaves; by as many as the meshes' where it is near
+/// them.
+pub struct Around {
+    all: Tracer,
+    /// Keeps the sun off the backdrop; the meshes do it by their shadow map.
+    backdrop: Tracer,
+    few: Vec<Vec3>,
+    to_sun: [Vec3; SUNS],
+    middle: Vec3,
+    near: f32,
+}
+
+impl Around {
+    pub fn new(scene: &Scene, diagonal: f32) -> Self {
+        let all = Tracer::of(scene.meshes.iter().chain(&scene.backdrop), scene, diagonal);
+        let backdrop = Tracer::of(&scene.backdrop, &Scene::default(), diagonal);
+        let turn = Quat::from_rotation_arc(Vec3::Z, all.sun);
+        let to_sun = std::array::from_fn(|i| {
+            let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
+            let away = PENUMBRA * ((i as f32 + 0.5) / SUNS as f32).sqrt();
+            (turn * Vec3::new(away * cos, away * sin, 1.0)).normalize()
+        });
+        let (low, high) = scene.bounds();
+        let middle = 0.5 * (low + high);
+        Self { all, backdrop, few: directions(FEW), to_sun, middle, near: 0.75 * diagonal }
+    }
+
+    /// Lights vertices; what lies in a solid is dark, as leaves are between two bushes.
+    pub fn light(&self, vertices: &mut [Vertex]) {
+        let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let size = vertices.len().div_ceil(threads).max(1);
+        std::thread::scope(|scope| {
+            for part in vertices.chunks_mut(size) {
+                scope.spawn(move || part.iter_mut().for_each(|vertex| self.light_vertex(vertex)));
+            }
+        });
+    }
+
+    fn light_vertex(&self, vertex: &mut Vertex) {
+        let near = vertex.at().distance(self.middle) < self.near;
+        let directions = if near { &self.all.directions } else { &self.few };
+        let normal = Vec3::from(vertex.normal);
+        let from = vertex.at() + normal * 4.0 * self.all.lift;
+        let frame = Quat::from_rotation_arc(Vec3::Z, normal);
+        let (mut sky, mut seen, mut bounced, mut around) = (0.0_f32, 0.0, Vec3::ZERO, Vec3::ZERO);
+        for direction in directions {
+            let d = frame * *direction;
+            sky += f32::from(d.y > 0.0);
+            match self.all.trace(from, d, false) {
+                None => seen += f32::from(d.y > 0.0),
+                Some(hit) if hit.inside => {}
+                Some(hit) => {
+                    around += hit.albedo;
+                    // What hides it from the sun hides this as well, or about so.
+                    bounced += hit.albedo * hit.normal.dot(self.all.sun).max(0.0);
+                }
+            }
+        }
+        let sunny = self.to_sun.iter().filter(|to| self.backdrop.trace(from, **to, true).is_none());
+        vertex.bulge = sunny.count() as f32 / SUNS as f32;
+        let share = (directions.len() as f32).recip();
+        let [r, g, b] = (bounced * share * (0.3 + 0.7 * vertex.bulge)).to_array();
+        vertex.light = [if sky > 0.0 { seen / sky } else { 0.0 }, r, g, b];
+        vertex.around = (around * share).to_array();
+    }
+}
+
 impl Triangle {
     /// Möller and Trumbore 1997.
     fn hit(&self, from: Vec3, along: Vec3) -> Option<f32> {
@@ -284,7 +363,7 @@ mod tests {
     fn scene(meshes: Vec<Mesh>) -> Scene {
         Scene {
             meshes,
-            ground: Some(Ground { y: 0.0, material: Material::default() }),
+            ground: Some(Ground { y: 0.0, material: Material::default(), reach: None }),
             ..Scene::default()
         }
     }
