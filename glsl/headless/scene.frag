@@ -239,31 +239,33 @@ Surface leaves(vec3 p, vec3 n, float width) {
 // Masses of leaves: twigs that face all ways, dark gaps between them, each bush of its own green.
 Surface foliage(vec3 p, vec3 n, float width) {
     float mass = octaves(p + 3.0, 0.35, 2, width);
-    float twig = octaves(p + 61.0, 1.9, 3, width);
-    vec3 leaf = vec3(octaves(p, 4.7, 3, width), octaves(p + 41.0, 4.7, 3, width), octaves(p + 83.0, 4.7, 3, width));
-    float deep = smoothstep(0.05, 0.55, -0.9 * leaf.x - 0.8 * twig);
+    float twig = octaves(p + 61.0, 2.6, 3, width);
+    vec3 leaf = vec3(octaves(p, 11.0, 2, width), octaves(p + 41.0, 11.0, 2, width), octaves(p + 83.0, 11.0, 2, width));
+    // What is too fine to be seen is darker in the mean, and of one brightness.
+    float deep = smoothstep(0.0, 0.5, -1.1 * leaf.x - 0.8 * twig + 0.12 * (1.0 - kept(width, 11.0)));
     Surface s;
-    s.albedo = push.color.rgb * (1.0 + 0.35 * mass + 0.7 * twig + 0.9 * leaf.y);
+    s.albedo = push.color.rgb * (1.0 + 0.35 * mass + 0.6 * twig + 1.3 * leaf.y);
     s.albedo *= 1.0 + vec3(0.55, 0.15, -0.25) * (0.5 * mass + leaf.z);
-    s.albedo *= (1.0 - 0.8 * deep) * mix(0.7, 1.05, smoothstep(-0.9, 0.6, n.y));
+    s.albedo *= (1.0 - 0.85 * deep) * mix(0.7, 1.05, smoothstep(-0.9, 0.6, n.y));
     s.roughness = push.color.a;
-    s.tilt = 1.5 * leaf + 0.9 * vec3(twig, 0.4 * leaf.z, leaf.x - twig);
+    s.tilt = 2.2 * leaf + 0.9 * vec3(twig, 0.4 * leaf.z, leaf.x - twig);
     return s;
 }
 
 // Grass: stripes that the mower has laid to and fro, patches that are dry or lush, tufts.
 Surface lawn(vec3 p, float width) {
     float broad = octaves(p + 5.0, 0.09, 3, width);
-    float patches = octaves(p + 29.0, 0.55, 3, width);
-    float tuft = octaves(vec3(p.x, 0.0, p.z), 5.5, 3, width);
-    float laid = lines(p.x / (2.0 * push.pattern.x) + 0.05 * broad, 0.5, width / (2.0 * push.pattern.x)) - 0.5;
+    float patches = octaves(p + 29.0, 0.9, 3, width);
+    // Seen from low tufts stand before one another: as fine as the footprint is narrow.
+    float tuft = octaves(vec3(p.x, 0.0, p.z), 9.0, 3, 0.6 * width);
+    float laid = lines(p.x / (2.0 * push.pattern.x) + 0.04 * broad, 0.5, width / (2.0 * push.pattern.x)) - 0.5;
     vec3 lush = push.color.rgb;
-    vec3 dry = dot(lush, vec3(0.4, 0.6, 0.0)) * vec3(1.55, 1.28, 0.55);
+    vec3 dry = dot(lush, vec3(0.4, 0.6, 0.0)) * vec3(1.35, 1.18, 0.50);
     Surface s;
-    s.albedo = mix(lush, dry, clamp(0.22 + 0.9 * patches + 0.9 * broad, 0.0, 0.8));
-    s.albedo *= 1.0 + 0.16 * laid + 0.30 * broad + 0.22 * patches + 0.75 * tuft;
+    s.albedo = mix(lush, dry, clamp(0.2 + 0.55 * patches + 0.4 * broad, 0.0, 0.55));
+    s.albedo *= 1.0 + 0.30 * laid + 0.12 * broad + 0.22 * patches + 1.2 * tuft;
     s.roughness = push.color.a;
-    s.tilt = vec3(0.35 * tuft + 0.06 * laid, 0.0, 0.35 * patches);
+    s.tilt = vec3(0.9 * tuft + 0.10 * laid, 0.0, 0.5 * tuft);
     return s;
 }
 
@@ -368,7 +370,8 @@ void main() {
     face = dot(face, face) > 0.0 ? normalize(face) : v;
     face = dot(face, v) < 0.0 ? -face : face;
     vec3 n = normalize(normal);
-    n = dot(n, face) < 0.0 ? -n : n;
+    // (Leaves are lit as the crown that they are of.)
+    n = PATTERN != FOLIAGE && dot(n, face) < 0.0 ? -n : n;
     // How far under the sea, and what of the pixel is.
     float depth = SEA != 0u ? max(scene.sea.x - position.y, 0.0) : 0.0;
     float under = SEA != 0u ? clamp((scene.sea.x - position.y) / max(fwidth(position.y), 1.0e-6) + 0.5, 0.0, 1.0) : 0.0;

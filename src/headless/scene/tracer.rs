@@ -12,9 +12,11 @@ use super::{Mesh, Scene};
 /// Rays a vertex.
 const RAYS: usize = 64;
 /// Rays a vertex of the backdrop, and those of them to the sun, which is so wide there (tangent): leaves blur its shadows.
-const FEW: usize = 12;
-const SUNS: usize = 3;
+const FEW: usize = 8;
+const SUNS: usize = 2;
 const PENUMBRA: f32 = 0.06;
+/// How far rays are cast for it, in reaches of what is near.
+const FAR: f32 = 14.0;
 
 struct Triangle {
     corner: Vec3,
@@ -308,7 +310,15 @@ impl Around {
     }
 
     fn light_vertex(&self, vertex: &mut Vertex) {
-        let near = vertex.at().distance(self.middle) < self.near;
+        let away = vertex.at().distance(self.middle);
+        if away > FAR * self.near {
+            // Of what haze hides half, what looks up sees the sky, and all the sun.
+            vertex.bulge = 1.0;
+            let down = 0.5 - 0.5 * vertex.normal[1];
+            vertex.light = [1.0 - 0.6 * down, 0.0, 0.0, 0.0];
+            return;
+        }
+        let near = away < self.near;
         let directions = if near { &self.all.directions } else { &self.few };
         let normal = Vec3::from(vertex.normal);
         let from = vertex.at() + normal * 4.0 * self.all.lift;

@@ -128,29 +128,35 @@ fn garden(scene: &mut Scene, place: &Place) {
 
     // Trees behind it, and bushes at its foot.
     let (mut crowns, mut wood) = ([Vec::new(), Vec::new(), Vec::new()], Mesh::default());
-    for i in 0..15 {
+    for i in 0..12 {
         let n = |seed| number(i, seed);
         // From the left of the far corner to its right.
-        let around = PI * (0.02 + 0.96 * (i as f32 + 0.7 * (n(31) - 0.5)) / 14.0) - 0.25 * PI;
+        let around = PI * (0.02 + 0.96 * (i as f32 + 0.7 * (n(31) - 0.5)) / 11.0) - 0.25 * PI;
         let away = 4.0 + 6.5 * n(32);
         let at = away * Vec2::from_angle(around);
-        let height = (0.9 + 1.15 * n(33)) * (0.72 + 0.07 * away);
+        let height = (0.85 + 0.55 * n(33)) * (0.62 + 0.085 * away);
         tree(at, height, i, &mut crowns[(3.0 * n(34)) as usize % 3], &mut wood);
     }
     // A wood before the hills, all round.
-    for i in 0..84 {
+    for i in 0..420 {
         let n = |seed| number(i, seed);
-        let at = (17.0 + 9.0 * n(41)) * Vec2::from_angle(TAU * (i as f32 + n(42)) / 84.0);
-        let half = vec3(1.3 + 0.9 * n(43), 0.9 + 0.9 * n(44), 1.3 + 0.9 * n(45));
-        let middle = vec3(at.x, land(at) + 0.55 * half.y, at.y);
-        crowns[1 + i % 2].push(Lump { middle, half, rough: 0.42, seed: 900 + 3 * i as u32 });
+        let at = (16.0 + 9.0 * n(41)) * Vec2::from_angle(TAU * (i as f32 + n(42)) / 420.0);
+        let size = 0.35 + 0.55 * n(43);
+        let half = size * vec3(1.0, 0.8 + 0.3 * n(44), 1.0);
+        let middle = vec3(at.x, land(at) + (0.4 + 1.1 * n(45)) * half.y, at.y);
+        crowns[1 + i % 2].push(Lump { middle, half, rough: 0.3, seed: 900 + 3 * i as u32 });
     }
-    for (crowns, green) in crowns.iter().zip([hedge_green, oak, ash]) {
-        b.push("leaves", lumps(crowns, 6, green));
+    for (i, (crowns, green)) in crowns.iter().zip([hedge_green, oak, ash]).enumerate() {
+        let mut mesh = lumps(crowns, 4, green);
+        sprays(&mut mesh, crowns, i as u32);
+        b.push("leaves", mesh);
     }
     wood.material = bark;
     wood.normals = smooth_normals(&wood.positions, &wood.indices);
     b.push("trunks", wood);
+    if let Some(ground) = &mut scene.ground {
+        ground.reach = Some((half.max_element() + 1.1) * b.wide);
+    }
     scene.backdrop = b.meshes;
     scene.haze = Some(34.0 * b.wide);
 }
@@ -358,26 +364,55 @@ fn hedge(line: &[Vec2], [thick, high]: [f32; 2], step: f32, material: Material) 
     mesh
 }
 
+/// Leaves that stand out of lumps, so that their outlines are ragged: triangles, lit as the lump is.
+fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
+    const EACH: usize = 14;
+    for (i, lump) in lumps.iter().enumerate() {
+        for k in 0..EACH {
+            let n = |of: u32| number(EACH * i + k, 10 * seed + 400 + of);
+            let around = TAU * n(0);
+            let up = 1.0 - 1.6 * n(1);
+            let level = (1.0 - up * up).max(0.0).sqrt();
+            let out = vec3(level * around.cos(), up, level * around.sin());
+            let at = lump.middle + lump.half * out * (0.85 + 0.35 * n(2));
+            let size = lump.half.min_element() * (0.22 + 0.3 * n(3));
+            let (a, b) = (TAU * n(4), PI * n(5));
+            let along = vec3(a.cos() * b.sin(), b.cos(), a.sin() * b.sin());
+            let across = along.cross(out).normalize_or(Vec3::X);
+            let first = mesh.positions.len() as u32;
+            for corner in [
+                size * along,
+                size * (0.5 * across - 0.6 * along),
+                -size * (0.7 * across + 0.3 * along),
+            ] {
+                mesh.positions.push((at + corner).to_array());
+                mesh.normals.push(out.to_array());
+            }
+            mesh.indices.extend([first, first + 1, first + 2]);
+        }
+    }
+}
+
 /// A crown of lumps on a trunk.
 fn tree(at: Vec2, height: f32, seed: usize, crown: &mut Vec<Lump>, wood: &mut Mesh) {
-    const LUMPS: usize = 22;
+    const LUMPS: usize = 30;
     const SIDES: usize = 7;
     let ground = land(at);
     let n = |i: usize, of: u32| number(40 * seed + i, 70 + of);
     let reach = height * vec3(0.30 + 0.1 * n(0, 0), 0.36, 0.30 + 0.1 * n(0, 1));
     let middle = vec3(at.x, ground + 0.60 * height, at.y);
-    crown.push(Lump { middle, half: 0.72 * reach, rough: 0.3, seed: 7 * seed as u32 });
+    crown.push(Lump { middle, half: 0.66 * reach, rough: 0.3, seed: 7 * seed as u32 });
     for i in 0..LUMPS {
         // Over the sphere by the golden angle, less of it below.
         let up = 1.0 - 1.75 * (i as f32 + 0.5) / LUMPS as f32;
         let around = 2.399_963_1 * (i as f32 + n(i, 2));
         let level = (1.0 - up * up).max(0.0).sqrt();
         let out = vec3(level * around.cos(), up, level * around.sin());
-        let size = height * (0.10 + 0.09 * n(i, 3));
+        let size = height * (0.07 + 0.07 * n(i, 3));
         crown.push(Lump {
-            middle: middle + reach * out * (0.72 + 0.25 * n(i, 4)),
-            half: size * vec3(1.0, 0.75, 1.0),
-            rough: 0.45,
+            middle: middle + reach * out * (0.62 + 0.42 * n(i, 4)),
+            half: size * vec3(1.0, 0.72, 1.0),
+            rough: 0.35,
             seed: 31 * (seed * LUMPS + i) as u32,
         });
     }

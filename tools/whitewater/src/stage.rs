@@ -26,7 +26,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
         SetArg::Pool | SetArg::None => [
             of([0.40, 0.36, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 10.0) }),
             of([0.66, 0.66, 0.64], 0.22, tiles(36.0)),
-            of([0.50, 0.455, 0.39], 0.8, Pattern::Stone { course: round_length(longest / 24.0) }),
+            of([0.50, 0.455, 0.39], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
         ],
         SetArg::Studio => [
             of([0.46; 3], 0.95, Pattern::Plain),
