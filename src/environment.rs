@@ -29,8 +29,9 @@ pub enum EnvironmentSource {
     Equirectangular(Equirectangular),
 }
 
-/// A clear sky by single scattering in a Rayleigh and Mie atmosphere (to 4 % of its integral), over
-/// grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
+/// A clear sky by single scattering in air and a thin haze (Nishita et al. 1993; optical depth of the haze 0.1; to 4 % of its
+/// integral) and a fitted term for the light that scatters more often: on level ground the sky gives a fifth of all light under
+/// a sun at 35°. Over grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sky {
     /// World direction to the sun, unit length.

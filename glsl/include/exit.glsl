@@ -1,5 +1,6 @@
-// Water with air behind it, seen through by both of its surfaces (Wyman 2005, "An Approximate Image-Space Approach for
-// Interactive Refraction"; not in the thesis). Differs: the far surface is the front one and as much deeper as the water is
+// Where the ray that the front surface refracts ends (Wyman 2005, "An Approximate Image-Space Approach for Interactive
+// Refraction"; not in the thesis): on the scene, where that lies under the water, and behind the water's far surface, where
+// there is air behind it. Differs: the far surface is the front one and as much deeper as the water is
 // thick, with the slope of both; a march over the screen finds the scene.
 // Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness, scene
 // colour and depth, environment.
@@ -24,15 +25,39 @@ vec2 thickness_slope(vec2 pixel) {
     return spline_rise(middle, h - middle, before, right, below, after) / frame.thick_extent.z;
 }
 
-// behind: the scene's colour as the front surface alone refracts it. parallel: give the far surface the front one's slope;
-// where the thickness is the sum of two sheets, its own slope describes neither.
-Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
+// The ray from the eye as it goes on in the water, a unit vector.
+vec3 into_water(Sheet sheet) {
     vec3 v = normalize(-sheet.at);
     float ratio = frame.up.w;
     // A normal of a ripple may be turned away.
     float facing = max(dot(sheet.normal, v), 0.0);
-    vec3 inside = ratio * (sheet.normal * facing - v)
-                - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+    return ratio * (sheet.normal * facing - v) - sheet.normal * sqrt(1.0 - ratio * ratio * (1.0 - facing * facing));
+}
+
+// From a pixel to where the ray that a sheet refracts meets the scene under it: as far as the scene lies below the surface
+// where the ray was last found to end, begun straight behind. What stands before the water is not under it.
+const int BED_LOOKS = 3;
+vec2 bed_offset(Sheet sheet, vec2 pixel) {
+    vec3 inside = into_water(sheet);
+    float z = -sheet.at.z;
+    float along = max(-inside.z, FLATTEST);
+    float far = 0.0;
+    float most = EMPTY;
+    vec2 at = pixel;
+    for (int i = 0; i < BED_LOOKS; ++i) {
+        float below = (met_depth(at) - z) / along;
+        far = below > 0.0 ? min(below, most) : far;
+        most = min(most, 2.0 * far);
+        at = clamp(on_screen(sheet.at + inside * far).xy, vec2(0.5), frame.extent.xy - 0.5);
+    }
+    return at - pixel;
+}
+
+// behind: the scene's colour as the front surface alone refracts it. parallel: give the far surface the front one's slope;
+// where the thickness is the sum of two sheets, its own slope describes neither.
+Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool parallel) {
+    float ratio = frame.up.w;
+    vec3 inside = into_water(sheet);
     Exit result;
     result.path = sheet.thick / max(-inside.z, FLATTEST);
     vec3 from = sheet.at + inside * result.path;

@@ -15,8 +15,8 @@ layout(constant_id = 0) const uint THICKNESS = 1;
 layout(constant_id = 2) const uint NEAR = 0;
 // Steps of the march for what of the scene the front surface mirrors; 0: the environment alone.
 layout(constant_id = 25) const uint MIRROR = 0;
-// Steps of the march for what is seen through water with air behind it, by both of its surfaces; 0: what is behind, bent by
-// the front one alone.
+// Steps of the march for where the refracted ray meets the scene, under water and, past the far surface, behind it; 0: what
+// is behind, displaced by the front surface's slope.
 layout(constant_id = 26) const uint EXIT = 0;
 
 layout(set = 0, binding = 2) uniform sampler2D depth;
@@ -597,7 +597,18 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     if (DIFFUSE == 1u) {
         foam = with_submerged(foam, ivec2(pixel), front);
     }
-    vec3 c = refracted(pixel, bent(sheet.offset + back.offset), max(surface.z, beyond));
+    vec2 offset = bent(sheet.offset + back.offset);
+    // Ends of loops, not branches: a CPU runs branches whole.
+    bool submerged = EXIT > 0u && max(sheet.wet, back.wet) > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
+    while (submerged) {
+        Sheet last = sheet;
+        if (back.wet > 0.0) {
+            last = back;
+        }
+        offset = mix(offset, bed_offset(last, pixel), last.wet);
+        submerged = false;
+    }
+    vec3 c = refracted(pixel, offset, max(surface.z, beyond));
     c = under_water(back, under_water(sheet, c));
     Exit way = Exit(1.0, vec3(0.0), c, sheet.path);
     // An end of a loop, not a branch: a CPU runs branches whole.

@@ -1,9 +1,12 @@
 #version 460
 // Pass `caustics`: light refracted by the water, from each texel of the light's map to where it leaves
-// the water again, which is mostly the ground (caustics mapping, Shah et al. 2007, without its mesh).
-// Reads: smoothed front, thickness. Writes: photons, fixed point, summed.
+// the water again, which is mostly the ground (caustics mapping, Shah et al. 2007, without its mesh). No light comes from where
+// the host's scene shades the water: through its side at a wall it would be thrown along the bed.
+// Reads: smoothed front, thickness, shadow map or its basis and span. Writes: photons, fixed point, summed.
 
 #include "frame.glsl"
+#include "convolution.glsl"
+#include "scene_shadow.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
@@ -15,6 +18,19 @@ layout(set = 0, binding = 3, std430) buffer Photons { uint photons[]; };
 const float UNITS = 4096.0;
 // Of water over that of air.
 const float INDEX = 1.333;
+// Half the width over which the surface's slope is taken, over the depth of the water, and the most texels of it. Waves
+// shorter than that focus far above the bed: on it their light is nearly even again, and the ripples that particles do not
+// resolve spread the rest.
+const float SOFT = 1.0 / 16.0;
+const int MOST_SOFT = 8;
+
+// Eye space of a place in the maps at a depth: the rows of the matrix are at right angles.
+vec3 eye_at(vec2 place, float depth) {
+    mat4 rows = transpose(frame.to_light);
+    vec3 off = vec3(place, depth) - vec3(rows[0].w, rows[1].w, rows[2].w);
+    return rows[0].xyz * (off.x / dot(rows[0].xyz, rows[0].xyz)) + rows[1].xyz * (off.y / dot(rows[1].xyz, rows[1].xyz))
+         + rows[2].xyz * (off.z / dot(rows[2].xyz, rows[2].xyz));
+}
 
 float front_at(ivec2 texel, float here) {
     float there = texelFetch(smoothed, clamp(texel, ivec2(0), ivec2(frame.light_map.x) - 1), 0).x;
@@ -32,15 +48,19 @@ void main() {
         return;
     }
     // The light goes along +z here.
-    float wide = 2.0 * frame.light_map.y;
-    vec2 rise = vec2(front_at(texel + ivec2(1, 0), here) - front_at(texel - ivec2(1, 0), here),
-                     front_at(texel + ivec2(0, 1), here) - front_at(texel - ivec2(0, 1), here)) / wide;
-    vec3 bent = refract(vec3(0.0, 0.0, 1.0), normalize(vec3(rise, -1.0)), 1.0 / INDEX);
     vec2 deep = texelFetch(thickness, texel, 0).xy;
+    int reach = clamp(int(SOFT * deep.x / frame.light_map.y + 0.5), 1, MOST_SOFT);
+    ivec2 aside = ivec2(reach, 0);
+    vec2 rise = vec2(front_at(texel + aside.xy, here) - front_at(texel - aside.xy, here),
+                     front_at(texel + aside.yx, here) - front_at(texel - aside.yx, here))
+              / (2.0 * float(reach) * frame.light_map.y);
+    vec3 bent = refract(vec3(0.0, 0.0, 1.0), normalize(vec3(rise, -1.0)), 1.0 / INDEX);
     // Drops and thin sheets are no lenses: what they gather is spread again before it lands. Foam
     // scatters it.
     float lens = deep.x * smoothstep(frame.particle.y, 4.0 * frame.particle.y, deep.x)
                * exp(-4.0 * frame.shade.w * deep.y);
+    // A mask is the picture's.
+    float sun = SHADOW > 1u ? past_scene(eye_at((vec2(texel) + 0.5) / float(size), here), vec2(0.0)) : 1.0;
     vec2 at = vec2(texel) + bent.xy / max(bent.z, 0.2) * (lens / frame.light_map.y);
     ivec2 base = ivec2(floor(at));
     vec2 f = at - vec2(base);
@@ -48,7 +68,7 @@ void main() {
         ivec2 t = base + ivec2(i & 1, i >> 1);
         float part = ((i & 1) == 0 ? 1.0 - f.x : f.x) * (i < 2 ? 1.0 - f.y : f.y);
         if (all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, ivec2(size)))) {
-            atomicAdd(photons[t.y * size + t.x], uint(part * UNITS + 0.5));
+            atomicAdd(photons[t.y * size + t.x], uint(part * sun * UNITS + 0.5));
         }
     }
 }

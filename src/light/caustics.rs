@@ -3,13 +3,15 @@
 //!
 //! The front of the light's map is smoothed as wide as the water on the screen, each texel's light is
 //! refracted there and added where it leaves the water again; sums are of integers.
-//! Reads: front, thickness. Writes: caustics, R32F, light over what would come without water.
+//! Light that the host's scene keeps from the water, by its shadow map, is left out.
+//! Reads: front, thickness, shadow map. Writes: caustics, R32F, light over what would come without water.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::map_desc;
 use super::maps::Maps;
+use crate::contract::Config;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{
@@ -36,12 +38,16 @@ pub struct Caustics {
 }
 
 impl Caustics {
-    pub fn new(gpu: &Gpu, edge: u32) -> Result<Self, Error> {
+    pub fn new(gpu: &Gpu, config: &Config, edge: u32) -> Result<Self, Error> {
         let usage = vk::ImageUsageFlags::STORAGE;
         let image = |name| Image::new(gpu, &map_desc(name, edge, vk::Format::R32_SFLOAT, usage));
         Ok(Self {
             smooth: Pipeline::compute(gpu, shader::LIGHT_SMOOTH_COMP, &[])?,
-            refract: Pipeline::compute(gpu, shader::LIGHT_CAUSTICS_COMP, &[])?,
+            refract: Pipeline::compute(
+                gpu,
+                shader::LIGHT_CAUSTICS_COMP,
+                &super::constants(config),
+            )?,
             resolve: Pipeline::compute(gpu, shader::LIGHT_CAUSTICS_RESOLVE_COMP, &[])?,
             smoothed: [image("light/smoothed/x")?, image("light/smoothed")?],
             photons: Buffer::new(
@@ -84,6 +90,9 @@ impl Caustics {
             (1, sampled(smoothed)),
             (2, sampled(maps.thickness.image())),
             (3, Resource::buffer(&self.photons)),
+            (16, r.sunlight.shadow),
+            (18, r.sunlight.convolved[0]),
+            (19, r.sunlight.convolved[1]),
         ];
         r.descriptors.bind(gpu, cmd, &self.refract, &resources)?;
         r.dispatch_over(extent, self.refract.local_size);

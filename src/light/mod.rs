@@ -90,7 +90,7 @@ impl Light {
         Ok(Self {
             maps: Maps::new(gpu, config, edge)?,
             diffuse: config.diffuse.map(|diffuse| Diffuse::new(gpu, &diffuse, edge)).transpose()?,
-            caustics: Caustics::new(gpu, edge)?,
+            caustics: Caustics::new(gpu, config, edge)?,
             lit: Lit::new(gpu, config)?,
         })
     }

@@ -23,6 +23,8 @@ const RADIUS: f64 = 0.656;
 const UNITS: f64 = 4096.0;
 /// Water over air.
 const ETA: f64 = 1.0 / 1.333;
+/// The waves that bend light are wider than an eighth of the depth, as far as eight texels go.
+const WAVES: (f64, f64) = (1.0 / 8.0, 8.0);
 
 /// What casts.
 #[derive(Clone, Copy, Debug)]
@@ -116,6 +118,15 @@ impl Light {
         let from = p - self.center;
         let across = DVec2::new(right.dot(from), side.dot(from)) / (2.0 * self.radius);
         ((across + 0.5) * self.texels as f64, -sun.dot(from))
+    }
+
+    /// The point at a place of the maps, metres along the light.
+    pub fn point(&self, at: DVec2, depth: f64) -> DVec3 {
+        let sun = self.sun.normalize();
+        let up = if sun.y.abs() > 0.99 { DVec3::X } else { DVec3::Y };
+        let right = up.cross(sun).normalize();
+        let across = (at / self.texels as f64 - 0.5) * 2.0 * self.radius;
+        self.center + right * across.x + sun.cross(right) * across.y - sun * depth
     }
 
     /// Metres that a coordinate may be off. The axes are unit vectors of components to 16u, as
@@ -291,27 +302,41 @@ impl Light {
         })
     }
 
+    /// The front, smoothed.
+    fn surface(&self, maps: &Maps<'_>) -> Image<Rounded> {
+        let front = maps.front.map(|d| exact(f64::from(*d)));
+        self.smoothed(&self.smoothed(&front, (1, 0)), (0, 1))
+    }
+
     /// Where the light of each texel with water goes, in texels from the first one's centre on.
     pub fn landings(&self, maps: &Maps<'_>) -> Image<Option<[Rounded; 2]>> {
-        let front = maps.front.map(|d| exact(f64::from(*d)));
-        let front = self.smoothed(&self.smoothed(&front, (1, 0)), (0, 1));
+        let front = self.surface(maps);
         let (t, s) = (off(self.texel(), 2.0), self.spacing);
         Image::from_fn(self.texels, self.texels, |x, y| {
             let here = front.at(x, y);
             if !is_surface(here.v) {
                 return None;
             }
+            let [x_water, foam, ..] = maps.thickness.at(x, y).map(|v| exact(f64::from(v)));
+            let sides = 0.5 * WAVES.0 * x_water.v / self.texel();
+            // Either of two numbers of texels where rounding decides.
+            let reaches = [1.0 - 8.0 * U, 1.0 + 8.0 * U]
+                .map(|e| (sides * e).round().clamp(1.0, WAVES.1) as isize);
             let rise = [(1, 0), (0, 1)].map(|(dx, dy)| {
-                let [after, before] = [1, -1].map(|sign| {
-                    let there = front.clamped(x as isize + sign * dx, y as isize + sign * dy);
-                    let away = there - here;
-                    match at_most(Rounded { v: away.v.abs(), ..away }, self.apart()) {
-                        Is::Yes => there,
-                        Is::No => here,
-                        Is::Maybe => Rounded { v: here.v, e: here.e + away.v.abs() + away.e },
-                    }
+                let [low, high] = reaches.map(|reach| {
+                    let [after, before] = [reach, -reach].map(|go| {
+                        let there = front.clamped(x as isize + go * dx, y as isize + go * dy);
+                        let away = there - here;
+                        match at_most(Rounded { v: away.v.abs(), ..away }, self.apart()) {
+                            Is::Yes => there,
+                            Is::No => here,
+                            Is::Maybe => Rounded { v: here.v, e: here.e + away.v.abs() + away.e },
+                        }
+                    });
+                    (after - before) / (exact(2.0 * reach as f64) * t)
                 });
-                (after - before) / (exact(2.0) * t)
+                let (v, apart) = (0.5 * (low.v + high.v), 0.5 * (low.v - high.v).abs());
+                Rounded { v, e: apart + low.e.max(high.e) }
             });
             let n = normalize([rise[0], rise[1], exact(-1.0)]);
             let eta = off(ETA, 2.0);
@@ -320,7 +345,6 @@ impl Light {
             let k = exact(1.0) - eta * eta * (exact(1.0) - cosine * cosine);
             let bend = eta * cosine + k.sqrt();
             let b = [-(bend * n[0]), -(bend * n[1]), eta - bend * n[2]];
-            let [x_water, foam, ..] = maps.thickness.at(x, y).map(|v| exact(f64::from(v)));
             let scattered = (-(off(4.0 * self.foam_extinction, 1.0) * foam)).exp();
             let thick = smoothstep(off(s, 1.0), off(4.0 * s, 2.0), x_water);
             let lens = x_water * thick * scattered;
@@ -330,12 +354,22 @@ impl Light {
         })
     }
 
-    /// Light over what comes without water, and how many parts each texel holds.
-    pub fn caustics(&self, maps: &Maps<'_>) -> (Between, Between) {
+    /// Light over what comes without water, and how many parts each texel holds. past: of the sun's light at a point that
+    /// may be so many metres off, what the host's scene leaves.
+    pub fn caustics(
+        &self,
+        maps: &Maps<'_>,
+        past: &dyn Fn(DVec3, f64) -> Rounded,
+    ) -> (Between, Between) {
         let n = self.texels;
         let mut low = Image::new(n, n, 0.0);
         let mut high = low.clone();
-        for landing in self.landings(maps).data.into_iter().flatten() {
+        let front = self.surface(maps);
+        for (from, landing) in self.landings(maps).data.into_iter().enumerate() {
+            let (Some(landing), depth) = (landing, front.data[from]) else { continue };
+            let middle = DVec2::new((from % n) as f64, (from / n) as f64) + 0.5;
+            let p = self.point(middle, depth.v);
+            let sun = past(p, depth.e + self.off(p));
             // The part of the way from a texel to the next falls to nothing at either side.
             let hat = |at: Rounded, i: isize| {
                 let part = 1.0 - (at.v - i as f64).abs();
@@ -351,8 +385,9 @@ impl Light {
                     continue;
                 }
                 let (wx, wy) = (hat(landing[0], x), hat(landing[1], y));
-                let units =
-                    [0, 1].map(|i| UNITS * wx[i] * wy[i] * [1.0 - 4.0 * U, 1.0 + 4.0 * U][i]);
+                let suns = [(sun.v - sun.e).max(0.0), (sun.v + sun.e).min(1.0)];
+                let units = [0, 1]
+                    .map(|i| UNITS * wx[i] * wy[i] * suns[i] * [1.0 - 5.0 * U, 1.0 + 5.0 * U][i]);
                 *low.at_mut(x as usize, y as usize) += (units[0] - 0.5).ceil().max(0.0);
                 *high.at_mut(x as usize, y as usize) += (units[1] + 0.5).floor();
             }

@@ -6,8 +6,8 @@ use glam::{DVec2, DVec3};
 use super::rounded::{Rounded, cross, dot, exact, mix, normalize, off, smoothstep};
 use super::tolerance::U;
 use crate::reference::composite::{
-    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, all_mirrored, cut_look_up,
-    exit_about, look_up, look_up_both, met_about, scene_at,
+    Bed, Behind, Fresnel, Inputs, Medium, Met, Settings, Shown, all_mirrored, bed_about,
+    cut_look_up, exit_about, look_up, look_up_both, met_about, scene_at,
 };
 use crate::reference::noise::Ripple;
 use crate::reference::surface::{Case, Surface};
@@ -359,8 +359,15 @@ pub fn shaded(
     let t = off(surface.parts.full, if inputs.thickness_level == 0 { 0.0 } else { 13.0 });
     let mut lit = lit(inputs, settings, surface, texel, (t, exact(1.0)), view, (x, y));
     let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-    let moved = moved(lit.offset, view);
-    let q = look_up(settings, surface, view, pixel);
+    let mut moved = moved(lit.offset, view);
+    // Before nothing there is no bed.
+    let bed = lit.wet.v + lit.wet.e > 0.0 && is_surface(inputs.scene(x, y));
+    if let Some(index) = settings.exit.filter(|_| bed) {
+        let by = (index, 4.0 * lit.turned, 4.0 * (lit.z.e / lit.z.v + 16.0 * U));
+        let (offset, more) = bed_about(inputs, surface, view, pixel, by);
+        moved += more + lit.wet.e * (offset.length() + view.extent().y / 16.0);
+    }
+    let q = look_up(inputs, settings, surface, view, pixel);
     let (q, _) = cut_look_up(inputs, lit.z.v, pixel, q);
     let behind = scene(inputs, q, moved, background, filter);
     let behind = under_water(settings, &lit, exact(1.0), behind);

@@ -101,8 +101,8 @@ impl SunLight {
     pub fn of(sky: &Sky) -> Self {
         // Optical depth to the zenith: the coefficients and scale heights of
         // glsl/include/atmosphere.glsl; air mass after Kasten and Young 1989.
-        const RAYLEIGH: Vec3 = Vec3::new(5.8e-3 * 8.0, 13.5e-3 * 8.0, 33.1e-3 * 8.0);
-        const MIE: f32 = 4.44e-3 * 1.2;
+        const RAYLEIGH: Vec3 = Vec3::new(7.14e-3 * 8.0, 13.21e-3 * 8.0, 32.08e-3 * 8.0);
+        const MIE: Vec3 = Vec3::new(67.7e-3 * 1.332, 82.7e-3 * 1.332, 110.4e-3 * 1.332);
         let direction = Vec3::from(sky.sun).normalize_or(Vec3::Y);
         let height = direction.y.clamp(0.0, 1.0);
         let degrees = height.asin().to_degrees();

@@ -1,13 +1,19 @@
 //! The caustics against the twin, and the closed form of a flat pool.
 
-use whitewater::Region;
+use glam::{DVec2, Vec3};
+use whitewater::water::Shadows;
+use whitewater::{Config, Region, Shadow};
 
+use crate::reference::light::{Light, Maps, ShadowMap};
+use crate::reference::{Image, is_surface};
 use crate::support::compare;
 use crate::support::device::Gpu;
 use crate::support::rig::{Rig, Shot};
+use crate::support::rounded::{Rounded, exact};
 use crate::support::scenes::Lens;
 use crate::support::tolerance::U;
 
+use super::shade::{light_views, shadows};
 use super::{SIZE, casting, maps, pool, toward, twin, water};
 
 /// Caustics of the maps that the device itself made. Each texel's light is in the bounds of where
@@ -26,7 +32,7 @@ fn the_caustics_are_the_twins() {
             let drawn = case.draw(&mut rig);
             let (light, maps) = (twin(&case.shot, &config), maps(&drawn));
             let name = format!("caustics-{texels}-{drops}-{}", sun[0]);
-            let (bounds, units) = light.caustics(&maps);
+            let (bounds, units) = light.caustics(&maps, &|_, _| exact(1.0));
             compare::between(&name, maps.caustics, &bounds);
             let wide = |b: &crate::support::tolerance::Between| {
                 let each = b.low.data.iter().zip(&b.high.data).map(|(low, high)| high - low);
@@ -56,6 +62,62 @@ fn the_caustics_are_the_twins() {
             );
         }
     }
+}
+
+/// Light that the host's scene keeps from the water lands nowhere: of the light without its shadow map it is in the twin's
+/// bounds, and behind a map that keeps all of it there is none but what goes past the water.
+#[test]
+fn water_in_the_scenes_shade_bends_no_light() {
+    let gpu = Gpu::shared();
+    let config = Config { shadow: Some(Shadows::Map), ..casting(64) };
+    let mut rig = Rig::lit(&gpu, &config, 1);
+    let sun = toward(-0.6, 0.7, 0.3);
+    let mut case = pool(sun, 0.1, 0);
+    let at = Vec3::new(0.0, -0.1, 0.0);
+    let direction = Vec3::from(sun);
+    for (name, view_projection, reversed) in light_views(direction, at) {
+        let depth = |along: f32| view_projection.project_point3(at + along * direction).z;
+        let (before, behind) = (depth(0.8), depth(-0.8));
+        // Blocks of shade and of sun, then shade alone.
+        for all in [false, true] {
+            let texels = Image::from_fn(16, 16, |x, y| {
+                if all || (x / 4 + y / 4) % 2 == 0 { before } else { behind }
+            });
+            let image = shadows(&rig, Shadows::Map, &texels);
+            let host = image.host_image();
+            case.shot.sun.shadow = Some(Shadow { image: host, view_projection, bias: 0.05 });
+            let map = ShadowMap {
+                depth: &texels,
+                view_projection: view_projection.as_dmat4(),
+                bias: f64::from(0.05_f32),
+                sun: direction.as_dvec3(),
+                reversed,
+            };
+            let drawn = case.draw(&mut rig);
+            let (light, maps) = (twin(&case.shot, &config), maps(&drawn));
+            let (bounds, _) = light.caustics(&maps, &|p, by| map.past(p, by));
+            compare::between(&format!("caustics-{name}-{all}"), maps.caustics, &bounds);
+            let wet = || maps.front.data.iter().map(|d| f64::from(*d)).zip(&maps.caustics.data);
+            let light_of = |wet: &mut dyn Iterator<Item = f32>| wet.fold(0.0_f32, f32::max);
+            let most = light_of(&mut wet().filter(|(d, _)| is_surface(*d)).map(|(_, c)| *c));
+            // The map does not reach over all of the pool.
+            assert!(all || most > 1.0, "{name}: {most}, idle");
+            let shaded = landed(&light, &maps, &map);
+            assert!(shaded > 0, "{name}: nothing is in the shade");
+        }
+    }
+}
+
+/// Texels whose light the map keeps.
+fn landed(light: &Light, maps: &Maps<'_>, map: &ShadowMap<'_>) -> usize {
+    let landings = light.landings(maps);
+    let n = light.texels;
+    let shaded = |(i, landing): (usize, &Option<[Rounded; 2]>)| {
+        let depth = f64::from(maps.front.at(i % n, i / n));
+        let middle = DVec2::new((i % n) as f64, (i / n) as f64) + 0.5;
+        landing.is_some() && map.past(light.point(middle, depth), 0.0).v == 0.0
+    };
+    landings.data.iter().enumerate().filter(|of| shaded(*of)).count()
 }
 
 /// A flat pool, each texel like the next, bends no light out of its place.

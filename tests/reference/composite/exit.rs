@@ -1,11 +1,12 @@
-//! What is seen through water with air behind it: Snell's law at the front surface, and at the far one, which lies as much
+//! What is seen through water. Of what lies under it: where the ray ends that Snell's law bends at the front surface. With air
+//! behind it: Snell's law at the far surface too, which lies as much
 //! deeper as the water is thick and has the slope of both; then a march to the scene, or the environment.
 
 use glam::{DVec2, DVec3};
 
 use super::super::surface::Surface;
 use super::super::{Image, View, smoothstep};
-use super::mirror::{Met, march_from};
+use super::mirror::{Met, depth, march_from, on_screen};
 use super::{Inputs, Settings, Under, scene_at};
 
 /// Steps of the march.
@@ -63,6 +64,54 @@ pub fn bend(ray: DVec3, normal: DVec3, ratio: f64) -> Option<DVec3> {
     let along = (ray + normal * cosine) * ratio;
     let square = 1.0 - along.length_squared();
     (square > 0.0).then(|| along - normal * square.sqrt())
+}
+
+/// By how many pixels the refracted ray meets the scene under water beside what lies straight behind. Thrice: the ray goes to
+/// the depth that the scene has where it was last found to end, at most twice as far as the time before.
+pub fn bed_offset(
+    inputs: &Inputs<'_>,
+    surface: &Surface,
+    view: &View,
+    pixel: DVec2,
+    (index, off): (f64, &Off),
+) -> DVec2 {
+    let position = surface.position * (1.0 + off.scale);
+    let normal = (surface.normal + off.front).normalize();
+    let inside =
+        bend(position.normalize(), normal, index.recip()).expect("into water it always goes");
+    let (mut at, mut far, mut most) = (pixel, 0.0, f64::INFINITY);
+    for _ in 0..3 {
+        let below = (depth(inputs, view, at) + position.z) / (-inside.z).max(0.25);
+        if below > 0.0 {
+            far = below.min(most);
+        }
+        most = most.min(2.0 * far);
+        let end = on_screen(view, position + inside * far).truncate();
+        at = end.clamp(DVec2::splat(0.5), view.extent() - 0.5);
+    }
+    at - pixel
+}
+
+/// The same, and how far off it may be.
+pub fn bed_about(
+    inputs: &Inputs<'_>,
+    surface: &Surface,
+    view: &View,
+    pixel: DVec2,
+    (index, turned, share): (f64, f64, f64),
+) -> (DVec2, f64) {
+    let of = |off: &Off| bed_offset(inputs, surface, view, pixel, (index, off));
+    let found = of(&Off::default());
+    let mut moved = 0.0;
+    let fronts = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| (axis * turned, 0.0));
+    for (front, scale) in fronts.into_iter().chain([(DVec3::ZERO, share)]) {
+        let both = [1.0, -1.0].map(|sign| {
+            let off = Off { front: front * sign, scale: scale * sign, ..Off::default() };
+            of(&off).distance(found)
+        });
+        moved += both[0].max(both[1]);
+    }
+    (found, moved)
 }
 
 /// What comes into a surface, with what its front alone shows and what it mirrors.

@@ -24,13 +24,13 @@ struct Ray {
     stretch: f64,
 }
 
-fn on_screen(view: &View, eye: DVec3) -> DVec3 {
+pub fn on_screen(view: &View, eye: DVec3) -> DVec3 {
     let slope = eye.truncate() / -eye.z;
     ((slope - view.ray_at(DVec2::ZERO).truncate()) / view.slope_step()).extend(-1.0 / eye.z)
 }
 
 /// The scene's depth in a pixel; what lies at the far plane is nothing.
-fn depth(inputs: &Inputs<'_>, view: &View, at: DVec2) -> f64 {
+pub fn depth(inputs: &Inputs<'_>, view: &View, at: DVec2) -> f64 {
     let (scene, depth) = (inputs.scene_depth, inputs.depth);
     let texel = |at: f64, texels: usize, pixels: usize| {
         ((at.max(0.0) * texels as f64 / pixels as f64) as usize).min(texels - 1)

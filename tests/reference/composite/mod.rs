@@ -22,7 +22,7 @@ use super::surface::{Surface, Surfaces};
 use super::{Image, View, smoothstep};
 
 pub use bed::{Bed, Under, under_water};
-pub use exit::{Off, exit, exit_about};
+pub use exit::{Off, bed_about, bed_offset, exit, exit_about};
 pub use mirror::{Met, met, met_about};
 pub use sheets::{Behind, Shown, Two, look_up_both, shade_sheets};
 
@@ -156,8 +156,22 @@ pub fn bent(by: DVec2, view: &View) -> DVec2 {
 }
 
 /// Where the background is looked up, in pixels: displaced by refraction.
-pub fn look_up(settings: &Settings, surface: &Surface, view: &View, pixel: DVec2) -> DVec2 {
-    pixel + bent(displacement(settings, surface, view), view)
+pub fn look_up(
+    inputs: &Inputs<'_>,
+    settings: &Settings,
+    surface: &Surface,
+    view: &View,
+    pixel: DVec2,
+) -> DVec2 {
+    let by = bent(displacement(settings, surface, view), view);
+    let wet = Under::of(settings, surface, view).wet;
+    pixel
+        + match settings.exit.filter(|_| wet > 0.0) {
+            Some(index) => {
+                by.lerp(bed_offset(inputs, surface, view, pixel, (index, &Off::default())), wet)
+            }
+            None => by,
+        }
 }
 
 /// Whether a position is beyond the view, or any of the four texels of the scene's depth round it
@@ -221,7 +235,7 @@ fn background(
     view: &View,
     pixel: DVec2,
 ) -> DVec3 {
-    let q = look_up(settings, surface, view, pixel);
+    let q = look_up(inputs, settings, surface, view, pixel);
     let (q, _) = cut_look_up(inputs, -surface.position.z, pixel, q);
     scene_at(inputs, q)
 }

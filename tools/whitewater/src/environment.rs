@@ -240,9 +240,9 @@ impl Panorama {
 // The sky of glsl/include/atmosphere.glsl, whose comments say what stands here.
 const EARTH: f32 = 6360.0;
 const TOP: f32 = 6420.0;
-const RAYLEIGH: Vec3 = Vec3::new(5.8e-3, 13.5e-3, 33.1e-3);
-const MIE: f32 = 4.0e-3;
-const MIE_ABSORPTION: f32 = 4.4e-4;
+const RAYLEIGH: Vec3 = Vec3::new(7.14e-3, 13.21e-3, 32.08e-3);
+const MIE: Vec3 = Vec3::new(67.7e-3, 82.7e-3, 110.4e-3);
+const MIE_LOSS: f32 = 1.11;
 const SCALE_HEIGHTS: Vec2 = Vec2::new(8.0, 1.2);
 
 fn leave_sphere(height: f32, cosine: f32, radius: f32) -> f32 {
@@ -255,18 +255,18 @@ fn density(altitude: f32) -> Vec2 {
 }
 
 fn optical_depth(height: f32, cosine: f32) -> Vec2 {
-    let span = leave_sphere(height, cosine, TOP) / 8.0;
+    let span = leave_sphere(height, cosine, TOP) / 144.0;
     let mut sum = Vec2::ZERO;
-    for i in 0..8 {
-        let t = (i as f32 + 0.5) * span;
+    for i in 0..12 {
+        let t = ((i * i + i) as f32 + 0.5) * span;
         let r = (height * height + t * t + 2.0 * height * t * cosine).sqrt();
-        sum += density(r - EARTH) * span;
+        sum += density(r - EARTH) * (2 * i + 1) as f32 * span;
     }
     sum
 }
 
 fn transmittance(depth: Vec2) -> Vec3 {
-    (-(RAYLEIGH * depth.x + (MIE + MIE_ABSORPTION) * depth.y)).exp()
+    (-(RAYLEIGH * depth.x + MIE_LOSS * MIE * depth.y)).exp()
 }
 
 fn sky_radiance(direction: Vec3, sun: Vec3) -> Vec3 {
@@ -292,8 +292,9 @@ fn sky_radiance(direction: Vec3, sun: Vec3) -> Vec3 {
     let phase_r = 3.0 / (16.0 * PI) * (1.0 + mu * mu);
     let phase_m = 3.0 / (8.0 * PI) * (1.0 - g * g) * (1.0 + mu * mu)
         / ((2.0 + g * g) * (1.0 + g * g - 2.0 * g * mu).powf(1.5));
-    let often = 0.13 * sun.y.max(0.0);
-    let thick = RAYLEIGH * along.x + 2.0 * MIE * along.y;
+    let height = sun.y.max(0.0);
+    let often = 0.072 * height / (height + 0.12);
+    let thick = RAYLEIGH * along.x;
     rayleigh * RAYLEIGH * phase_r + mie * MIE * phase_m + often * (Vec3::ONE - (-thick).exp())
 }
 

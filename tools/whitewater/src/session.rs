@@ -275,7 +275,7 @@ impl<'a> Session<'a> {
         let thesis = self.look.file.is_thesis();
         config.sheets = args.sheets.unwrap_or(if thesis { 1 } else { 2 });
         config.mirror_steps = self.look.file.water.mirror_steps(thesis);
-        config.exit = self.look.file.water.exit();
+        config.exit = self.look.file.water.exit(thesis);
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
         config.diffuse = self.look.diffuse.as_ref().map(|source| {

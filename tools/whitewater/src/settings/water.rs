@@ -164,9 +164,10 @@ impl WaterTable {
         self.mirror_steps.unwrap_or(if thesis { 0 } else { standard })
     }
 
-    /// What is seen through water with air behind it.
-    pub fn exit(&self) -> Exit {
-        self.exit.map_or(Exit::Straight, Into::into)
+    /// What is seen through water with air behind it, in the thesis' look or ours.
+    pub fn exit(&self, thesis: bool) -> Exit {
+        let standard = Config::new(Default::default(), Default::default(), 0).exit;
+        self.exit.map_or(if thesis { Exit::Straight } else { standard }, Into::into)
     }
 
     /// The table that says all of them, and of the passes as this table does.
@@ -174,7 +175,7 @@ impl WaterTable {
         Self {
             medium: Some(water.medium.into()),
             mirror_steps: Some(self.mirror_steps(thesis)),
-            exit: Some(self.exit().into()),
+            exit: Some(self.exit(thesis).into()),
             ..Self::of(water)
         }
     }
