@@ -476,7 +476,9 @@ void main() {
     float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
     vec3 mirrored = reflect(-v, n);
     vec3 seen = mix(c, textureLod(environment, mirrored, lod).rgb, sky_seen * sky_seen);
-    c += f * (1.0 - 0.5 * s.roughness) * seen;
+    // Leaves and blades turn away from a flat view, and hide one another there.
+    float gloss = PATTERN == FOLIAGE || PATTERN == LAWN ? 0.2 : 1.0;
+    c += gloss * f * (1.0 - 0.5 * s.roughness) * seen;
 
     if (PART == BACKDROP) {
         // The horizon's colour, from where the ray goes.

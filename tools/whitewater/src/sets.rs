@@ -122,7 +122,7 @@ fn garden(scene: &mut Scene, place: &Place) {
 
     // A hedge round the far corner.
     let corner = high + vec2(1.25, 1.05);
-    let profile = [0.24, 0.40];
+    let profile = [0.24, 0.33];
     let line = [vec2(corner.x, low.y - 2.5), corner, vec2(low.x - 3.5, corner.y)];
     b.push("hedge", hedge(&line, profile, 0.07, hedge_green.clone()));
 
@@ -132,15 +132,15 @@ fn garden(scene: &mut Scene, place: &Place) {
         let n = |seed| number(i, seed);
         // From the left of the far corner to its right.
         let around = PI * (0.02 + 0.96 * (i as f32 + 0.7 * (n(31) - 0.5)) / 11.0) - 0.25 * PI;
-        let away = 4.0 + 6.5 * n(32);
+        let away = 5.0 + 7.0 * n(32);
         let at = away * Vec2::from_angle(around);
         let height = (0.85 + 0.55 * n(33)) * (0.62 + 0.085 * away);
         tree(at, height, i, &mut crowns[(3.0 * n(34)) as usize % 3], &mut wood);
     }
     // A wood before the hills, all round.
-    for i in 0..420 {
+    for i in 0..320 {
         let n = |seed| number(i, seed);
-        let at = (16.0 + 9.0 * n(41)) * Vec2::from_angle(TAU * (i as f32 + n(42)) / 420.0);
+        let at = (16.0 + 9.0 * n(41)) * Vec2::from_angle(TAU * (i as f32 + n(42)) / 320.0);
         let size = 0.35 + 0.55 * n(43);
         let half = size * vec3(1.0, 0.8 + 0.3 * n(44), 1.0);
         let middle = vec3(at.x, land(at) + (0.4 + 1.1 * n(45)) * half.y, at.y);
@@ -158,7 +158,7 @@ fn garden(scene: &mut Scene, place: &Place) {
         ground.reach = Some((half.max_element() + 1.1) * b.wide);
     }
     scene.backdrop = b.meshes;
-    scene.haze = Some(34.0 * b.wide);
+    scene.haze = Some(48.0 * b.wide);
 }
 
 /// A seamless backdrop: the floor goes on as a wall, in an arc.
@@ -366,7 +366,7 @@ fn hedge(line: &[Vec2], [thick, high]: [f32; 2], step: f32, material: Material) 
 
 /// Leaves that stand out of lumps, so that their outlines are ragged: triangles, lit as the lump is.
 fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
-    const EACH: usize = 14;
+    const EACH: usize = 18;
     for (i, lump) in lumps.iter().enumerate() {
         for k in 0..EACH {
             let n = |of: u32| number(EACH * i + k, 10 * seed + 400 + of);
@@ -374,8 +374,8 @@ fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
             let up = 1.0 - 1.6 * n(1);
             let level = (1.0 - up * up).max(0.0).sqrt();
             let out = vec3(level * around.cos(), up, level * around.sin());
-            let at = lump.middle + lump.half * out * (0.85 + 0.35 * n(2));
-            let size = lump.half.min_element() * (0.22 + 0.3 * n(3));
+            let at = lump.middle + lump.half * out * (0.88 + 0.27 * n(2));
+            let size = lump.half.min_element().min(0.2) * (0.22 + 0.3 * n(3));
             let (a, b) = (TAU * n(4), PI * n(5));
             let along = vec3(a.cos() * b.sin(), b.cos(), a.sin() * b.sin());
             let across = along.cross(out).normalize_or(Vec3::X);
@@ -395,7 +395,7 @@ fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
 
 /// A crown of lumps on a trunk.
 fn tree(at: Vec2, height: f32, seed: usize, crown: &mut Vec<Lump>, wood: &mut Mesh) {
-    const LUMPS: usize = 30;
+    const LUMPS: usize = 44;
     const SIDES: usize = 7;
     let ground = land(at);
     let n = |i: usize, of: u32| number(40 * seed + i, 70 + of);
@@ -408,7 +408,7 @@ fn tree(at: Vec2, height: f32, seed: usize, crown: &mut Vec<Lump>, wood: &mut Me
         let around = 2.399_963_1 * (i as f32 + n(i, 2));
         let level = (1.0 - up * up).max(0.0).sqrt();
         let out = vec3(level * around.cos(), up, level * around.sin());
-        let size = height * (0.07 + 0.07 * n(i, 3));
+        let size = height * (0.055 + 0.065 * n(i, 3));
         crown.push(Lump {
             middle: middle + reach * out * (0.62 + 0.42 * n(i, 4)),
             half: size * vec3(1.0, 0.72, 1.0),

@@ -24,7 +24,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     match set {
         // White: the water's colour is its own.
         SetArg::Pool | SetArg::None => [
-            of([0.40, 0.36, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 10.0) }),
+            of([0.40, 0.36, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
             of([0.66, 0.66, 0.64], 0.22, tiles(36.0)),
             of([0.50, 0.455, 0.39], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
         ],
@@ -173,14 +173,19 @@ pub fn basin_round(
         mesh.name = name.into();
         scene.meshes.push(mesh);
     };
+    // All near walls are as high as one another, and all far ones.
+    let towards_eye = |side: &Side| side.sign * (eye[side.axis] - face(side)) > 0.0;
+    let highest = |near: bool| {
+        let of = sides.iter().filter(|side| towards_eye(side) == near);
+        of.map(|s| if near { s.level + spacing } else { s.highest + thick }).fold(floor, f32::max)
+    };
     let sheet = 1.0e-3 * longest;
     push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles);
     for side in &sides {
-        let towards_eye = side.sign * (eye[side.axis] - face(side)) > 0.0;
         // Not so high that they hide the water, or keep the sun from it.
-        let (water, most) =
-            if towards_eye { (side.level + spacing, 0.12) } else { (side.highest + thick, 0.2) };
-        let top = water.clamp(floor + thick, floor + most * wide) - slab;
+        let near = towards_eye(side);
+        let most = if near { 0.12 } else { 0.2 };
+        let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
         let across = 2 - side.axis;
         let wall = |inner: f32, outer: f32, top: f32, longer: f32| {
             let mut from = middle;
