@@ -28,7 +28,7 @@ const uint RIPPLES = 12;
 // Parts of the scene.
 const uint MESH = 0;
 const uint GROUND = 1;   // fades into the sky
-const uint BACKDROP = 2; // is hazy; the sun on it is baked as well
+const uint BACKDROP = 2; // the sun on it is baked as well
 
 layout(constant_id = 0) const uint PATTERN = PLAIN;
 layout(constant_id = 1) const uint PART = MESH;
@@ -480,12 +480,13 @@ void main() {
     float gloss = PATTERN == FOLIAGE || PATTERN == LAWN ? 0.2 : 1.0;
     c += gloss * f * (1.0 - 0.5 * s.roughness) * seen;
 
-    if (PART == BACKDROP) {
+    if (PART != MESH && scene.air.x > 0.0) {
         // The horizon's colour, from where the ray goes.
         vec3 level = normalize(vec3(-v.x, max(-v.y, 0.02), -v.z));
         float clear = exp(-length(to_eye) * scene.air.x);
         c = mix(textureLod(environment, level, 2.0).rgb, c, clear);
-    } else if (PART == GROUND) {
+    }
+    if (PART == GROUND) {
         float away = distance(position.xz, scene.ground.xy);
         c = mix(c, textureLod(environment, -v, 2.0).rgb, smoothstep(scene.ground.z, scene.ground.w, away));
     }

@@ -45,8 +45,8 @@ pub struct Scene {
     /// cast no shadow on [`meshes`](Self::meshes) or water and lend them no light; neither [`bounds`](Self::bounds), nor
     /// the shadow map, nor the ground are laid round them. They stand still.
     pub backdrop: Vec<Mesh>,
-    /// World units over which air takes the contrast of the [`backdrop`](Self::backdrop) to 1/e, towards the sky's colour
-    /// at the horizon, (0, ∞); none, the default: clear air.
+    /// World units over which air takes the contrast of [`ground`](Self::ground) and [`backdrop`](Self::backdrop) to 1/e,
+    /// towards the environment's colour at the horizon, (0, ∞); none, the default: clear air. Meshes stand in clear air.
     pub haze: Option<f32>,
     /// World units that are a metre to procedural surfaces, whose grain is metric, (0, ∞); none, the default: 1.
     pub metre: Option<f32>,

@@ -127,7 +127,8 @@ fn garden(scene: &mut Scene, place: &Place) {
     b.push("hedge", hedge(&line, profile, 0.07, hedge_green.clone()));
 
     // Trees behind it, and bushes at its foot.
-    let (mut crowns, mut wood) = ([Vec::new(), Vec::new(), Vec::new()], Mesh::default());
+    let (mut crowns, mut wood) = ([Vec::new(), Vec::new(), Vec::new()], [Vec::new(), Vec::new()]);
+    let mut trunks = Mesh::default();
     for i in 0..12 {
         let n = |seed| number(i, seed);
         // From the left of the far corner to its right.
@@ -135,7 +136,7 @@ fn garden(scene: &mut Scene, place: &Place) {
         let away = 5.0 + 7.0 * n(32);
         let at = away * Vec2::from_angle(around);
         let height = (0.85 + 0.55 * n(33)) * (0.62 + 0.085 * away);
-        tree(at, height, i, &mut crowns[(3.0 * n(34)) as usize % 3], &mut wood);
+        tree(at, height, i, &mut crowns[(3.0 * n(34)) as usize % 3], &mut trunks);
     }
     // A wood before the hills, all round.
     for i in 0..320 {
@@ -144,16 +145,17 @@ fn garden(scene: &mut Scene, place: &Place) {
         let size = 0.35 + 0.55 * n(43);
         let half = size * vec3(1.0, 0.8 + 0.3 * n(44), 1.0);
         let middle = vec3(at.x, land(at) + (0.4 + 1.1 * n(45)) * half.y, at.y);
-        crowns[1 + i % 2].push(Lump { middle, half, rough: 0.3, seed: 900 + 3 * i as u32 });
+        wood[i % 2].push(Lump { middle, half, rough: 0.3, seed: 900 + 3 * i as u32 });
     }
-    for (i, (crowns, green)) in crowns.iter().zip([hedge_green, oak, ash]).enumerate() {
-        let mut mesh = lumps(crowns, 4, green);
+    let greens = [hedge_green, oak.clone(), ash.clone(), oak, ash];
+    for (i, (crowns, green)) in crowns.iter().chain(&wood).zip(greens).enumerate() {
+        let mut mesh = lumps(crowns, if i < 3 { 4 } else { 7 }, green);
         sprays(&mut mesh, crowns, i as u32);
         b.push("leaves", mesh);
     }
-    wood.material = bark;
-    wood.normals = smooth_normals(&wood.positions, &wood.indices);
-    b.push("trunks", wood);
+    trunks.material = bark;
+    trunks.normals = smooth_normals(&trunks.positions, &trunks.indices);
+    b.push("trunks", trunks);
     if let Some(ground) = &mut scene.ground {
         ground.reach = Some((half.max_element() + 1.1) * b.wide);
     }
@@ -161,35 +163,9 @@ fn garden(scene: &mut Scene, place: &Place) {
     scene.haze = Some(48.0 * b.wide);
 }
 
-/// A seamless backdrop: the floor goes on as a wall, in an arc.
+/// A floor that passes into the backdrop without a seam, as a cyclorama's does: by haze.
 fn studio(scene: &mut Scene, place: &Place) {
-    let mut b = Builder::new(place);
-    let Some(ground) = &mut scene.ground else { return };
-    let (near, arc, high) = (3.4, 2.6, 9.0);
-    let mut mesh = Mesh { material: ground.material.clone(), ..Mesh::default() };
-    const AROUND: u32 = 64;
-    const UP: u32 = 16;
-    for i in 0..=AROUND {
-        // Away from the eye, and well to both sides.
-        let angle = 0.25 * PI + 1.25 * PI * (i as f32 / AROUND as f32 - 0.5);
-        let out = Vec2::from_angle(angle);
-        for j in 0..=UP {
-            let t = (0.5 * PI * j as f32 / (UP - 1) as f32).min(0.5 * PI);
-            let (away, y) = match j < UP {
-                true => (near + arc * t.sin(), 0.002 + arc * (1.0 - t.cos())),
-                false => (near + arc, high),
-            };
-            mesh.positions.push([out.x * away, y, out.y * away]);
-            mesh.normals.push([-out.x * t.sin(), t.cos(), -out.y * t.sin()]);
-            if i < AROUND && j < UP {
-                let a = i * (UP + 1) + j;
-                let b = a + UP + 1;
-                mesh.indices.extend([a, a + 1, b + 1, a, b + 1, b]);
-            }
-        }
-    }
-    b.push("cyclorama", mesh);
-    scene.backdrop = b.meshes;
+    scene.haze = Some(4.5 * place.wide());
 }
 
 /// Sand that slopes to the sea, stones on it, a headland.
@@ -255,20 +231,20 @@ fn laboratory(scene: &mut Scene, place: &Place) {
     let mut b = Builder::new(place);
     let tiles = Pattern::Tiles { size: 0.05 * b.wide, band: None };
     let tiled = material([0.62, 0.63, 0.61], 0.3, tiles);
-    let plain = material([0.60, 0.59, 0.56], 0.9, Pattern::Concrete);
+    let plain = material([0.62, 0.62, 0.60], 0.9, Pattern::Plain);
     let dark = material([0.08, 0.085, 0.09], 0.5, Pattern::Plain);
     let far = 2.4;
     let (low, mid, high, near) = (0.07, 0.62, 4.0, -9.0);
-    for (name, from, to, what, in_front) in [
-        ("skirting", -0.01, low, &dark, 0.012),
-        ("tiles", low, mid, &tiled, 0.0),
-        ("rail", mid, mid + 0.03, &dark, 0.02),
-        ("wall", mid + 0.03, high, &plain, 0.0),
+    for (name, from, to, cell, what) in [
+        ("skirting", -0.01, low, 0.5, &dark),
+        ("tiles", low, mid, 0.25, &tiled),
+        ("rail", mid, mid + 0.03, 0.5, &dark),
+        ("wall", mid + 0.03, high, 0.4, &plain),
     ] {
-        let at = far - in_front;
-        let cell = if name == "wall" || name == "tiles" { 0.3 } else { 1.0 };
-        b.push(name, block(vec3(near, from, at), vec3(far, to, far + 0.2), cell, what.clone()));
-        b.push(name, block(vec3(at, from, near), vec3(far + 0.2, to, far), cell, what.clone()));
+        let (behind, beside) = (vec3(near, from, far), vec3(far + 0.2, to, far + 0.2));
+        b.push(name, block(behind, beside, cell, what.clone()));
+        let (behind, beside) = (vec3(far, from, near), vec3(far + 0.2, to, far));
+        b.push(name, block(behind, beside, cell, what.clone()));
     }
     scene.backdrop = b.meshes;
 }
@@ -374,7 +350,7 @@ fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
             let up = 1.0 - 1.6 * n(1);
             let level = (1.0 - up * up).max(0.0).sqrt();
             let out = vec3(level * around.cos(), up, level * around.sin());
-            let at = lump.middle + lump.half * out * (0.88 + 0.27 * n(2));
+            let at = lump.middle + lump.half * out * (0.80 + 0.25 * n(2));
             let size = lump.half.min_element().min(0.2) * (0.22 + 0.3 * n(3));
             let (a, b) = (TAU * n(4), PI * n(5));
             let along = vec3(a.cos() * b.sin(), b.cos(), a.sin() * b.sin());

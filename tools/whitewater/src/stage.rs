@@ -39,7 +39,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
             of([0.45, 0.42, 0.38], 0.85, Pattern::Stone { course: round_length(longest / 30.0) }),
         ],
         SetArg::Lab => {
-            let resin = of([0.20, 0.23, 0.24], 0.3, Pattern::Plain);
+            let resin = of([0.20, 0.23, 0.24], 0.42, Pattern::Plain);
             let enamel = of([0.70, 0.71, 0.70], 0.35, Pattern::Plain);
             [resin, of([0.74, 0.74, 0.73], 0.15, tiles(60.0)), enamel]
         }
@@ -199,7 +199,8 @@ pub fn basin_round(
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
         push("basin lining", from, to, &tiles);
         let outer = inner + side.sign * thick;
-        let (from, to) = wall(inner + side.sign * lining, outer, top, thick);
+        // Into the slab: what is inside of a solid takes its light from what is beside it.
+        let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
         push("basin wall", from, to, &stone);
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
@@ -226,9 +227,12 @@ pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
     let key = side_light(towards_eye);
     let grey = |from: f32, to: f32, d: Vec3| Vec3::splat(from + (to - from) * (0.5 + 0.5 * d.y));
     Ok(match set {
-        // A soft box, and walls that throw its light back.
+        // A soft box in a dark room under a grey ceiling: the floor passes into the dark, water stands bright before it.
         SetArg::Studio => {
-            let room = move |d: Vec3| grey(0.35, 0.75, d);
+            let room = |d: Vec3| {
+                let [up, over] = [d.y / 0.2, (d.y - 0.35) / 0.45].map(|t| t.clamp(0.0, 1.0));
+                Vec3::splat(0.28 - 0.19 * up * (2.0 - up) + 0.5 * over)
+            };
             Some(Environment::lit(room, key, (Vec3::splat(7.0), 0.8))?)
         }
         // Rows of lamps under a ceiling.
