@@ -28,7 +28,6 @@ const uint RIPPLES = 12;
 // Parts of the scene.
 const uint MESH = 0;
 const uint GROUND = 1;   // fades into the sky
-const uint BACKDROP = 2; // the sun on it is baked as well
 
 layout(constant_id = 0) const uint PATTERN = PLAIN;
 layout(constant_id = 1) const uint PART = MESH;
@@ -40,7 +39,8 @@ layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // size, height of the tiles' band (m); or how high sand reaches above the sea
+    vec4 pattern;   // size, height of the tiles' band (m); or how high sand reaches above the sea; z: 1 of the backdrop,
+                    // the sun on which is baked as well
 } push;
 
 layout(location = 0) in vec3 position;
@@ -441,9 +441,10 @@ void main() {
     vec3 sun = vec3(0.0);
     if (n_l > 0.0) {
         // From the smooth surface that is meant: its facets do not shadow one another.
-        vec3 lifted = position + n * 1.5 * (PART == BACKDROP ? 0.0 : max(around.w, 0.0));
+        bool backdrop = push.pattern.z > 0.5;
+        vec3 lifted = position + n * 1.5 * (backdrop ? 0.0 : max(around.w, 0.0));
         sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);
-        sun *= PART == BACKDROP ? clamp(around.w, 0.0, 1.0) : 1.0;
+        sun *= backdrop ? clamp(around.w, 0.0, 1.0) : 1.0;
     }
     vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
     // At a pixel's centre outside of its triangle the baked light may be extrapolated below zero.
@@ -480,7 +481,7 @@ void main() {
     float gloss = PATTERN == FOLIAGE || PATTERN == LAWN ? 0.2 : 1.0;
     c += gloss * f * (1.0 - 0.5 * s.roughness) * seen;
 
-    if (PART != MESH && scene.air.x > 0.0) {
+    if ((PART == GROUND || push.pattern.z > 0.5) && scene.air.x > 0.0) {
         // The horizon's colour, from where the ray goes.
         vec3 level = normalize(vec3(-v.x, max(-v.y, 0.02), -v.z));
         float clear = exp(-length(to_eye) * scene.air.x);

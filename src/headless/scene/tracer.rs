@@ -12,7 +12,7 @@ use super::{Mesh, Scene};
 /// Rays a vertex.
 const RAYS: usize = 64;
 /// Rays a vertex of the backdrop, and those of them to the sun, which is so wide there (tangent): leaves blur its shadows.
-const FEW: usize = 8;
+const FEW: usize = 6;
 const SUNS: usize = 2;
 const PENUMBRA: f32 = 0.06;
 /// How far rays are cast for it, in reaches of what is near.
@@ -54,17 +54,25 @@ pub struct Tracer {
 
 impl Tracer {
     pub fn new(scene: &Scene, diagonal: f32) -> Self {
-        Self::of(&scene.meshes, scene, diagonal)
+        Self::of(&scene.meshes, |_| true, scene, diagonal)
     }
 
-    /// Of some meshes on the ground of a scene.
-    fn of<'a>(meshes: impl IntoIterator<Item = &'a Mesh>, scene: &Scene, diagonal: f32) -> Self {
+    /// Of some meshes on the ground of a scene, but for what is too far away.
+    fn of<'a>(
+        meshes: impl IntoIterator<Item = &'a Mesh>,
+        counts: impl Fn(Vec3) -> bool,
+        scene: &Scene,
+        diagonal: f32,
+    ) -> Self {
         let mut triangles = Vec::new();
         for mesh in meshes {
             let albedo = mesh.material.albedo();
             let (vertices, indices) = world(mesh);
             for t in indices.chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| vertices[t[k] as usize].at());
+                if !counts(a) {
+                    continue;
+                }
                 let mut normal = (b - a).cross(c - a).normalize_or_zero();
                 // Winding is not trusted: the given normal says where outside is.
                 if normal.dot(vertices[t[0] as usize].normal.into()) < 0.0 {
@@ -122,6 +130,11 @@ impl Tracer {
 
     /// The nearest hit, or any when that is enough.
     fn trace(&self, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
+        self.trace_to(f32::INFINITY, from, along, any)
+    }
+
+    /// The same, of what begins nearer than a reach.
+    fn trace_to(&self, reach: f32, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
         let inverse = along.recip();
         let mut best: Option<(f32, usize)> = None;
         // A median split halves: 64 levels would be 2^64 triangles.
@@ -134,7 +147,7 @@ impl Tracer {
             let near = a.min(b).max_element().max(0.0);
             let far = a.max(b).min_element();
             // A ray in the plane of a face is NaN here, and goes on.
-            if near > far || best.is_some_and(|(t, _)| near > t) {
+            if near > far || near > reach || best.is_some_and(|(t, _)| near > t) {
                 continue;
             }
             if node.count == 0 {
@@ -285,17 +298,19 @@ pub struct Around {
 
 impl Around {
     pub fn new(scene: &Scene, diagonal: f32) -> Self {
-        let all = Tracer::of(scene.meshes.iter().chain(&scene.backdrop), scene, diagonal);
-        let backdrop = Tracer::of(&scene.backdrop, &Scene::default(), diagonal);
+        let (low, high) = scene.bounds();
+        let (middle, near) = (0.5 * (low + high), 0.75 * diagonal);
+        let counts = |at: Vec3| at.distance(middle) < FAR * near;
+        let all = scene.meshes.iter().chain(&scene.backdrop);
+        let all = Tracer::of(all, counts, scene, diagonal);
+        let backdrop = Tracer::of(&scene.backdrop, counts, &Scene::default(), diagonal);
         let turn = Quat::from_rotation_arc(Vec3::Z, all.sun);
         let to_sun = std::array::from_fn(|i| {
             let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
             let away = PENUMBRA * ((i as f32 + 0.5) / SUNS as f32).sqrt();
             (turn * Vec3::new(away * cos, away * sin, 1.0)).normalize()
         });
-        let (low, high) = scene.bounds();
-        let middle = 0.5 * (low + high);
-        Self { all, backdrop, few: directions(FEW), to_sun, middle, near: 0.75 * diagonal }
+        Self { all, backdrop, few: directions(FEW), to_sun, middle, near }
     }
 
     /// Lights vertices; what lies in a solid is dark, as leaves are between two bushes.
@@ -304,7 +319,21 @@ impl Around {
         let size = vertices.len().div_ceil(threads).max(1);
         std::thread::scope(|scope| {
             for part in vertices.chunks_mut(size) {
-                scope.spawn(move || part.iter_mut().for_each(|vertex| self.light_vertex(vertex)));
+                scope.spawn(move || {
+                    let mut last = Vertex { position: [f32::MAX; 3], ..Vertex::default() };
+                    for vertex in part {
+                        // Corners of one leaf are lit alike.
+                        let same = vertex.normal == last.normal
+                            && vertex.at().distance(last.at()) < 0.05 * self.near;
+                        if same {
+                            let Vertex { light, around, bulge, .. } = last;
+                            *vertex = Vertex { light, around, bulge, ..*vertex };
+                        } else {
+                            self.light_vertex(vertex);
+                            last = *vertex;
+                        }
+                    }
+                });
             }
         });
     }
@@ -319,7 +348,11 @@ impl Around {
             return;
         }
         let near = away < self.near;
-        let directions = if near { &self.all.directions } else { &self.few };
+        // (What is far off hides little of the sky of a tree.)
+        let (directions, reach) = match near {
+            true => (&self.all.directions, f32::INFINITY),
+            false => (&self.few, self.near),
+        };
         let normal = Vec3::from(vertex.normal);
         let from = vertex.at() + normal * 4.0 * self.all.lift;
         let frame = Quat::from_rotation_arc(Vec3::Z, normal);
@@ -327,7 +360,7 @@ impl Around {
         for direction in directions {
             let d = frame * *direction;
             sky += f32::from(d.y > 0.0);
-            match self.all.trace(from, d, false) {
+            match self.all.trace_to(reach, from, d, !near) {
                 None => seen += f32::from(d.y > 0.0),
                 Some(hit) if hit.inside => {}
                 Some(hit) => {

@@ -103,8 +103,10 @@ fn garden(scene: &mut Scene, place: &Place) {
     let [hedge_green, oak, ash] =
         [[0.036, 0.064, 0.016], [0.050, 0.082, 0.018], [0.078, 0.108, 0.026]]
             .map(|green| material(green, 0.85, Pattern::Foliage));
-    let stone = material([0.52, 0.48, 0.42], 0.8, Pattern::Concrete);
-    let bark = material([0.10, 0.075, 0.055], 0.95, Pattern::Rock);
+    // As the basin's: each pattern costs a pipeline.
+    let slabs = Pattern::Stone { course: b.wide };
+    let [stone, bark] =
+        [[0.52, 0.48, 0.42], [0.10, 0.075, 0.055]].map(|c| material(c, 0.85, slabs));
 
     // The terrace: less of it behind than before.
     let (low, high) = (-half - vec2(0.95, 0.95), half + vec2(0.5, 0.5));
@@ -342,7 +344,7 @@ fn hedge(line: &[Vec2], [thick, high]: [f32; 2], step: f32, material: Material) 
 
 /// Leaves that stand out of lumps, so that their outlines are ragged: triangles, lit as the lump is.
 fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
-    const EACH: usize = 18;
+    const EACH: usize = 14;
     for (i, lump) in lumps.iter().enumerate() {
         for k in 0..EACH {
             let n = |of: u32| number(EACH * i + k, 10 * seed + 400 + of);
@@ -371,7 +373,7 @@ fn sprays(mesh: &mut Mesh, lumps: &[Lump], seed: u32) {
 
 /// A crown of lumps on a trunk.
 fn tree(at: Vec2, height: f32, seed: usize, crown: &mut Vec<Lump>, wood: &mut Mesh) {
-    const LUMPS: usize = 44;
+    const LUMPS: usize = 38;
     const SIDES: usize = 7;
     let ground = land(at);
     let n = |i: usize, of: u32| number(40 * seed + i, 70 + of);

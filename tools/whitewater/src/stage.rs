@@ -67,7 +67,7 @@ pub fn paving_under(bounds: &Bounds) -> Scene {
 /// A scene as large as the water, with nothing in it.
 fn extent(bounds: &Bounds, set: SetArg) -> Scene {
     let longest = bounds.size().max_element().max(f32::MIN_POSITIVE);
-    let [material, ..] = materials(set, longest);
+    let [_, material, _] = materials(set, longest);
     // A sheet just under the ground, which hides it: it tells how large the scene is.
     let y = bounds.min.y - 1.0e-3 * longest;
     let corner = |x: f32, z: f32| {
@@ -153,10 +153,6 @@ pub fn basin_round(
     let (slab, over) = (0.011 * wide, 0.008 * wide);
     let floor = bounds.min.y;
     let [ground, tiles, stone] = materials(set, wide);
-    let coping = match stone.pattern {
-        Pattern::Stone { .. } => Material { pattern: Pattern::Concrete, ..stone.clone() },
-        _ => stone.clone(),
-    };
     // Inner faces, where the drawn spheres end.
     let reach = 0.66 * spacing;
     let face = |side: &Side| side.at + side.sign * reach;
@@ -204,7 +200,7 @@ pub fn basin_round(
         push("basin wall", from, to, &stone);
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
-        push("basin coping", from, to, &coping);
+        push("basin coping", from, to, &stone);
     }
     let place = Place {
         middle: Vec3::new(middle.x, floor, middle.z),

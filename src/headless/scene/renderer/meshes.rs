@@ -184,14 +184,15 @@ impl Draw {
             Pattern::Ripples { length } => (12, length, None),
         };
         let metres = scene.metres_per_unit();
+        // No pipeline of its own: they are dear to make.
+        let backdrop = if matches!(batch.part, Part::Backdrop(_)) { 1.0 } else { 0.0 };
         let [r, g, b] = material.base_color;
         Self {
             kind: Kind {
                 pattern,
                 part: match batch.part {
-                    Part::Mesh(_) => 0,
+                    Part::Mesh(_) | Part::Backdrop(_) => 0,
                     Part::Ground => 1,
-                    Part::Backdrop(_) => 2,
                 },
                 textured: material.texture.is_some().into(),
                 sea: sea::kind(scene),
@@ -203,7 +204,12 @@ impl Draw {
                 turn: turn.to_array(),
                 origin: origin.extend(0.0).to_array(),
                 color: [r, g, b, material.roughness.clamp(0.05, 1.0)],
-                pattern: [(size * metres).max(1e-4), band.map_or(-1e6, |y| y * metres), 0.0, 0.0],
+                pattern: [
+                    (size * metres).max(1e-4),
+                    band.map_or(-1e6, |y| y * metres),
+                    backdrop,
+                    0.0,
+                ],
             },
         }
     }
