@@ -54,13 +54,13 @@ pub struct Tracer {
 
 impl Tracer {
     pub fn new(scene: &Scene, diagonal: f32) -> Self {
-        Self::of(&scene.meshes, |_| true, scene, diagonal)
+        Self::of(&scene.meshes, |_, _| true, scene, diagonal)
     }
 
     /// Of some meshes on the ground of a scene, but for what is too far away.
     fn of<'a>(
         meshes: impl IntoIterator<Item = &'a Mesh>,
-        counts: impl Fn(Vec3) -> bool,
+        counts: impl Fn(Vec3, f32) -> bool,
         scene: &Scene,
         diagonal: f32,
     ) -> Self {
@@ -70,7 +70,7 @@ impl Tracer {
             let (vertices, indices) = world(mesh);
             for t in indices.chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| vertices[t[k] as usize].at());
-                if !counts(a) {
+                if !counts(a, (b - a).length().max((c - a).length())) {
                     continue;
                 }
                 let mut normal = (b - a).cross(c - a).normalize_or_zero();
@@ -300,7 +300,7 @@ impl Around {
     pub fn new(scene: &Scene, diagonal: f32) -> Self {
         let (low, high) = scene.bounds();
         let (middle, near) = (0.5 * (low + high), 0.75 * diagonal);
-        let counts = |at: Vec3| at.distance(middle) < FAR * near;
+        let counts = |at: Vec3, size: f32| at.distance(middle) - size < FAR * near;
         let all = scene.meshes.iter().chain(&scene.backdrop);
         let all = Tracer::of(all, counts, scene, diagonal);
         let backdrop = Tracer::of(&scene.backdrop, counts, &Scene::default(), diagonal);
