@@ -9,6 +9,8 @@
 mod reference;
 mod support;
 
+#[path = "gpu/backdrop.rs"]
+mod backdrop;
 #[path = "gpu/bubbles/mod.rs"]
 mod bubbles;
 #[path = "gpu/classify.rs"]

@@ -21,9 +21,16 @@ const uint PAVING = 6;
 const uint ISLAND = 7;
 const uint ROCK = 8;
 const uint LEAVES = 9;
+const uint FOLIAGE = 10;
+const uint LAWN = 11;
+const uint RIPPLES = 12;
+
+// Parts of the scene.
+const uint MESH = 0;
+const uint GROUND = 1;   // fades into the sky
 
 layout(constant_id = 0) const uint PATTERN = PLAIN;
-layout(constant_id = 1) const uint GROUND = 0;   // fades into the sky
+layout(constant_id = 1) const uint PART = MESH;
 layout(constant_id = 2) const uint TEXTURED = 0;
 
 layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
@@ -32,14 +39,15 @@ layout(push_constant, std430) uniform Push {
     vec4 turn;      // rotation of the mesh's frame (quaternion)
     vec4 origin;    // origin of the mesh's frame (world)
     vec4 color;     // base colour, roughness
-    vec4 pattern;   // size, height of the tiles' band (world); or how high sand reaches above the sea
+    vec4 pattern;   // size, height of the tiles' band (m); or how high sand reaches above the sea; z: 1 of the backdrop,
+                    // the sun on which is baked as well
 } push;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in vec4 light;  // share of the sky that is seen; sunlight off other surfaces
-layout(location = 4) in vec4 around; // albedo of the other surfaces that are seen; bulge
+layout(location = 4) in vec4 around; // albedo of the other surfaces that are seen; bulge, or the backdrop's share of the sun
 
 layout(location = 0) out vec4 color;
 
@@ -129,7 +137,7 @@ Surface concrete(vec3 p, vec3 n, float width) {
     float size = 0.02 + 0.14 * place.x * place.x;
     float pore = 1.0 - smoothstep(size, size + 0.04 + 25.0 * width, distance(fract(p * 25.0), 0.2 + 0.6 * place));
     pore *= step(place.y, 0.6) * min(1.0, size / (25.0 * width + 1.0e-4));
-    float damp = exp(-max(position.y - scene.shadow_texel.w, 0.0) / 0.10) * (n.y < 0.5 ? 1.0 : 0.0);
+    float damp = exp(-max(position.y - scene.shadow_texel.w, 0.0) * scene.air.y / 0.10) * (n.y < 0.5 ? 1.0 : 0.0);
     Surface s;
     s.albedo = push.color.rgb * (1.0 + 0.30 * cloud + 0.16 * grain + 0.20 * streak) * (1.0 - 0.45 * pore);
     s.albedo *= 1.0 - damp * vec3(0.30, 0.27, 0.32) * (0.8 + cloud);
@@ -228,6 +236,61 @@ Surface leaves(vec3 p, vec3 n, float width) {
     return s;
 }
 
+// Masses of leaves: twigs that face all ways, dark gaps between them, each bush of its own green.
+Surface foliage(vec3 p, vec3 n, float width) {
+    float mass = octaves(p + 3.0, 0.35, 2, width);
+    float twig = octaves(p + 61.0, 2.6, 3, width);
+    vec3 leaf = vec3(octaves(p, 11.0, 2, width), octaves(p + 41.0, 11.0, 2, width), octaves(p + 83.0, 11.0, 2, width));
+    // What is too fine to be seen is darker in the mean, and of one brightness.
+    float deep = smoothstep(0.0, 0.5, -1.1 * leaf.x - 0.8 * twig + 0.12 * (1.0 - kept(width, 11.0)));
+    Surface s;
+    s.albedo = push.color.rgb * (1.0 + 0.35 * mass + 0.6 * twig + 1.3 * leaf.y);
+    s.albedo *= 1.0 + vec3(0.55, 0.15, -0.25) * (0.5 * mass + leaf.z);
+    s.albedo *= (1.0 - 0.85 * deep) * mix(0.7, 1.05, smoothstep(-0.9, 0.6, n.y));
+    s.roughness = push.color.a;
+    s.tilt = 2.2 * leaf + 0.9 * vec3(twig, 0.4 * leaf.z, leaf.x - twig);
+    return s;
+}
+
+// Grass: stripes that the mower has laid to and fro, patches that are dry or lush, tufts.
+Surface lawn(vec3 p, float width) {
+    float broad = octaves(p + 5.0, 0.09, 3, width);
+    float patches = octaves(p + 29.0, 0.9, 3, width);
+    // Seen from low tufts stand before one another: as fine as the footprint is narrow.
+    float tuft = octaves(vec3(p.x, 0.0, p.z), 9.0, 3, 0.6 * width);
+    float laid = lines(p.x / (2.0 * push.pattern.x) + 0.04 * broad, 0.5, width / (2.0 * push.pattern.x)) - 0.5;
+    vec3 lush = push.color.rgb;
+    vec3 dry = dot(lush, vec3(0.4, 0.6, 0.0)) * vec3(1.35, 1.18, 0.50);
+    Surface s;
+    s.albedo = mix(lush, dry, clamp(0.2 + 0.55 * patches + 0.4 * broad, 0.0, 0.55));
+    s.albedo *= 1.0 + 0.30 * laid + 0.12 * broad + 0.22 * patches + 1.2 * tuft;
+    s.roughness = push.color.a;
+    s.tilt = vec3(0.9 * tuft + 0.10 * laid, 0.0, 0.5 * tuft);
+    return s;
+}
+
+// Sand with ripples, bent and broken, coarser sand in their troughs; a pebble in some cells.
+Surface ripples(vec3 p, float width) {
+    Surface s = sand(p, width);
+    float size = push.pattern.x;
+    vec2 bend = vec2(octaves(p, 0.35 / size, 2, width), octaves(p + 37.0, 0.35 / size, 2, width));
+    float phase = 6.2832 * ((0.35 * p.x + p.z) / size + 1.6 * bend.x);
+    float height = kept(width, 1.0 / size) * smoothstep(-0.35, 0.25, octaves(p + 91.0, 0.13 / size, 2, width) + 0.1);
+    // Steep to the lee.
+    float slope = cos(phase + 0.5 * sin(phase));
+    s.albedo *= 1.0 - 0.10 * height * (1.0 - sin(phase));
+    s.tilt += 0.38 * height * slope * vec3(0.35, 0.0, 1.0) + vec3(0.2 * bend.y, 0.0, 0.0);
+    ivec3 cell = ivec3(floor(vec3(p.x, 0.0, p.z) * 3.0));
+    vec2 at = vec2(hash(cell + 17), hash(cell + 29)) * 0.6 + 0.2;
+    float radius = 0.04 + 0.12 * pow(hash(cell + 43), 3.0);
+    vec2 off = (fract(p.xz * 3.0) - at) / radius;
+    float pebble = step(hash(cell + 71), 0.13) * kept(width, 8.0) * (1.0 - smoothstep(0.8, 1.0, length(off)));
+    vec3 stone = mix(vec3(0.16, 0.15, 0.14), vec3(0.42, 0.38, 0.33), hash(cell + 97));
+    s.albedo = mix(s.albedo, stone, pebble);
+    s.tilt = mix(s.tilt, 0.9 * vec3(off.x, 0.0, off.y), pebble);
+    return s;
+}
+
 // Sand to some height above the sea, then grass, rock where it is steep; weed and stones on the bottom.
 Surface island(vec3 p, vec3 n, float width, float height) {
     float beach = push.pattern.x;
@@ -307,7 +370,8 @@ void main() {
     face = dot(face, face) > 0.0 ? normalize(face) : v;
     face = dot(face, v) < 0.0 ? -face : face;
     vec3 n = normalize(normal);
-    n = dot(n, face) < 0.0 ? -n : n;
+    // (Leaves are lit as the crown that they are of.)
+    n = PATTERN != FOLIAGE && dot(n, face) < 0.0 ? -n : n;
     // How far under the sea, and what of the pixel is.
     float depth = SEA != 0u ? max(scene.sea.x - position.y, 0.0) : 0.0;
     float under = SEA != 0u ? clamp((scene.sea.x - position.y) / max(fwidth(position.y), 1.0e-6) + 0.5, 0.0, 1.0) : 0.0;
@@ -321,9 +385,9 @@ void main() {
         vec3 aside = wobble(sea, depth);
         shown_at += aside - n * dot(aside, n);
     }
-    vec3 p = unturn(shown_at - push.origin.xyz);
-    vec3 step_x = unturn(px);
-    vec3 step_y = unturn(py);
+    vec3 p = scene.air.y * unturn(shown_at - push.origin.xyz);
+    vec3 step_x = scene.air.y * unturn(px);
+    vec3 step_y = scene.air.y * unturn(py);
     vec3 footprint3 = abs(step_x) + abs(step_y);
     // Between the short and the long axis of the footprint: neither noise nor fog.
     float width = 1.2 * sqrt(length(step_x) * length(step_y));
@@ -336,7 +400,7 @@ void main() {
 
     Surface s = Surface(push.color.rgb, push.color.a, vec3(0.0));
     if (PATTERN == TILES) {
-        s = tiles(q, footprint, top ? -1.0e9 : position.y);
+        s = tiles(q, footprint, top ? -1.0e9 : scene.air.y * position.y);
         s.tilt = top ? s.tilt.xzy : side ? s.tilt.zyx : s.tilt;
     } else if (PATTERN == PLANKS) {
         s = planks(p, axis, vec2(footprint3.x, axis.y > axis.z ? footprint3.z : footprint3.y), width);
@@ -354,6 +418,12 @@ void main() {
         s = leaves(p, n, width);
     } else if (PATTERN == ROCK) {
         s = rock(p, n, width, position.y - scene.sea.x);
+    } else if (PATTERN == FOLIAGE) {
+        s = foliage(p, n, width);
+    } else if (PATTERN == LAWN) {
+        s = lawn(p, width);
+    } else if (PATTERN == RIPPLES) {
+        s = ripples(p, width);
     }
     if (TEXTURED == 1u) {
         s.albedo *= texture(base_texture, uv).rgb;
@@ -363,12 +433,18 @@ void main() {
 
     vec3 l = scene.sun_direction.xyz;
     float n_l = max(dot(n, l), 0.0);
+    if (PATTERN == FOLIAGE || PATTERN == LAWN) {
+        // Leaves and blades face all ways, and are lit through.
+        n_l = max(0.30 + 0.70 * dot(n, l), 0.0);
+    }
     float n_v = max(dot(n, v), 1.0e-3);
     vec3 sun = vec3(0.0);
     if (n_l > 0.0) {
         // From the smooth surface that is meant: its facets do not shadow one another.
-        vec3 lifted = position + n * 1.5 * max(around.w, 0.0);
+        bool backdrop = push.pattern.z > 0.5;
+        vec3 lifted = position + n * 1.5 * (backdrop ? 0.0 : max(around.w, 0.0));
         sun = scene.sun_color.rgb * n_l * sunlight(lifted, face);
+        sun *= backdrop ? clamp(around.w, 0.0, 1.0) : 1.0;
     }
     vec3 up = sky_irradiance(vec3(0.0, 1.0, 0.0));
     // At a pixel's centre outside of its triangle the baked light may be extrapolated below zero.
@@ -401,9 +477,17 @@ void main() {
     float f = 0.04 + (max(1.0 - s.roughness, 0.04) - 0.04) * pow(1.0 - n_v, 5.0);
     vec3 mirrored = reflect(-v, n);
     vec3 seen = mix(c, textureLod(environment, mirrored, lod).rgb, sky_seen * sky_seen);
-    c += f * (1.0 - 0.5 * s.roughness) * seen;
+    // Leaves and blades turn away from a flat view, and hide one another there.
+    float gloss = PATTERN == FOLIAGE || PATTERN == LAWN ? 0.2 : 1.0;
+    c += gloss * f * (1.0 - 0.5 * s.roughness) * seen;
 
-    if (GROUND == 1u) {
+    if ((PART == GROUND || push.pattern.z > 0.5) && scene.air.x > 0.0) {
+        // The horizon's colour, from where the ray goes.
+        vec3 level = normalize(vec3(-v.x, max(-v.y, 0.02), -v.z));
+        float clear = exp(-length(to_eye) * scene.air.x);
+        c = mix(textureLod(environment, level, 2.0).rgb, c, clear);
+    }
+    if (PART == GROUND) {
         float away = distance(position.xz, scene.ground.xy);
         c = mix(c, textureLod(environment, -v, 2.0).rgb, smoothstep(scene.ground.z, scene.ground.w, away));
     }

@@ -15,6 +15,7 @@ layout(set = 0, binding = 0, std140) uniform Scene {
     vec4 sun_color;     // irradiance on a surface that faces the sun; w: radiance of the disc over it, 0 where the picture shows it
     vec4 shadow_texel;  // uv, world size of a texel of the shadow map, height of the ground
     vec4 ground;        // centre x and z, where the ground begins and ends to fade into the sky
+    vec4 air;           // one over the length of the haze, 0: clear; metres of procedural surfaces a world unit
     vec4 sea;           // level, length of its largest waves or of a plate of lava, unused, way of the sun's light a metre down
     vec4 absorption;    // of water, 1/m; w: variance of all the waves' slopes
     vec4 scattering;    // of water, 1/m; w: share of the loop that has passed (lava)

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
-use super::tracer::Tracer;
+use super::tracer::{Around, Tracer};
 use super::{Ground, Mesh, Scene};
 
 /// A vertex of `glsl/headless/scene.vert`.
@@ -20,7 +20,7 @@ pub struct Vertex {
     pub light: [f32; 4],
     /// Albedo of what is seen beside the sky, weighted by how much of it is seen.
     pub around: [f32; 3],
-    /// How far the smooth surface that is meant bulges over the facets.
+    /// How far the smooth surface that is meant bulges over the facets; of the backdrop, the share of the sun that is seen.
     pub bulge: f32,
 }
 
@@ -30,15 +30,24 @@ impl Vertex {
     }
 }
 
-/// The triangles of one mesh in the index buffer.
+/// A part of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Of `Scene.meshes`.
+    Mesh(usize),
+    Ground,
+    /// Of `Scene.backdrop`.
+    Backdrop(usize),
+}
+
+/// The triangles of one part in the index buffer.
 pub struct Batch {
-    /// Index in `Scene.meshes`; `None` is the ground.
-    pub mesh: Option<usize>,
+    pub part: Part,
     pub first: u32,
     pub count: u32,
 }
 
-/// Vertices and indices of a whole scene. The ground comes last: it casts no shadow.
+/// Vertices and indices of a whole scene. Ground and backdrop come last: they cast no shadow.
 pub struct Baked {
     pub vertices: Vec<Vertex>,
     pub indices: Vec<u32>,
@@ -61,11 +70,21 @@ pub fn bake(scene: &Scene) -> Baked {
     for (index, mesh) in scene.meshes.iter().enumerate() {
         let (mut vertices, mut indices) = world(mesh);
         split(&mut vertices, &mut indices, longest);
-        baked.add(Some(index), &tracer, vertices, &indices);
+        tracer.light(&mut vertices, &indices, true);
+        baked.add(Part::Mesh(index), vertices, &indices);
     }
     if let Some(ground) = &scene.ground {
-        let (vertices, indices) = ground_grid(ground, low, high, longest);
-        baked.add(None, &tracer, vertices, &indices);
+        let (mut vertices, indices) = ground_grid(ground, low, high, longest);
+        tracer.light(&mut vertices, &indices, false);
+        baked.add(Part::Ground, vertices, &indices);
+    }
+    if !scene.backdrop.is_empty() {
+        let around = Around::new(scene, diagonal);
+        for (index, mesh) in scene.backdrop.iter().enumerate() {
+            let (mut vertices, indices) = world(mesh);
+            around.light(&mut vertices);
+            baked.add(Part::Backdrop(index), vertices, &indices);
+        }
     }
     baked
 }
@@ -75,7 +94,8 @@ impl Baked {
     pub fn placed(&self, scene: &Scene) -> Vec<Vertex> {
         let mut vertices = self.vertices.clone();
         for batch in &self.batches {
-            let Some(pose) = batch.mesh.and_then(|mesh| scene.pose(mesh)) else { continue };
+            let Part::Mesh(mesh) = batch.part else { continue };
+            let Some(pose) = scene.pose(mesh) else { continue };
             let turn = pose.inverse().transpose();
             let indices = batch.first as usize..(batch.first + batch.count) as usize;
             // A mesh's vertices follow each other; those of others are of other batches.
@@ -91,20 +111,10 @@ impl Baked {
         vertices
     }
 
-    fn add(
-        &mut self,
-        mesh: Option<usize>,
-        tracer: &Tracer,
-        mut vertices: Vec<Vertex>,
-        indices: &[u32],
-    ) {
-        tracer.light(&mut vertices, indices, mesh.is_some());
+    fn add(&mut self, part: Part, vertices: Vec<Vertex>, indices: &[u32]) {
         let base = self.vertices.len() as u32;
-        self.batches.push(Batch {
-            mesh,
-            first: self.indices.len() as u32,
-            count: indices.len() as u32,
-        });
+        let (first, count) = (self.indices.len() as u32, indices.len() as u32);
+        self.batches.push(Batch { part, first, count });
         self.vertices.extend(vertices);
         self.indices.extend(indices.iter().map(|i| base + i));
     }
@@ -205,7 +215,7 @@ fn halfway(p: &Vertex, q: &Vertex) -> Vertex {
     }
 }
 
-/// A grid, even round the scene and ever coarser outwards.
+/// A grid, even round the scene and ever coarser outwards, to the ground's end.
 fn ground_grid(ground: &Ground, low: Vec3, high: Vec3, longest: f32) -> (Vec<Vertex>, Vec<u32>) {
     let diagonal = (high - low).length().max(1e-6);
     let axis = |low: f32, high: f32| {
@@ -219,6 +229,10 @@ fn ground_grid(ground: &Ground, low: Vec3, high: Vec3, longest: f32) -> (Vec<Ver
             step *= 1.35;
             at += step;
             side.push(at);
+        }
+        if let Some(reach) = ground.reach.filter(|reach| *reach < at) {
+            side.retain(|at| *at < 0.999 * reach);
+            side.push(reach);
         }
         let left = side[1..].iter().rev().map(|x| centre - x);
         left.chain(side.iter().map(|x| centre + x)).collect::<Vec<_>>()

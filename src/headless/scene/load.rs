@@ -307,7 +307,7 @@ impl Scene {
         }
         if let Some(ground) = file.ground {
             let material = material(&ground.material, "ground")?;
-            scene.ground = Some(Ground { y: ground.y, material });
+            scene.ground = Some(Ground { y: ground.y, material, reach: None });
         }
         scene.camera = file.camera.map(|camera| Viewpoint {
             eye: camera.eye,

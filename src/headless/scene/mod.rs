@@ -28,7 +28,7 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// The sun.
     pub sun: SunLight,
-    /// A level ground that goes to the horizon and fades into the sky there.
+    /// A level ground, which goes to the horizon and fades into the sky there, or ends where it is said to.
     pub ground: Option<Ground>,
     /// The camera that the scene's file suggests.
     pub camera: Option<Viewpoint>,
@@ -40,6 +40,16 @@ pub struct Scene {
     pub sea: Option<Sea>,
     /// When the frame is, in seconds: the sea goes by it.
     pub time: f64,
+    /// Opaque meshes far around, which close the picture: lawns, hedges, trees, a room's walls. They are drawn under sun and
+    /// sky as they are, unsplit; at each of their vertices few rays find how much of sky and sun other things leave. They
+    /// cast no shadow on [`meshes`](Self::meshes) or water and lend them no light; neither [`bounds`](Self::bounds), nor
+    /// the shadow map, nor the ground are laid round them. They stand still.
+    pub backdrop: Vec<Mesh>,
+    /// World units over which air takes the contrast of [`ground`](Self::ground) and [`backdrop`](Self::backdrop) to 1/e,
+    /// towards the environment's colour at the horizon, (0, ∞); none, the default: clear air. Meshes stand in clear air.
+    pub haze: Option<f32>,
+    /// World units that are a metre to procedural surfaces, whose grain is metric, (0, ∞); none, the default: 1.
+    pub metre: Option<f32>,
 }
 
 /// Meshes that move as one.
@@ -116,6 +126,9 @@ pub struct Ground {
     pub y: f32,
     /// What it is made of.
     pub material: Material,
+    /// How far it goes along x and z from the middle of the scene's [`bounds`](Scene::bounds), in world units, (0, ∞);
+    /// none: to the horizon.
+    pub reach: Option<f32>,
 }
 
 /// Triangles of one material.
@@ -204,6 +217,18 @@ pub enum Pattern {
     Rock,
     /// Leaves of bushes and hedges.
     Leaves,
+    /// Leaves of trees and hedges in masses, lit through where the sun is behind them.
+    Foliage,
+    /// Grass, mown in stripes along z.
+    Lawn {
+        /// Width of a stripe.
+        stripe: f32,
+    },
+    /// Sand with ripples, as the sea leaves it, and pebbles.
+    Ripples {
+        /// From crest to crest.
+        length: f32,
+    },
 }
 
 impl Default for Material {
@@ -287,6 +312,11 @@ impl Scene {
             }
         }
         low.cmple(high).all().then_some((low, high))
+    }
+
+    /// What a world unit is to procedural surfaces, in metres.
+    fn metres_per_unit(&self) -> f32 {
+        self.metre.map_or(1.0, f32::recip)
     }
 
     fn motion_of(&self, mesh: usize) -> Option<&Motion> {

@@ -6,11 +6,17 @@ use std::collections::HashMap;
 
 use glam::{Quat, Vec3};
 
-use super::Scene;
 use super::bake::{Vertex, world};
+use super::{Mesh, Scene};
 
 /// Rays a vertex.
 const RAYS: usize = 64;
+/// Rays a vertex of the backdrop, and those of them to the sun, which is so wide there (tangent): leaves blur its shadows.
+const FEW: usize = 6;
+const SUNS: usize = 2;
+const PENUMBRA: f32 = 0.06;
+/// How far rays are cast for it, in reaches of what is near.
+const FAR: f32 = 14.0;
 
 struct Triangle {
     corner: Vec3,
@@ -48,12 +54,25 @@ pub struct Tracer {
 
 impl Tracer {
     pub fn new(scene: &Scene, diagonal: f32) -> Self {
+        Self::of(&scene.meshes, |_, _| true, scene, diagonal)
+    }
+
+    /// Of some meshes on the ground of a scene, but for what is too far away.
+    fn of<'a>(
+        meshes: impl IntoIterator<Item = &'a Mesh>,
+        counts: impl Fn(Vec3, f32) -> bool,
+        scene: &Scene,
+        diagonal: f32,
+    ) -> Self {
         let mut triangles = Vec::new();
-        for mesh in &scene.meshes {
+        for mesh in meshes {
             let albedo = mesh.material.albedo();
             let (vertices, indices) = world(mesh);
             for t in indices.chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|k| vertices[t[k] as usize].at());
+                if !counts(a, (b - a).length().max((c - a).length())) {
+                    continue;
+                }
                 let mut normal = (b - a).cross(c - a).normalize_or_zero();
                 // Winding is not trusted: the given normal says where outside is.
                 if normal.dot(vertices[t[0] as usize].normal.into()) < 0.0 {
@@ -62,21 +81,13 @@ impl Tracer {
                 triangles.push(Triangle { corner: a, edges: [b - a, c - a], normal, albedo });
             }
         }
-        // Cosine-weighted about +z, by a Fibonacci spiral.
-        let directions = (0..RAYS)
-            .map(|i| {
-                let u = (i as f32 + 0.5) / RAYS as f32;
-                let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
-                Vec3::new(u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).sqrt())
-            })
-            .collect();
         let mut tracer = Self {
             triangles,
             nodes: Vec::new(),
             ground: scene.ground.as_ref().map(|g| (g.y, g.material.albedo())),
             sun: Vec3::from(scene.sun.direction).normalize_or(Vec3::Y),
             lift: 5e-4 * diagonal,
-            directions,
+            directions: directions(RAYS),
         };
         tracer.nodes.push(Node { low: Vec3::ZERO, high: Vec3::ZERO, first: 0, count: 0 });
         tracer.build(0, 0, tracer.triangles.len());
@@ -119,6 +130,11 @@ impl Tracer {
 
     /// The nearest hit, or any when that is enough.
     fn trace(&self, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
+        self.trace_to(f32::INFINITY, from, along, any)
+    }
+
+    /// The same, of what begins nearer than a reach.
+    fn trace_to(&self, reach: f32, from: Vec3, along: Vec3, any: bool) -> Option<Hit> {
         let inverse = along.recip();
         let mut best: Option<(f32, usize)> = None;
         // A median split halves: 64 levels would be 2^64 triangles.
@@ -131,7 +147,7 @@ impl Tracer {
             let near = a.min(b).max_element().max(0.0);
             let far = a.max(b).min_element();
             // A ray in the plane of a face is NaN here, and goes on.
-            if near > far || best.is_some_and(|(t, _)| near > t) {
+            if near > far || near > reach || best.is_some_and(|(t, _)| near > t) {
                 continue;
             }
             if node.count == 0 {
@@ -257,6 +273,112 @@ impl Tracer {
     }
 }
 
+/// Cosine-weighted about +z, by a Fibonacci spiral.
+fn directions(count: usize) -> Vec<Vec3> {
+    (0..count)
+        .map(|i| {
+            let u = (i as f32 + 0.5) / count as f32;
+            let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
+            Vec3::new(u.sqrt() * cos, u.sqrt() * sin, (1.0 - u).sqrt())
+        })
+        .collect()
+}
+
+/// Light of the backdrop: by few rays, as it is far and much of it is leaves; by as many as the meshes' where it is near
+/// them.
+pub struct Around {
+    all: Tracer,
+    /// Keeps the sun off the backdrop; the meshes do it by their shadow map.
+    backdrop: Tracer,
+    few: Vec<Vec3>,
+    to_sun: [Vec3; SUNS],
+    middle: Vec3,
+    near: f32,
+}
+
+impl Around {
+    pub fn new(scene: &Scene, diagonal: f32) -> Self {
+        let (low, high) = scene.bounds();
+        let (middle, near) = (0.5 * (low + high), 0.75 * diagonal);
+        let counts = |at: Vec3, size: f32| at.distance(middle) - size < FAR * near;
+        let all = scene.meshes.iter().chain(&scene.backdrop);
+        let all = Tracer::of(all, counts, scene, diagonal);
+        let backdrop = Tracer::of(&scene.backdrop, counts, &Scene::default(), diagonal);
+        let turn = Quat::from_rotation_arc(Vec3::Z, all.sun);
+        let to_sun = std::array::from_fn(|i| {
+            let (sin, cos) = (2.399_963_1 * i as f32).sin_cos();
+            let away = PENUMBRA * ((i as f32 + 0.5) / SUNS as f32).sqrt();
+            (turn * Vec3::new(away * cos, away * sin, 1.0)).normalize()
+        });
+        Self { all, backdrop, few: directions(FEW), to_sun, middle, near }
+    }
+
+    /// Lights vertices; what lies in a solid is dark, as leaves are between two bushes.
+    pub fn light(&self, vertices: &mut [Vertex]) {
+        let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+        let size = vertices.len().div_ceil(threads).max(1);
+        std::thread::scope(|scope| {
+            for part in vertices.chunks_mut(size) {
+                scope.spawn(move || {
+                    let mut last = Vertex { position: [f32::MAX; 3], ..Vertex::default() };
+                    for vertex in part {
+                        // Corners of one leaf are lit alike.
+                        let same = vertex.normal == last.normal
+                            && vertex.at().distance(last.at()) < 0.05 * self.near;
+                        if same {
+                            let Vertex { light, around, bulge, .. } = last;
+                            *vertex = Vertex { light, around, bulge, ..*vertex };
+                        } else {
+                            self.light_vertex(vertex);
+                            last = *vertex;
+                        }
+                    }
+                });
+            }
+        });
+    }
+
+    fn light_vertex(&self, vertex: &mut Vertex) {
+        let away = vertex.at().distance(self.middle);
+        if away > FAR * self.near {
+            // Of what haze hides half, what looks up sees the sky, and all the sun.
+            vertex.bulge = 1.0;
+            let down = 0.5 - 0.5 * vertex.normal[1];
+            vertex.light = [1.0 - 0.6 * down, 0.0, 0.0, 0.0];
+            return;
+        }
+        let near = away < self.near;
+        // (What is far off hides little of the sky of a tree.)
+        let (directions, reach) = match near {
+            true => (&self.all.directions, f32::INFINITY),
+            false => (&self.few, self.near),
+        };
+        let normal = Vec3::from(vertex.normal);
+        let from = vertex.at() + normal * 4.0 * self.all.lift;
+        let frame = Quat::from_rotation_arc(Vec3::Z, normal);
+        let (mut sky, mut seen, mut bounced, mut around) = (0.0_f32, 0.0, Vec3::ZERO, Vec3::ZERO);
+        for direction in directions {
+            let d = frame * *direction;
+            sky += f32::from(d.y > 0.0);
+            match self.all.trace_to(reach, from, d, !near) {
+                None => seen += f32::from(d.y > 0.0),
+                Some(hit) if hit.inside => {}
+                Some(hit) => {
+                    around += hit.albedo;
+                    // What hides it from the sun hides this as well, or about so.
+                    bounced += hit.albedo * hit.normal.dot(self.all.sun).max(0.0);
+                }
+            }
+        }
+        let sunny = self.to_sun.iter().filter(|to| self.backdrop.trace(from, **to, true).is_none());
+        vertex.bulge = sunny.count() as f32 / SUNS as f32;
+        let share = (directions.len() as f32).recip();
+        let [r, g, b] = (bounced * share * (0.3 + 0.7 * vertex.bulge)).to_array();
+        vertex.light = [if sky > 0.0 { seen / sky } else { 0.0 }, r, g, b];
+        vertex.around = (around * share).to_array();
+    }
+}
+
 impl Triangle {
     /// Möller and Trumbore 1997.
     fn hit(&self, from: Vec3, along: Vec3) -> Option<f32> {
@@ -284,7 +406,7 @@ mod tests {
     fn scene(meshes: Vec<Mesh>) -> Scene {
         Scene {
             meshes,
-            ground: Some(Ground { y: 0.0, material: Material::default() }),
+            ground: Some(Ground { y: 0.0, material: Material::default(), reach: None }),
             ..Scene::default()
         }
     }

@@ -162,8 +162,8 @@ impl Sea {
             Self::Flood => flood::meshes(),
         };
         let ground = match self {
-            Self::Flood => Ground { y: 0.0, material: flood::ground() },
-            _ => Ground { y: OPEN_SEA, material: open_sea() },
+            Self::Flood => Ground { y: 0.0, material: flood::ground(), reach: None },
+            _ => Ground { y: OPEN_SEA, material: open_sea(), reach: None },
         };
         let sun = SunLight { direction: self.plan().sun.to_array(), ..SunLight::default() };
         Scene { meshes, sun, ground: Some(ground), ..Scene::default() }

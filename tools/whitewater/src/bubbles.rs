@@ -10,7 +10,7 @@ use whitewater::headless::scene::{Material, Mesh, Scene};
 use whitewater::io::particles::sequence;
 use whitewater::{Region, Settings};
 
-use crate::args::{RenderArgs, SetArg};
+use crate::args::RenderArgs;
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
@@ -324,7 +324,7 @@ fn slope(count: u32, blob: &mut impl FnMut(Vec3, f32, u32) -> Bubble) -> Set {
     let solids = solids.chain([floor]).collect();
     let settings = HeapSettings { friction: 0.25, ..HeapSettings::default() };
     let low = Bounds { min: Vec3::new(-1.5, 0.0, -0.6), max: Vec3::new(2.2, 1.6, 0.6) };
-    let mut scene = stage::ground_under(&low, SetArg::Pool);
+    let mut scene = stage::paving_under(&low);
     scene.meshes.extend(meshes);
     Set {
         blobs: Blobs {
@@ -358,7 +358,7 @@ fn bounds_of(blobs: &[Bubble]) -> Bounds {
 }
 
 fn on_ground(blobs: &[Bubble]) -> Scene {
-    stage::ground_under(&bounds_of(blobs), SetArg::Pool)
+    stage::paving_under(&bounds_of(blobs))
 }
 
 /// `render --bubbles` without particles.

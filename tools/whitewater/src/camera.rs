@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use glam::{Mat4, Quat, Vec3, Vec4};
+use glam::{Mat4, Quat, Vec2, Vec3, Vec4};
 use serde::{Deserialize, Serialize};
 use whitewater::Camera;
 
@@ -11,11 +11,18 @@ use crate::bounds::Bounds;
 use crate::failure::{Failure, Outcome};
 
 const DEFAULT_FOV: f32 = 40.0;
-/// Degrees that a view that is found looks down by, on a tall splash and on a flat pool: near walls hide little.
-const LOWEST: f32 = 30.0;
-const HIGHEST: f32 = 34.0;
-/// Room above the water, of what of it is above the middle.
-const HEADROOM: f32 = 1.12;
+/// Of a view that is found: a lens that is neither wide nor long.
+const FOUND_FOV: f32 = 36.0;
+/// Where the horizon is then, from the middle (0) to the upper edge (1): the sky takes a fifth of the height.
+const HORIZON: f32 = 0.6;
+/// How far the axis looks down for that, radians, by whatever lens.
+const LEAST_PITCH: f32 = 0.14;
+const MOST_PITCH: f32 = 0.52;
+/// Degrees from which the middle of the floor is looked down on at most.
+const HIGHEST: f32 = 27.0;
+/// How much of the half height, and of the half width, what is framed fills at most.
+const FILLED: f32 = 0.86;
+const WIDTH: f32 = 0.68;
 
 /// A camera as its file has it: the first six, or `view` and `projection`; or `keys`, by which it
 /// moves, and for which the others hold but eye and target.
@@ -241,70 +248,84 @@ impl CameraFile {
         Ok(Camera { view: Mat4::look_at_rh(eye, target, up), projection })
     }
 
-    /// A three-quarter view from above, over the walls that may stand round it, with all of the bulk of each frame in the
-    /// picture and room above it.
+    /// A three-quarter view: the horizon a fifth below the picture's upper edge, the water in the lower part, as near as
+    /// its width and what splashes of it let, with all of the bulk of each frame in the picture.
     pub fn of_particles(
         frames: &[&[[f32; 3]]],
         bounds: &Bounds,
         fov: Option<f32>,
         size: (u32, u32),
     ) -> Self {
-        let fov = fov.unwrap_or(DEFAULT_FOV);
+        let fov = fov.unwrap_or(FOUND_FOV);
         let size3 = bounds.size();
-        // What a frame has by its own: a splash that is over in a moment is no stray of the whole sequence.
-        let mut frames: Vec<Vec<Vec3>> = frames
-            .iter()
-            .map(|positions| {
-                let step = positions.len().div_ceil(20_000).max(1);
-                let points = positions.iter().step_by(step).map(|p| Vec3::from(*p));
-                points.filter(|p| bounds.contains(*p)).collect()
-            })
-            .collect();
-        // The floor, with what stands round it.
-        let corner = |x: f32, z: f32| bounds.min + size3 * Vec3::new(x, 0.0, z);
-        frames.push(vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0), corner(1.0, 1.0)]);
         // The longer side faces the camera.
         let turn = if size3.x >= size3.z { 28.0_f32 } else { 62.0 }.to_radians();
-        // A flat pool is looked at from higher up than a tall splash.
-        let tall = (size3.y / size3.x.max(size3.z).max(1.0e-9)).clamp(0.0, 1.0);
-        let rise = (HIGHEST - (HIGHEST - LOWEST) * tall).to_radians();
-        let back =
-            Vec3::new(turn.sin() * rise.cos(), rise.sin(), turn.cos() * rise.cos()).normalize();
-        let right = Vec3::Y.cross(back).normalize();
-        let up = back.cross(right);
-        let margin = 1.1;
-        let tan_y = (0.5 * fov.to_radians()).tan() / margin;
+        let towards = Vec3::new(turn.sin(), 0.0, turn.cos());
+        let right = Vec3::Y.cross(towards);
+        let foot = Vec3::new(bounds.center().x, bounds.min.y, bounds.center().z);
+        let points = outline(frames, bounds, |p| {
+            let d = p - foot;
+            Vec3::new(d.dot(right), d.y, d.dot(towards))
+        });
+        let tan_y = (0.5 * fov.to_radians()).tan();
         let tan_x = tan_y * size.0 as f32 / size.1 as f32;
-        let mut target = bounds.center();
-        let mut distance = 0.0_f32;
-        // Each round centres what is seen and steps back as far as it needs.
-        for _ in 0..8 {
-            let above = |d: Vec3| {
-                let above = d.dot(up);
-                if above > 0.0 { HEADROOM * above } else { -above }
-            };
-            let needs = |p: &Vec3| {
-                let d = *p - target;
-                (d.dot(right).abs() / tan_x).max(above(d) / tan_y) + d.dot(back)
-            };
-            distance = most(frames.iter().map(|points| points.iter().map(needs).collect()));
-            let seen = |axis: Vec3, more: f32| {
-                let seen = move |p: &Vec3| {
-                    let d = *p - target;
-                    more * d.dot(axis) / (distance - d.dot(back)).max(1.0e-6)
-                };
-                most(frames.iter().map(|points| points.iter().map(seen).collect()))
-            };
-            let middle = |axis, more| 0.5 * (seen(axis, more) - seen(-axis, 1.0)) * distance;
-            target += right * middle(right, 1.0) + up * middle(up, HEADROOM);
+        let pitch = (HORIZON * tan_y).atan().clamp(LEAST_PITCH, MOST_PITCH);
+        let (sin, cos) = pitch.sin_cos();
+        let framing = Framing { points, tan: Vec2::new(tan_x, tan_y), sin, cos };
+        // From as high as the lower edge lets it, but for the near walls no lower than the axis looks down.
+        let low = pitch + 2.0_f32.to_radians();
+        let high = HIGHEST.to_radians().max(pitch + 6.0_f32.to_radians());
+        let eye_at = |distance: f32| {
+            let eye = |rise: f32| distance * Vec3::new(0.0, rise.sin(), rise.cos());
+            let stands = |rise: f32| framing.seen(eye(rise)).is_some_and(|s| s.low.y >= -FILLED);
+            let mut rise = (low, high);
+            if !stands(high) {
+                for _ in 0..12 {
+                    let middle = 0.5 * (rise.0 + rise.1);
+                    if stands(middle) {
+                        rise.0 = middle;
+                    } else {
+                        rise.1 = middle;
+                    }
+                }
+            } else {
+                rise.0 = high;
+            }
+            let mut eye = eye(rise.0);
+            for _ in 0..4 {
+                if let Some(seen) = framing.seen(eye) {
+                    eye.x += 0.5 * (seen.low.x + seen.high.x) * tan_x * distance;
+                }
+            }
+            eye
+        };
+        let fits = |distance: f32| {
+            framing.seen(eye_at(distance)).is_some_and(|s| {
+                s.low.y >= -FILLED && s.high.y <= FILLED && s.high.x.max(-s.low.x) <= WIDTH
+            })
+        };
+        let longest = size3.max_element().max(f32::MIN_POSITIVE);
+        let mut distances = (0.5 * longest, longest);
+        for _ in 0..24 {
+            if fits(distances.1) {
+                break;
+            }
+            distances = (distances.1, 1.5 * distances.1);
         }
-        if !(distance.is_finite() && distance > 0.0) {
-            distance = 1.0;
+        for _ in 0..16 {
+            let middle = 0.5 * (distances.0 + distances.1);
+            if fits(middle) {
+                distances.1 = middle;
+            } else {
+                distances.0 = middle;
+            }
         }
-        let eye = target + back * distance;
+        let eye = eye_at(distances.1);
+        let target = eye - distances.1 * Vec3::new(0.0, sin, cos);
+        let world = |p: Vec3| (foot + right * p.x + Vec3::Y * p.y + towards * p.z).to_array();
         Self {
-            eye: Some(eye.to_array()),
-            target: Some(target.to_array()),
+            eye: Some(world(eye)),
+            target: Some(world(target)),
             up: Some([0.0, 1.0, 0.0]),
             fov_y_degrees: Some(fov),
             ..Self::default()
@@ -328,16 +349,90 @@ impl CameraFile {
     }
 }
 
-/// The largest of the values of each frame, but for the farthest drops: a picture may lose one in two hundred.
-fn most(frames: impl Iterator<Item = Vec<f32>>) -> f32 {
-    let of_frame = |mut values: Vec<f32>| {
-        values.sort_unstable_by(f32::total_cmp);
-        let last = *values.last()?;
-        let bulk = values[values.len() - 1 - values.len() / 200];
-        let middle = values[values.len() / 2];
-        Some(last.min(bulk + 0.35 * (bulk - middle).abs()))
-    };
-    frames.filter_map(of_frame).reduce(f32::max).unwrap_or(0.0)
+/// What a view by a level eye line shows of some points.
+struct Framing {
+    /// To the right, up, and towards the eye.
+    points: Vec<Vec3>,
+    /// Of half the angles of view.
+    tan: Vec2,
+    /// Of the angle by which the axis looks down.
+    sin: f32,
+    cos: f32,
+}
+
+/// Where in the picture points are: -1 to 1 from its left and its lower edge.
+struct Seen {
+    low: Vec2,
+    high: Vec2,
+}
+
+impl Framing {
+    /// None where a point is not before the eye.
+    fn seen(&self, eye: Vec3) -> Option<Seen> {
+        let mut seen = Seen { low: Vec2::INFINITY, high: Vec2::NEG_INFINITY };
+        for point in &self.points {
+            let d = *point - eye;
+            let depth = -d.y * self.sin - d.z * self.cos;
+            if depth <= 0.0 {
+                return None;
+            }
+            let at = Vec2::new(d.x, d.y * self.cos - d.z * self.sin) / (depth * self.tan);
+            seen = Seen { low: seen.low.min(at), high: seen.high.max(at) };
+        }
+        Some(seen)
+    }
+}
+
+/// The highest and the lowest points of all frames, place by place, but for the farthest drops; and the floor's corners.
+/// `along`: to the right, up, and towards the eye.
+fn outline(frames: &[&[[f32; 3]]], bounds: &Bounds, along: impl Fn(Vec3) -> Vec3) -> Vec<Vec3> {
+    const CELLS: usize = 24;
+    let size = bounds.size();
+    let floor = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
+        .map(|[x, z]| along(bounds.min + size * Vec3::new(x, 0.0, z)));
+    let low = floor.into_iter().fold(floor[0], Vec3::min);
+    let high = floor.into_iter().fold(floor[0], Vec3::max);
+    let step = ((high - low) / CELLS as f32).max(Vec3::splat(f32::MIN_POSITIVE));
+    let mut cells = vec![(None::<Vec3>, None::<Vec3>); CELLS * CELLS];
+    for positions in frames {
+        // What a frame has by its own: a splash that is over in a moment is no stray of the whole sequence.
+        let step_of = positions.len().div_ceil(20_000).max(1);
+        let points: Vec<Vec3> = positions
+            .iter()
+            .step_by(step_of)
+            .map(|p| Vec3::from(*p))
+            .filter(|p| bounds.contains(*p))
+            .map(&along)
+            .collect();
+        if points.is_empty() {
+            continue;
+        }
+        let of = |get: &dyn Fn(&Vec3) -> f32| most(points.iter().map(get).collect());
+        let end = Vec3::new(of(&|p| p.x), of(&|p| p.y), of(&|p| p.z));
+        let start = -Vec3::new(of(&|p| -p.x), of(&|p| -p.y), of(&|p| -p.z));
+        for point in &points {
+            let point = point.clamp(start.min(end), end);
+            let at = ((point - low) / step).clamp(Vec3::ZERO, Vec3::splat(CELLS as f32 - 1.0));
+            let (top, bottom) = &mut cells[at.x as usize * CELLS + at.z as usize];
+            if top.is_none_or(|t| t.y < point.y) {
+                *top = Some(point);
+            }
+            if bottom.is_none_or(|b| b.y > point.y) {
+                *bottom = Some(point);
+            }
+        }
+    }
+    let cells = cells.into_iter().flat_map(|(top, bottom)| [top, bottom]).flatten();
+    cells.chain(floor).collect()
+}
+
+/// The largest of the values of a frame, but for the farthest drops: a picture may lose one in two hundred.
+fn most(mut values: Vec<f32>) -> f32 {
+    values.sort_unstable_by(f32::total_cmp);
+    let Some(last) = values.last() else { return 0.0 };
+    let bulk = values[values.len() - 1 - values.len() / 200];
+    let middle = values[values.len() / 2];
+    last.min(bulk + 0.35 * (bulk - middle).abs())
 }
 
 /// A perspective camera taken apart, for what the CPU works out.
@@ -396,6 +491,14 @@ impl Lens {
 mod tests {
     use super::*;
 
+    /// Place in the picture, -1 to 1 from the left and from above, of what is before the eye.
+    fn shown(file: &CameraFile, size: (u32, u32), p: Vec3) -> Vec2 {
+        let camera = file.camera(size).unwrap();
+        let clip = camera.projection * camera.view * p.extend(1.0);
+        assert!(clip.w > 0.0, "{p} is behind the eye");
+        Vec2::new(clip.x, clip.y) / clip.w
+    }
+
     #[test]
     fn the_found_camera_sees_every_particle() {
         let positions: Vec<[f32; 3]> = (0..4096)
@@ -404,17 +507,47 @@ mod tests {
             })
             .collect();
         let bounds = Bounds::of_bulk(&positions).unwrap();
-        for size in [(1280, 720), (300, 900), (1, 1)] {
-            let file = CameraFile::of_particles(&[&positions], &bounds, None, size);
-            let camera = file.camera(size).unwrap();
-            let mut most = 0.0_f32;
+        for (fov, size) in [
+            (None, (1280, 720)),
+            (None, (300, 900)),
+            (None, (1, 1)),
+            (Some(10.0), (1280, 720)),
+            (Some(90.0), (1280, 720)),
+        ] {
+            let file = CameraFile::of_particles(&[&positions], &bounds, fov, size);
+            let mut most = Vec2::ZERO;
             for p in &positions {
-                let clip = camera.projection * camera.view * Vec3::from(*p).extend(1.0);
-                let ndc = clip.truncate() / clip.w;
-                assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0 && clip.w > 0.0, "{ndc}");
-                most = most.max(ndc.x.abs()).max(ndc.y.abs());
+                most = most.max(shown(&file, size, Vec3::from(*p)).abs());
             }
-            assert!(most > 0.8, "{most}");
+            // As large as width or height lets it be.
+            assert!(most.x < WIDTH + 0.01 && most.y < FILLED + 0.01, "{fov:?} {size:?}: {most}");
+            assert!(most.x > WIDTH - 0.05 || most.y > FILLED - 0.05, "{fov:?} {size:?}: {most}");
+        }
+    }
+
+    /// Whatever the water does, the horizon is a fifth below the upper edge, the water in the lower half of the picture
+    /// and looked down on, so that near walls hide little of it.
+    #[test]
+    fn the_horizon_is_in_the_picture() {
+        let box_of = |size: [usize; 3]| -> Vec<[f32; 3]> {
+            let [nx, ny, nz] = size;
+            (0..nx * ny * nz)
+                .map(|i| [i % nx, i / nx % ny, i / nx / ny].map(|n| 0.1 * n as f32))
+                .collect()
+        };
+        for form in [[40, 3, 20], [20, 3, 40], [30, 4, 30], [12, 30, 12], [60, 12, 6]] {
+            let positions = box_of(form);
+            let bounds = Bounds::of_bulk(&positions).unwrap();
+            let size = (1280, 720);
+            let file = CameraFile::of_particles(&[&positions], &bounds, None, size);
+            let eye = Vec3::from(file.eye.unwrap());
+            let level = Vec3::new(bounds.center().x - eye.x, 0.0, bounds.center().z - eye.z);
+            let horizon = shown(&file, size, eye + level);
+            assert!((horizon.y + HORIZON).abs() < 0.01, "{form:?}: {horizon}");
+            let foot = Vec3::new(bounds.center().x, bounds.min.y, bounds.center().z);
+            let down = ((eye.y - foot.y) / level.length()).atan().to_degrees();
+            assert!((13.0..=HIGHEST + 0.01).contains(&down), "{form:?}: {down} degrees down");
+            assert!((0.1..FILLED).contains(&shown(&file, size, foot).y), "{form:?}");
         }
     }
 
@@ -425,10 +558,8 @@ mod tests {
             .collect();
         let still = Bounds::of_bulk(&positions).unwrap();
         let seen = |file: &CameraFile| {
-            let camera = file.camera((1280, 720)).unwrap();
-            let top = camera.projection * camera.view * still.max.extend(1.0);
-            let foot = camera.projection * camera.view * still.min.extend(1.0);
-            (top.y / top.w - foot.y / foot.w).abs()
+            let at = |p| shown(file, (1280, 720), p);
+            (at(still.max).y - at(still.min).y).abs()
         };
         let alone = CameraFile::of_particles(&[&positions], &still, None, (1280, 720));
         // One in two hundred, spread over three times the height.
@@ -439,7 +570,7 @@ mod tests {
     }
 
     /// One of sixteen frames has a splash: less than one in two hundred of all particles, and a tenth of its own. It is in
-    /// the picture, with room above it, and the view is down on what lies flat.
+    /// the picture, with room above it.
     #[test]
     fn a_moments_splash_is_in_the_picture() {
         let pool: Vec<[f32; 3]> = (0..4096)
@@ -453,13 +584,8 @@ mod tests {
         frames.push(&splash);
         let bounds = frames.iter().filter_map(|f| Bounds::of_bulk(f)).reduce(|a, b| a.union(&b));
         let file = CameraFile::of_particles(&frames, &bounds.unwrap(), None, (1280, 720));
-        let camera = file.camera((1280, 720)).unwrap();
-        let top = camera.projection * camera.view * Vec4::new(0.8, 2.0, 0.8, 1.0);
-        let top = top.y / top.w;
+        let top = shown(&file, (1280, 720), Vec3::new(0.8, 2.0, 0.8)).y;
         assert!((-0.9..-0.5).contains(&top), "{top}");
-        let (eye, target) = (Vec3::from(file.eye.unwrap()), Vec3::from(file.target.unwrap()));
-        let down = (eye - target).normalize().y.asin().to_degrees();
-        assert!((LOWEST - 0.01..HIGHEST).contains(&down), "{down}");
     }
 
     #[test]

@@ -60,6 +60,32 @@ impl Environment {
         Ok(Self { source: Source::Sky(sky), sun, sun_irradiance, sky_irradiance })
     }
 
+    /// A light of one's own: what is to be seen without the key light, and that light, which is so bright over so many
+    /// radians of a square about `to_key`.
+    pub fn lit(room: impl Fn(Vec3) -> Vec3, to_key: [f32; 3], key: (Vec3, f32)) -> Outcome<Self> {
+        let sun = unit(to_key)?;
+        let (radiance, half) = (key.0, (0.5 * key.1).tan());
+        let right = Vec3::Y.cross(sun).try_normalize().unwrap_or(Vec3::X);
+        let up = sun.cross(right);
+        let in_box = |d: Vec3| {
+            let ahead = d.dot(sun).max(1.0e-6);
+            let inside = |v: f32| ((half - (v / ahead).abs()) / (0.1 * half)).clamp(0.0, 1.0);
+            if d.dot(sun) > 0.0 { inside(d.dot(right)) * inside(d.dot(up)) } else { 0.0 }
+        };
+        let without_sun = Panorama::build(256, 128, &room);
+        let shown = Panorama::build(256, 128, |d| room(d) + radiance * in_box(d));
+        let texels = (0..shown.pixels.len()).map(|i| (i % 256, i / 256));
+        let sun_irradiance = texels
+            .map(|(x, y)| {
+                let d = shown.direction(x, y);
+                radiance * in_box(d) * d.dot(sun).max(0.0) * shown.solid_angle(y)
+            })
+            .sum();
+        let sky_irradiance = without_sun.irradiance();
+        let source = Source::Picture { shown, without_sun };
+        Ok(Self { source, sun, sun_irradiance, sky_irradiance })
+    }
+
     /// A picture.
     pub fn read(path: &Path, sun: Option<[f32; 3]>) -> Outcome<Self> {
         let layers = picture::read(path)?;
@@ -353,7 +379,7 @@ mod tests {
         }
         let matt = Material { base_color: [albedo; 3], roughness: 1.0, ..Material::default() };
         let plate = Mesh::plane([0.0, 0.0, 0.0], [40.0, 40.0], matt.clone());
-        let ground = Some(Ground { y: -0.01, material: matt });
+        let ground = Some(Ground { y: -0.01, material: matt, reach: None });
         let sun = environment.sun_light();
         let scene = Scene { meshes: vec![plate], ground, sun, ..Scene::default() };
         headless.scene(&scene, false).unwrap();

@@ -24,6 +24,7 @@ mod progress;
 mod reader;
 mod render;
 mod session;
+mod sets;
 mod settings;
 mod shore;
 mod simulate;

@@ -539,32 +539,40 @@ fn look(
     });
     let mut environment = environment;
     let set = args.set.unwrap_or_default();
+    let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
+    let eye = view.inverse().transform_point3(Vec3::ZERO);
+    let mut sun = None;
     let mut scene = match &args.scene {
         None if set == SetArg::None => Scene::default(),
-        Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, set),
+        Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, eye, set),
         Some(path) => stage::read(path)?,
         None => {
             let frames: Vec<_> =
                 probes.frames.iter().map(|f| bounds::together(&f.positions)).collect();
             let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
-            let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
-            let eye = view.inverse().transform_point3(Vec3::ZERO);
-            let near = sequence.turning.is_none().then_some(eye);
-            match stage::basin_round(&frames, &bounds, spacing, near, set) {
+            let seen_from = (eye, sequence.turning.is_some());
+            match stage::basin_round(&frames, &bounds, spacing, seen_from, set) {
                 Some(basin) => {
                     progress
                         .say("a basin round the water, which fills a box (--scene ground: none)");
                     // A sun from the side, that its walls don't keep out.
-                    let sun = stage::side_light(eye - bounds.center());
-                    environment = session::environment(&args.draw, Some(sun))?;
-                    settings.light = file.in_light(environment.light());
-                    file.light.put(&mut settings.light);
+                    sun = Some(stage::side_light(eye - bounds.center()));
                     basin
                 }
-                None => stage::ground_under(&bounds, set),
+                None => stage::ground_under(&bounds, eye, set),
             }
         }
     };
+    let plain = args.draw.environment == "sky" && args.draw.sun.is_none() && args.scene.is_none();
+    let own = if plain { stage::light(set, eye - bounds.center())? } else { None };
+    if sun.is_some() || own.is_some() {
+        environment = match own {
+            Some(own) => own,
+            None => session::environment(&args.draw, sun)?,
+        };
+        settings.light = file.in_light(environment.light());
+        file.light.put(&mut settings.light);
+    }
     scene.sun = environment.sun_light();
     // Diffuse particles take the place of the water's own foam and spray.
     let diffused = !args.whitewater.is_empty();

@@ -3,11 +3,14 @@
 
 use std::path::Path;
 
+use glam::{Vec2, Vec3};
 use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene};
 
 use crate::args::SetArg;
 use crate::bounds::Bounds;
+use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
+use crate::sets::{self, Place, material};
 
 /// Reads a scene.
 pub fn read(path: &Path) -> Outcome<Scene> {
@@ -16,42 +19,55 @@ pub fn read(path: &Path) -> Outcome<Scene> {
 
 /// Of what the ground, the inside of a basin and its walls are, for water so long.
 fn materials(set: SetArg, longest: f32) -> [Material; 3] {
-    let of = |base_color: [f32; 3], roughness: f32, pattern: Pattern| Material {
-        base_color,
-        roughness,
-        pattern,
-        texture: None,
-    };
+    let of = material;
     let tiles = |part: f32| Pattern::Tiles { size: round_length(longest / part), band: None };
-    let concrete = Material::named("concrete").unwrap_or_default();
     match set {
         // White: the water's colour is its own.
         SetArg::Pool | SetArg::None => [
-            of([0.36, 0.34, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 10.0) }),
-            of([0.66, 0.66, 0.64], 0.22, tiles(30.0)),
-            concrete,
+            of([0.40, 0.36, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
+            of([0.66, 0.66, 0.64], 0.22, tiles(36.0)),
+            of([0.50, 0.455, 0.39], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
         ],
         SetArg::Studio => [
-            of([0.2; 3], 0.95, Pattern::Plain),
+            of([0.46; 3], 0.95, Pattern::Plain),
             of([0.62; 3], 0.5, Pattern::Plain),
-            of([0.45; 3], 0.6, Pattern::Plain),
+            of([0.16; 3], 0.5, Pattern::Plain),
         ],
         SetArg::Beach => [
-            of([0.62, 0.52, 0.38], 0.95, Pattern::Sand),
+            of([0.50, 0.41, 0.29], 0.95, Pattern::Ripples { length: 0.03 * longest }),
             of([0.62, 0.52, 0.38], 0.9, Pattern::Sand),
             of([0.45, 0.42, 0.38], 0.85, Pattern::Stone { course: round_length(longest / 30.0) }),
         ],
         SetArg::Lab => {
-            [of([0.3; 3], 0.9, Pattern::Plain), of([0.74, 0.74, 0.73], 0.15, tiles(60.0)), concrete]
+            let resin = of([0.20, 0.23, 0.24], 0.42, Pattern::Plain);
+            let enamel = of([0.70, 0.71, 0.70], 0.35, Pattern::Plain);
+            [resin, of([0.74, 0.74, 0.73], 0.15, tiles(60.0)), enamel]
         }
     }
 }
 
-/// The ground of a set under the bulk of the water.
-pub fn ground_under(bounds: &Bounds, set: SetArg) -> Scene {
+/// A set under the bulk of the water.
+pub fn ground_under(bounds: &Bounds, eye: Vec3, set: SetArg) -> Scene {
     let size = bounds.size();
-    let longest = size.max_element().max(f32::MIN_POSITIVE);
-    let [material, ..] = materials(set, longest);
+    let middle = Vec3::new(bounds.center().x, bounds.min.y, bounds.center().z);
+    let place = Place { middle, half: 0.5 * Vec2::new(size.x, size.z), eye };
+    let mut scene = extent(bounds, set);
+    let [material, ..] = materials(set, place.wide());
+    sets::furnish(&mut scene, set, material, &place);
+    scene
+}
+
+/// A paved plain and nothing else.
+pub fn paving_under(bounds: &Bounds) -> Scene {
+    let scene = extent(bounds, SetArg::Pool);
+    let [material, ..] = materials(SetArg::Pool, bounds.size().max_element());
+    Scene { ground: Some(Ground { y: bounds.min.y, material, reach: None }), ..scene }
+}
+
+/// A scene as large as the water, with nothing in it.
+fn extent(bounds: &Bounds, set: SetArg) -> Scene {
+    let longest = bounds.size().max_element().max(f32::MIN_POSITIVE);
+    let [_, material, _] = materials(set, longest);
     // A sheet just under the ground, which hides it: it tells how large the scene is.
     let y = bounds.min.y - 1.0e-3 * longest;
     let corner = |x: f32, z: f32| {
@@ -63,14 +79,10 @@ pub fn ground_under(bounds: &Bounds, set: SetArg) -> Scene {
         positions: vec![corner(-0.5, -0.5), corner(-0.5, 0.5), corner(0.5, 0.5), corner(0.5, -0.5)],
         normals: vec![[0.0, 1.0, 0.0]; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
-        material: material.clone(),
+        material,
         ..Mesh::default()
     };
-    Scene {
-        meshes: vec![sheet],
-        ground: Some(Ground { y: bounds.min.y, material }),
-        ..Scene::default()
-    }
+    Scene { meshes: vec![sheet], ..Scene::default() }
 }
 
 /// One side of a box of water.
@@ -123,22 +135,24 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
     Some([side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?])
 }
 
-/// A basin round water that fills a box: low walls towards the eye, high ones behind; all low where it goes round. `None`
+/// A basin round water that fills a box: low walls towards the eye, high ones behind; all low where it is seen from all sides. `None`
 /// where the particles fill no box.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
     bounds: &Bounds,
     spacing: f32,
-    eye: Option<glam::Vec3>,
+    (eye, from_all_sides): (Vec3, bool),
     set: SetArg,
 ) -> Option<Scene> {
     let sides = sides(frames, bounds, spacing)?;
-    let mut scene = ground_under(bounds, set);
+    let mut scene = extent(bounds, set);
     let longest = bounds.size().max_element();
     let wide = bounds.size().x.max(bounds.size().z);
-    let (thick, lining) = (0.03 * wide, 0.006 * wide);
+    let (thick, lining) = (0.035 * wide, 0.006 * wide);
+    // A slab on the wall, and how far it juts out.
+    let (slab, over) = (0.011 * wide, 0.008 * wide);
     let floor = bounds.min.y;
-    let [_, tiles, concrete] = materials(set, longest);
+    let [ground, tiles, stone] = materials(set, wide);
     // Inner faces, where the drawn spheres end.
     let reach = 0.66 * spacing;
     let face = |side: &Side| side.at + side.sign * reach;
@@ -155,15 +169,20 @@ pub fn basin_round(
         mesh.name = name.into();
         scene.meshes.push(mesh);
     };
+    // All near walls are as high as one another, and all far ones.
+    let towards_eye =
+        |side: &Side| from_all_sides || side.sign * (eye[side.axis] - face(side)) > 0.0;
+    let highest = |near: bool| {
+        let of = sides.iter().filter(|side| towards_eye(side) == near);
+        of.map(|s| if near { s.level + spacing } else { s.highest + thick }).fold(floor, f32::max)
+    };
     let sheet = 1.0e-3 * longest;
     push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles);
     for side in &sides {
-        let towards = |eye: glam::Vec3| side.sign * (eye[side.axis] - face(side)) > 0.0;
-        let towards_eye = eye.is_none_or(towards);
         // Not so high that they hide the water, or keep the sun from it.
-        let (water, most) =
-            if towards_eye { (side.level + spacing, 0.12) } else { (side.highest + thick, 0.2) };
-        let top = water.clamp(floor + thick, floor + most * wide);
+        let near = towards_eye(side);
+        let most = if near { 0.12 } else { 0.2 };
+        let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
         let across = 2 - side.axis;
         let wall = |inner: f32, outer: f32, top: f32, longer: f32| {
             let mut from = middle;
@@ -176,10 +195,20 @@ pub fn basin_round(
         let inner = face(side);
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
         push("basin lining", from, to, &tiles);
-        let (outer, cap) = (inner + side.sign * thick, top + 0.2 * lining);
-        let (from, to) = wall(inner + side.sign * lining, outer, cap, thick);
-        push("basin wall", from, to, &concrete);
+        let outer = inner + side.sign * thick;
+        // Into the slab: what is inside of a solid takes its light from what is beside it.
+        let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
+        push("basin wall", from, to, &stone);
+        let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
+        from.y = top;
+        push("basin coping", from, to, &stone);
     }
+    let place = Place {
+        middle: Vec3::new(middle.x, floor, middle.z),
+        half: 0.5 * Vec2::new(high.x - low.x, high.z - low.z) + thick + over,
+        eye,
+    };
+    sets::furnish(&mut scene, set, ground, &place);
     Some(scene)
 }
 
@@ -188,6 +217,39 @@ pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
     let turned = glam::Quat::from_rotation_y(-80.0_f32.to_radians()) * level;
     (0.6 * turned + 0.8 * glam::Vec3::Y).to_array()
+}
+
+/// The light of a set that has its own; `towards_eye`: from the water.
+pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
+    let key = side_light(towards_eye);
+    let grey = |from: f32, to: f32, d: Vec3| Vec3::splat(from + (to - from) * (0.5 + 0.5 * d.y));
+    Ok(match set {
+        // A soft box in a dark room under a grey ceiling: the floor passes into the dark, water stands bright before it.
+        SetArg::Studio => {
+            let room = |d: Vec3| {
+                let [up, over] = [d.y / 0.2, (d.y - 0.35) / 0.45].map(|t| t.clamp(0.0, 1.0));
+                Vec3::splat(0.28 - 0.19 * up * (2.0 - up) + 0.5 * over)
+            };
+            Some(Environment::lit(room, key, (Vec3::splat(7.0), 0.8))?)
+        }
+        // Rows of lamps under a ceiling.
+        SetArg::Lab => {
+            let room = |d: Vec3| {
+                let lamp = match d.y > 0.1 {
+                    true => {
+                        let (x, z) = (d.x / d.y, d.z / d.y);
+                        let on =
+                            (1.1 * x).rem_euclid(1.0) < 0.28 && (0.5 * z).rem_euclid(1.0) < 0.85;
+                        if on { 5.0 } else { 0.0 }
+                    }
+                    false => 0.0,
+                };
+                grey(0.35, 0.5, d) + lamp * Vec3::new(1.0, 0.97, 0.92)
+            };
+            Some(Environment::lit(room, key, (Vec3::new(8.0, 7.8, 7.4), 0.55))?)
+        }
+        SetArg::Pool | SetArg::Beach | SetArg::None => None,
+    })
 }
 
 /// 1, 2 or 5 by a power of ten, as people cut slabs.
@@ -212,10 +274,10 @@ mod tests {
 
     #[test]
     fn water_that_fills_a_box_gets_a_basin() {
-        let eye = glam::Vec3::new(9.0, 5.0, 9.0);
+        let eye = Vec3::new(9.0, 5.0, 9.0);
         let basin = |points: &[[f32; 3]]| {
             let bounds = Bounds::of_bulk(points).unwrap();
-            basin_round(&[points], &bounds, 0.1, Some(eye), SetArg::Pool)
+            basin_round(&[points], &bounds, 0.1, (eye, false), SetArg::Pool)
         };
         let scene = basin(&block(false)).unwrap();
         let top = |mesh: &Mesh| {
@@ -226,8 +288,8 @@ mod tests {
         let walls: Vec<f32> =
             scene.meshes.iter().filter(|m| m.name == "basin wall").map(top).collect();
         assert_eq!(walls.len(), 4);
-        // The far ones, at -x and -z, are as high as the water at least; the near ones hide little.
-        assert!(walls[0] > 0.5 && walls[2] > 0.5, "{walls:?}");
+        // The far ones, at -x and -z, are with their slabs as high as the water at least; the near ones hide little.
+        assert!(walls[0] > 0.46 && walls[2] > 0.46, "{walls:?}");
         assert!(walls[1] < 0.4 && walls[3] < 0.4, "{walls:?}");
         // Its tiles have no colour of their own: the water's is seen.
         let [r, g, b] =

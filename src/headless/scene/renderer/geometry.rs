@@ -4,7 +4,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 
 use super::super::Scene;
-use super::super::bake::{Baked, Vertex};
+use super::super::bake::{Baked, Part, Vertex};
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::gpu::access::{self, COPY_WRITE, VERTEX_INPUT};
@@ -39,7 +39,7 @@ pub struct Geometry {
     indices: Data,
     /// Indices of it all.
     pub count: u32,
-    /// Indices of what casts a shadow: all but the ground, which comes last.
+    /// Indices of what casts a shadow: the meshes, which come first.
     pub casters: u32,
 }
 
@@ -53,7 +53,10 @@ impl Geometry {
             vertices: Data::new(gpu, "scene/vertices", vertices, Usage::VERTEX_BUFFER)?,
             indices: Data::new(gpu, "scene/indices", indices, Usage::INDEX_BUFFER)?,
             count: baked.indices.len() as u32,
-            casters: baked.batches.iter().filter(|b| b.mesh.is_some()).map(|b| b.count).sum(),
+            casters: {
+                let meshes = baked.batches.iter().filter(|b| matches!(b.part, Part::Mesh(_)));
+                meshes.map(|b| b.count).sum()
+            },
         })
     }
 

@@ -10,7 +10,7 @@ use ash::vk;
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Quat, Vec3};
 
-use super::super::bake::Batch;
+use super::super::bake::{Batch, Part};
 use super::super::{Material, Pattern, Scene, Texture};
 use super::opaque::{Opaque, set_depth_test};
 use super::textures::Textures;
@@ -37,7 +37,7 @@ shader::assert_layout!(shader::HEADLESS_SCENE_FRAG, "Push", Push { turn, origin,
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Kind {
     pattern: u32,
-    ground: u32,
+    part: u32,
     textured: u32,
     sea: u32,
 }
@@ -69,11 +69,18 @@ impl Meshes {
         let mut pipelines = BTreeMap::new();
         let mut draws = Vec::new();
         for batch in batches {
-            let mesh = batch.mesh.map(|index| &scene.meshes[index]);
-            let material = match (mesh, &scene.ground) {
-                (Some(mesh), _) => &mesh.material,
-                (None, Some(ground)) => &ground.material,
-                (None, None) => continue,
+            let (material, transform) = match (batch.part, &scene.ground) {
+                (Part::Mesh(index), _) => {
+                    let mesh = &scene.meshes[index];
+                    let transform = scene.pose(index).unwrap_or_default() * mesh.transform;
+                    (&mesh.material, transform)
+                }
+                (Part::Backdrop(index), _) => {
+                    let mesh = &scene.backdrop[index];
+                    (&mesh.material, mesh.transform)
+                }
+                (Part::Ground, Some(ground)) => (&ground.material, Mat4::IDENTITY),
+                (Part::Ground, None) => continue,
             };
             let texture = match &material.texture {
                 None => Textures::WHITE,
@@ -82,10 +89,7 @@ impl Meshes {
                     Entry::Vacant(entry) => *entry.insert(textures.add(gpu, texture)?),
                 },
             };
-            let transform = batch
-                .mesh
-                .map(|index| scene.pose(index).unwrap_or_default() * scene.meshes[index].transform);
-            let draw = Draw::new(batch, texture, transform, material, sea::kind(scene));
+            let draw = Draw::new(batch, texture, transform, material, scene);
             if let Entry::Vacant(entry) = pipelines.entry(draw.kind) {
                 entry.insert(pipeline(gpu, draw.kind, pass, samples)?);
             }
@@ -141,7 +145,7 @@ fn pipeline(
         bias: 0.0,
         constants: &[
             (0, kind.pattern),
-            (1, kind.ground),
+            (1, kind.part),
             (2, kind.textured),
             (sea::CONSTANT, kind.sea),
         ],
@@ -153,17 +157,15 @@ impl Draw {
     fn new(
         batch: &Batch,
         texture: usize,
-        transform: Option<Mat4>,
+        transform: Mat4,
         material: &Material,
-        sea: u32,
+        scene: &Scene,
     ) -> Self {
         let (mut turn, mut origin) = (Quat::IDENTITY, Vec3::ZERO);
-        if let Some(transform) = transform {
-            let (_, rotation, translation) = transform.to_scale_rotation_translation();
-            // A mesh that is not turned takes the world's frame: tiles go on round corners.
-            if rotation.is_finite() && !rotation.is_near_identity() {
-                (turn, origin) = (rotation.normalize(), translation);
-            }
+        let (_, rotation, translation) = transform.to_scale_rotation_translation();
+        // A mesh that is not turned takes the world's frame: tiles go on round corners.
+        if rotation.is_finite() && !rotation.is_near_identity() {
+            (turn, origin) = (rotation.normalize(), translation);
         }
         // The numbers of `scene.frag`.
         let (pattern, size, band) = match material.pattern {
@@ -177,14 +179,23 @@ impl Draw {
             Pattern::Island { beach } => (7, beach, None),
             Pattern::Rock => (8, 1.0, None),
             Pattern::Leaves => (9, 1.0, None),
+            Pattern::Foliage => (10, 1.0, None),
+            Pattern::Lawn { stripe } => (11, stripe, None),
+            Pattern::Ripples { length } => (12, length, None),
         };
+        let metres = scene.metres_per_unit();
+        // No pipeline of its own: they are dear to make.
+        let backdrop = if matches!(batch.part, Part::Backdrop(_)) { 1.0 } else { 0.0 };
         let [r, g, b] = material.base_color;
         Self {
             kind: Kind {
                 pattern,
-                ground: transform.is_none().into(),
+                part: match batch.part {
+                    Part::Mesh(_) | Part::Backdrop(_) => 0,
+                    Part::Ground => 1,
+                },
                 textured: material.texture.is_some().into(),
-                sea,
+                sea: sea::kind(scene),
             },
             texture,
             first: batch.first,
@@ -193,7 +204,12 @@ impl Draw {
                 turn: turn.to_array(),
                 origin: origin.extend(0.0).to_array(),
                 color: [r, g, b, material.roughness.clamp(0.05, 1.0)],
-                pattern: [size.max(1e-4), band.unwrap_or(-1e6), 0.0, 0.0],
+                pattern: [
+                    (size * metres).max(1e-4),
+                    band.map_or(-1e6, |y| y * metres),
+                    backdrop,
+                    0.0,
+                ],
             },
         }
     }

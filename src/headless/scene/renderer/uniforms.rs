@@ -34,6 +34,7 @@ pub struct Uniforms {
     sun_color: [f32; 4],
     shadow_texel: [f32; 4],
     ground: [f32; 4],
+    air: [f32; 4],
     sea: Sea,
 }
 
@@ -51,6 +52,7 @@ shader::assert_layout!(
         sun_color,
         shadow_texel,
         ground,
+        air,
         sea
     }
 );
@@ -61,6 +63,9 @@ pub struct Surroundings {
     pub to_sun: Vec3,
     sun_color: Vec3,
     ground: Option<f32>,
+    /// There is a backdrop: no sky below the horizon.
+    backdrop: bool,
+    air: [f32; 4],
     /// Centre x and z; where the ground begins and ends to fade.
     fade: [f32; 4],
     sea: Sea,
@@ -68,7 +73,7 @@ pub struct Surroundings {
 
 impl Surroundings {
     /// # Errors
-    /// A sun without direction, or of no colour; a sea that is none.
+    /// A sun without direction, or of no colour; haze or a metre of no length; a sea that is none.
     pub fn new(scene: &Scene) -> Result<Self, Error> {
         let SunLight { direction, color } = scene.sun;
         let Some(to_sun) = Vec3::from(direction).try_normalize() else {
@@ -77,6 +82,11 @@ impl Surroundings {
         if !color.iter().all(|c| c.is_finite() && *c >= 0.0) {
             return Err(Error::bad("Scene.sun.color", "expected finite values of at least 0"));
         }
+        for (field, length) in [("Scene.haze", scene.haze), ("Scene.metre", scene.metre)] {
+            if let Some(length) = length.filter(|l| !(l.is_finite() && *l > 0.0)) {
+                return Err(Error::bad(field, format!("expected above 0, found {length}")));
+            }
+        }
         let (low, high) = scene.bounds();
         let (centre, size) = (0.5 * (low + high), (high - low).length());
         let [begin, end] = GROUND_FADE;
@@ -84,6 +94,8 @@ impl Surroundings {
             to_sun,
             sun_color: color.into(),
             ground: scene.ground.as_ref().map(|g| g.y),
+            backdrop: !scene.backdrop.is_empty(),
+            air: [scene.haze.map_or(0.0, f32::recip), scene.metres_per_unit(), 0.0, 0.0],
             fade: [centre.x, centre.z, begin * size, end * size],
             sea: Sea::new(scene, to_sun)?,
         })
@@ -109,7 +121,7 @@ impl Uniforms {
         far: f32,
         extent: vk::Extent2D,
     ) -> Self {
-        let Surroundings { to_sun, sun_color, ground, fade, sea } = *surroundings;
+        let Surroundings { to_sun, sun_color, ground, backdrop, air, fade, sea } = *surroundings;
         let world = lens.view.inverse();
         let turn = |v: Vec3, w: f32| world.transform_vector3(v).extend(w).to_array();
         let p = lens.p;
@@ -118,7 +130,7 @@ impl Uniforms {
             * Mat4::from_scale(Vec3::new(0.5, 0.5, 1.0));
         let disc = DISC.min(DISC_MOST / sun_color.max_element().max(1e-6));
         let texel = 1.0 / shadow::SIZE as f32;
-        let shows = if ground.is_some() { 1.0 } else { 0.0 };
+        let shows = if ground.is_some() || backdrop { 1.0 } else { 0.0 };
         Self {
             clip: (camera.projection * camera.view).to_cols_array_2d(),
             shadow: (to_uv * sun.clip).to_cols_array_2d(),
@@ -130,6 +142,7 @@ impl Uniforms {
             sun_color: sun_color.extend(disc).to_array(),
             shadow_texel: [texel, texel, sun.texel, ground.unwrap_or(NO_GROUND)],
             ground: fade,
+            air,
             sea,
         }
     }

@@ -122,7 +122,7 @@ pub fn isles(
     let shown = ShoreScene {
         scene: Scene {
             meshes,
-            ground: Some(Ground { y: floor, material: sand }),
+            ground: Some(Ground { y: floor, material: sand, reach: None }),
             sea: Some(Sea::default()),
             ..Scene::default()
         },

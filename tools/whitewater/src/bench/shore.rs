@@ -266,7 +266,7 @@ fn splash(
         Mesh::cylinder([-0.1, 0.2, 0.75], 0.08, 0.4, stone.clone()),
         Mesh::sphere([-0.55, 0.17, -0.45], 0.2, stone.clone()),
     ];
-    let ground = Some(Ground { y: -0.01, material: stone.clone() });
+    let ground = Some(Ground { y: -0.01, material: stone.clone(), reach: None });
     let environment = Environment::sky(Some([-0.55, 0.6, 0.45]))?;
     settings.light = environment.light();
     settings.shore.contact.particle_opacity = 1.0;

@@ -185,7 +185,7 @@ pub fn archipelago() -> ShoreScene {
         level: sea.level,
         scene: Scene {
             meshes,
-            ground: Some(Ground { y: FLOOR - 0.2, material: island }),
+            ground: Some(Ground { y: FLOOR - 0.2, material: island, reach: None }),
             motions: vec![motion],
             sea: Some(sea),
             ..Scene::default()

@@ -214,7 +214,7 @@ pub fn block(low: Vec3, high: Vec3, cell: f32, material: Material) -> Mesh {
 }
 
 /// Means of the triangles' normals, weighted by area.
-fn smooth_normals(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[f32; 3]> {
+pub fn smooth_normals(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[f32; 3]> {
     let mut sums = vec![Vec3::ZERO; positions.len()];
     for t in indices.chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|k| Vec3::from(positions[t[k] as usize]));

@@ -1,0 +1,190 @@
+//! The stand-in scene's backdrop: seen, lit and hazed, and no part of what shadows, ground and bake are laid round.
+
+use ash::vk;
+use glam::{Mat4, Vec3};
+use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene, SunLight};
+use whitewater::headless::{Background, Headless};
+use whitewater::{Camera, Error, Settings};
+
+use crate::support::device::Gpu;
+use crate::support::rig::{config, extent};
+use crate::support::scenes::{Lens, projection};
+
+const SIZE: vk::Extent2D = vk::Extent2D { width: 48, height: 32 };
+
+/// Colour and depth of a picture.
+type Shot = (Vec<[f32; 4]>, Vec<f32>);
+
+fn headless() -> Headless {
+    Headless::new(Gpu::own().take_device(), &config(SIZE)).expect("headless")
+}
+
+fn finish(headless: Headless) {
+    let device = headless.finish().expect("finish");
+    assert_eq!(device.take_messages(), Vec::<String>::new());
+}
+
+fn camera(eye: Vec3, target: Vec3) -> Camera {
+    Camera {
+        view: Mat4::look_at_rh(eye, target, Vec3::Y),
+        projection: projection(Lens::ReversedInfinite, SIZE),
+    }
+}
+
+fn shot(headless: &mut Headless, scene: &Scene, camera: &Camera) -> Shot {
+    headless.scene(scene, false).expect("scene");
+    headless.particles(&[], None).expect("no particles");
+    headless.render(camera, &Settings::default(), &Background::Scene).expect("a frame");
+    let color = headless.color().expect("read back").data;
+    (color, headless.scene_depth().expect("read back").data)
+}
+
+fn matt() -> Material {
+    Material { base_color: [0.5; 3], roughness: 1.0, ..Material::default() }
+}
+
+/// The same radiance from everywhere.
+const AROUND: f32 = 0.5;
+
+fn under_a_grey_sky(headless: &mut Headless) {
+    let grey = [AROUND, AROUND, AROUND, 1.0];
+    headless.equirectangular(extent(8, 4), &[grey; 32], 1.0, 0.0).expect("environment");
+}
+
+/// A box on the ground, with a wall far behind it.
+fn stage(backdrop: bool) -> Scene {
+    let turn = [0.0, 0.0, 0.0, 1.0];
+    let stone = Mesh::cuboid([0.0, 0.5, 0.0], [0.5; 3], turn, matt());
+    let wall = Mesh::cuboid([0.0, 2.0, -12.0], [30.0, 2.0, 0.5], turn, matt());
+    Scene {
+        meshes: vec![stone],
+        ground: Some(Ground { y: 0.0, material: matt(), reach: None }),
+        sun: SunLight { direction: [0.3, 0.8, 0.5], color: [2.0, 1.8, 1.5] },
+        backdrop: if backdrop { vec![wall] } else { Vec::new() },
+        ..Scene::default()
+    }
+}
+
+/// What the backdrop does not cover is the same to the bit.
+#[test]
+fn a_backdrop_is_seen_and_changes_nothing_else() {
+    let mut headless = headless();
+    under_a_grey_sky(&mut headless);
+    let camera = camera(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 0.8, 0.0));
+    let (alone, depths) = shot(&mut headless, &stage(false), &camera);
+    let (with, nearer) = shot(&mut headless, &stage(true), &camera);
+    assert_eq!(stage(false).bounds(), stage(true).bounds());
+    let mut covered = 0;
+    for ((a, b), (far, near)) in alone.iter().zip(&with).zip(depths.iter().zip(&nearer)) {
+        // Reversed: what is nearer is larger.
+        assert!(near >= far);
+        if near == far {
+            assert_eq!(a, b);
+        } else {
+            covered += 1;
+        }
+    }
+    let all = alone.len();
+    assert!((all / 12..all / 2).contains(&covered), "{covered} of {all}");
+    finish(headless);
+}
+
+/// Beer's law: over a length of haze 1/e of the contrast to the horizon is left.
+#[test]
+fn haze_takes_the_contrast_of_the_backdrop() {
+    let mut headless = headless();
+    under_a_grey_sky(&mut headless);
+    let eye = Vec3::new(0.0, 2.0, 5.0);
+    let camera = camera(eye, Vec3::new(0.0, 2.0, 0.0));
+    let (clear, _) = shot(&mut headless, &stage(true), &camera);
+    let length = 9.0;
+    let (hazy, _) = shot(&mut headless, &Scene { haze: Some(length), ..stage(true) }, &camera);
+    let middle = (SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize;
+    // To the wall's face; a pixel's centre is half a pixel off the axis.
+    let kept = (-(16.5_f32) / length).exp();
+    for c in 0..3 {
+        let (clear, hazy) = (clear[middle][c] - AROUND, hazy[middle][c] - AROUND);
+        assert!(clear.abs() > 0.05, "no contrast to lose: {clear}");
+        // Half floats of about 1 are stored.
+        assert!((hazy - kept * clear).abs() < 2.0_f32.powi(-10), "{hazy}, not {kept} of {clear}");
+    }
+    // Meshes stand in clear air.
+    let clip = camera.projection * camera.view * Vec3::new(0.1, 0.6, 0.5).extend(1.0);
+    let [x, y] = [(clip.x, SIZE.width), (clip.y, SIZE.height)]
+        .map(|(at, size)| ((0.5 * at / clip.w + 0.5) * size as f32) as usize);
+    let stone = y * SIZE.width as usize + x;
+    assert_eq!(clear[stone], hazy[stone]);
+    for haze in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        let scene = Scene { haze: Some(haze), ..stage(true) };
+        assert!(matches!(headless.scene(&scene, false), Err(Error::BadInput { .. })), "{haze}");
+    }
+    finish(headless);
+}
+
+/// A roof of the backdrop keeps the sun from the backdrop, and from nothing else.
+#[test]
+fn a_backdrop_shades_itself_alone() {
+    let mut headless = headless();
+    under_a_grey_sky(&mut headless);
+    let down = camera(Vec3::new(0.0, 3.0, 0.01), Vec3::ZERO);
+    let sheet = |y: f32, half: f32| Mesh::plane([0.0, y, 0.0], [half, half], matt());
+    let sun = SunLight { direction: [0.0, 1.0, 0.0], color: [3.0; 3] };
+    let roof = sheet(5.0, 40.0);
+    let middle = (SIZE.height / 2 * SIZE.width + SIZE.width / 2) as usize;
+    let mut light = |meshes: &[Mesh], backdrop: &[Mesh]| {
+        let (meshes, backdrop) = (meshes.to_vec(), backdrop.to_vec());
+        let scene = Scene { meshes, backdrop, sun, ..Scene::default() };
+        shot(&mut headless, &scene, &down).0[middle][0]
+    };
+    let lit = light(&[sheet(0.0, 4.0)], &[]);
+    let below = light(&[sheet(0.0, 4.0)], std::slice::from_ref(&roof));
+    // (Of a backdrop there is no sky below the horizon, of which a level sheet sees nothing.)
+    assert!((below - lit).abs() < 0.02 * lit, "a mesh: {below}, {lit}");
+    let lit = light(&[], &[sheet(0.0, 4.0)]);
+    let below = light(&[], &[sheet(0.0, 4.0), roof]);
+    // Lambert without sun and sky: what the roof throws back of the light that it does not have.
+    let sun = 0.5 * 3.0 / std::f32::consts::PI;
+    assert!(lit > sun && below < 0.4 * lit, "a backdrop: {below}, {lit}");
+    finish(headless);
+}
+
+/// Procedural surfaces go by the metre that is said: all of it four times as large looks the same.
+#[test]
+fn surfaces_go_by_the_metre() {
+    let mut headless = headless();
+    under_a_grey_sky(&mut headless);
+    let scene = |size: f32, metre: Option<f32>, pattern: Pattern| {
+        let material = Material { pattern, ..matt() };
+        let mesh = Mesh::plane([0.0; 3], [3.0 * size, 3.0 * size], material);
+        Scene { meshes: vec![mesh], metre, ..Scene::default() }
+    };
+    let eye = Vec3::new(0.3, 2.0, 1.5);
+    let patterns = |size: f32| {
+        [
+            Pattern::Concrete,
+            Pattern::Lawn { stripe: 0.5 * size },
+            Pattern::Ripples { length: 0.2 * size },
+            Pattern::Foliage,
+        ]
+    };
+    for (small, large) in patterns(1.0).into_iter().zip(patterns(4.0)) {
+        let mut draw = |size: f32, metre, pattern| {
+            let camera = camera(size * eye, Vec3::ZERO);
+            shot(&mut headless, &scene(size, metre, pattern), &camera).0
+        };
+        let expected = draw(1.0, None, small);
+        let (same, other) = (draw(4.0, Some(4.0), large), draw(4.0, None, large));
+        let apart = |a: &[[f32; 4]], b: &[[f32; 4]]| {
+            let differences = a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).abs());
+            differences.sum::<f32>() / a.len() as f32
+        };
+        // Four is a power of two: all but the sky's constants scales exactly.
+        let [same, other] = [same, other].map(|shot| apart(&shot, &expected));
+        assert!(same < 1.0e-3 && other > 5.0e-3, "{small:?}: {same}, {other}");
+    }
+    for metre in [0.0, f32::NAN] {
+        let bad = headless.scene(&scene(1.0, Some(metre), Pattern::Plain), false);
+        assert!(matches!(bad, Err(Error::BadInput { .. })), "{metre}");
+    }
+    finish(headless);
+}
