@@ -13,6 +13,7 @@ use super::{Mesh, Scene};
 const RAYS: usize = 64;
 /// Rays a vertex of the backdrop, and those of them to the sun, which is so wide there (tangent): leaves blur its shadows.
 const FEW: usize = 6;
+const FEWEST: usize = 4;
 const SUNS: usize = 2;
 const PENUMBRA: f32 = 0.06;
 /// How far rays are cast for it, in reaches of what is near.
@@ -291,6 +292,7 @@ pub struct Around {
     /// Keeps the sun off the backdrop; the meshes do it by their shadow map.
     backdrop: Tracer,
     few: Vec<Vec3>,
+    fewest: Vec<Vec3>,
     to_sun: [Vec3; SUNS],
     middle: Vec3,
     near: f32,
@@ -310,7 +312,15 @@ impl Around {
             let away = PENUMBRA * ((i as f32 + 0.5) / SUNS as f32).sqrt();
             (turn * Vec3::new(away * cos, away * sin, 1.0)).normalize()
         });
-        Self { all, backdrop, few: directions(FEW), to_sun, middle, near }
+        Self {
+            all,
+            backdrop,
+            few: directions(FEW),
+            fewest: directions(FEWEST),
+            to_sun,
+            middle,
+            near,
+        }
     }
 
     /// Lights vertices; what lies in a solid is dark, as leaves are between two bushes.
@@ -353,6 +363,9 @@ impl Around {
             true => (&self.all.directions, f32::INFINITY),
             false => (&self.few, self.near),
         };
+        let farther = !near && away > 3.0 * self.near;
+        let directions = if farther { &self.fewest } else { directions };
+        let to_sun = if farther { &self.to_sun[..1] } else { &self.to_sun };
         let normal = Vec3::from(vertex.normal);
         let from = vertex.at() + normal * 4.0 * self.all.lift;
         let frame = Quat::from_rotation_arc(Vec3::Z, normal);
@@ -370,8 +383,8 @@ impl Around {
                 }
             }
         }
-        let sunny = self.to_sun.iter().filter(|to| self.backdrop.trace(from, **to, true).is_none());
-        vertex.bulge = sunny.count() as f32 / SUNS as f32;
+        let sunny = to_sun.iter().filter(|to| self.backdrop.trace(from, **to, true).is_none());
+        vertex.bulge = sunny.count() as f32 / to_sun.len() as f32;
         let share = (directions.len() as f32).recip();
         let [r, g, b] = (bounced * share * (0.3 + 0.7 * vertex.bulge)).to_array();
         vertex.light = [if sky > 0.0 { seen / sky } else { 0.0 }, r, g, b];

@@ -134,8 +134,9 @@ pub struct RenderArgs {
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
     #[arg(long, value_name = "FILE|ground")]
     pub scene: Option<PathBuf>,
-    /// Of what the basin and the ground are that are found: pool (tiles, paving), studio (plain grey), beach (sand and
-    /// stone) or lab (small white tiles, concrete, a grey floor); or none: nothing but the water, its foam and spray, premultiplied, with
+    /// Where the water is, if it is in no scene of a file: pool (a terrace in a garden), studio (a plain floor under a soft
+    /// box), beach (sand before a sea) or lab (a tiled hall with lamps); studio and lab have light of their own where none is
+    /// said. Or none: nothing but the water, its foam and spray, premultiplied, with
     /// the share in A that they hide of what is behind them (the mean of three channels), in EXR and PNG [default: pool]
     #[arg(long, value_enum, conflicts_with = "scene")]
     pub set: Option<SetArg>,
@@ -400,14 +401,14 @@ impl From<SplatArg> for Splat {
 /// What stands round the water.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum SetArg {
-    /// Tiles, concrete and paving.
+    /// A terrace in a garden.
     #[default]
     Pool,
-    /// Plain grey.
+    /// A plain floor that passes into the dark.
     Studio,
-    /// Sand and stone.
+    /// Sand before a sea.
     Beach,
-    /// Small white tiles and concrete.
+    /// A tiled hall.
     Lab,
     /// Nothing.
     None,

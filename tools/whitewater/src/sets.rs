@@ -388,7 +388,7 @@ fn tree(at: Vec2, height: f32, seed: usize, crown: &mut Vec<Lump>, wood: &mut Me
         let out = vec3(level * around.cos(), up, level * around.sin());
         let size = height * (0.055 + 0.065 * n(i, 3));
         crown.push(Lump {
-            middle: middle + reach * out * (0.62 + 0.42 * n(i, 4)),
+            middle: middle + reach * out * (0.60 + 0.36 * n(i, 4)),
             half: size * vec3(1.0, 0.72, 1.0),
             rough: 0.35,
             seed: 31 * (seed * LUMPS + i) as u32,

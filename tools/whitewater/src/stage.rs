@@ -162,10 +162,13 @@ pub fn basin_round(
         glam::Vec3::new(face(right), floor, face(front)),
     );
     let middle = 0.5 * (low + high);
-    let mut push = |name: &str, from: glam::Vec3, to: glam::Vec3, material: &Material| {
+    // Without the faces that others hide: each vertex that is lit takes rays.
+    let mut push = |name: &str, from: Vec3, to: Vec3, material: &Material, hidden: &[usize]| {
         let (centre, half) = (0.5 * (from + to), 0.5 * (to - from));
         let turn = [0.0, 0.0, 0.0, 1.0];
         let mut mesh = Mesh::cuboid(centre.into(), half.into(), turn, material.clone());
+        let faces = mesh.indices.chunks(6).enumerate().filter(|(face, _)| !hidden.contains(face));
+        mesh.indices = faces.flat_map(|(_, indices)| indices).copied().collect();
         mesh.name = name.into();
         scene.meshes.push(mesh);
     };
@@ -177,7 +180,7 @@ pub fn basin_round(
         of.map(|s| if near { s.level + spacing } else { s.highest + thick }).fold(floor, f32::max)
     };
     let sheet = 1.0e-3 * longest;
-    push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles);
+    push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles, &[3]);
     for side in &sides {
         // Not so high that they hide the water, or keep the sun from it.
         let near = towards_eye(side);
@@ -193,15 +196,17 @@ pub fn basin_round(
             (from, to)
         };
         let inner = face(side);
+        // Faces of a box: +x -x +y -y +z -z.
+        let outside = 2 * side.axis + usize::from(side.sign < 0.0);
         let (from, to) = wall(inner, inner + side.sign * lining, top, lining);
-        push("basin lining", from, to, &tiles);
+        push("basin lining", from, to, &tiles, &[2, 3, outside]);
         let outer = inner + side.sign * thick;
         // Into the slab: what is inside of a solid takes its light from what is beside it.
         let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
-        push("basin wall", from, to, &stone);
+        push("basin wall", from, to, &stone, &[2, 3, outside ^ 1]);
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
-        push("basin coping", from, to, &stone);
+        push("basin coping", from, to, &stone, &[]);
     }
     let place = Place {
         middle: Vec3::new(middle.x, floor, middle.z),
@@ -228,7 +233,7 @@ pub fn light(set: SetArg, towards_eye: Vec3) -> Outcome<Option<Environment>> {
         SetArg::Studio => {
             let room = |d: Vec3| {
                 let [up, over] = [d.y / 0.2, (d.y - 0.35) / 0.45].map(|t| t.clamp(0.0, 1.0));
-                Vec3::splat(0.28 - 0.19 * up * (2.0 - up) + 0.5 * over)
+                Vec3::splat(0.28 - 0.19 * up * up * (3.0 - 2.0 * up) + 0.5 * over)
             };
             Some(Environment::lit(room, key, (Vec3::splat(7.0), 0.8))?)
         }
