@@ -203,7 +203,7 @@ pub fn basin_round(
         let outer = inner + side.sign * thick;
         // Into the slab: what is inside of a solid takes its light from what is beside it.
         let (from, to) = wall(inner + side.sign * lining, outer, top + 0.5 * slab, thick);
-        push("basin wall", from, to, &stone, &[2, 3, outside ^ 1]);
+        push("basin wall", from, to, &stone, &[2, 3]);
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
         push("basin coping", from, to, &stone, &[]);
