@@ -241,7 +241,7 @@ Surface foliage(vec3 p, vec3 n, float width) {
     float mass = octaves(p + 3.0, 0.35, 2, width);
     float twig = octaves(p + 61.0, 2.6, 3, width);
     vec3 leaf = vec3(octaves(p, 11.0, 2, width), octaves(p + 41.0, 11.0, 2, width), octaves(p + 83.0, 11.0, 2, width));
-    // What is too fine to be seen is darker in the mean, and of one brightness.
+    // Gaps finer than a pixel average out to a darker, even green.
     float deep = smoothstep(0.0, 0.5, -1.1 * leaf.x - 0.8 * twig + 0.12 * (1.0 - kept(width, 11.0)));
     Surface s;
     s.albedo = push.color.rgb * (1.0 + 0.35 * mass + 0.6 * twig + 1.3 * leaf.y);

@@ -4,7 +4,7 @@
 // is within 6 % of it for suns above 30 degrees, 18 % in blue at 10 degrees.
 // The three wavelengths are 645, 553 and 443 nm: with those the spectral sky's colour in Rec. 709 is met within 4 %.
 // The coefficients at 550 nm go with the wavelength to the power -4 (Rayleigh) and -1.3 (aerosol, Angstrom's exponent). The
-// aerosol's optical depth to the zenith is 0.1, that of a clear day; a tenth of what it takes it absorbs.
+// aerosol's optical depth to the zenith is 0.1, that of a clear day; its single-scattering albedo is 0.9.
 // Lengths in kilometres.
 
 const float EARTH = 6360.0;
@@ -27,7 +27,7 @@ vec2 optical_depth(float height, float cosine) {
     float span = leave_sphere(height, cosine, TOP) / float(steps * steps);
     vec2 sum = vec2(0.0);
     for (int i = 0; i < steps; ++i) {
-        // Steps grow with distance: most of the air is near.
+        // Quadratic steps: the air is densest near the ground.
         float t = (float(i * i + i) + 0.5) * span;
         float h = sqrt(height * height + t * t + 2.0 * height * t * cosine) - EARTH;
         sum += exp(-max(h, 0.0) / vec2(RAYLEIGH_HEIGHT, MIE_HEIGHT)) * float(2 * i + 1) * span;

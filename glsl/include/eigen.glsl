@@ -19,8 +19,8 @@ void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout 
     p = turned;
 }
 
-// Of (xx, yy, zz) and (yz, xz, xy): the values, the vectors as columns. What is left beside the diagonal after three sweeps is
-// less than single precision tells.
+// Of (xx, yy, zz) and (yz, xz, xy): the values, the vectors as columns. Three sweeps bring the
+// off-diagonal elements below single precision; one more is to spare.
 vec3 eigen(vec3 diagonal, vec3 off, out mat3 vectors) {
     vec3 x = vec3(1.0, 0.0, 0.0);
     vec3 y = vec3(0.0, 1.0, 0.0);

@@ -29,21 +29,16 @@ vec2 thickness_slope(vec2 pixel) {
 vec2 sheet_slope(vec2 pixel, float front) {
     vec2 h = pixel / frame.thick_extent.z - 0.5;
     ivec2 middle = ivec2(floor(h + 0.5));
-    vec2 f = h - vec2(middle);
-    vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
-    vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
-    vec3 down = vec3(0.5 * (0.5 - f.y) * (0.5 - f.y), 0.75 - f.y * f.y, 0.5 * (0.5 + f.y) * (0.5 + f.y));
-    vec3 falls = vec3(f.y - 0.5, -2.0 * f.y, f.y + 0.5);
-    vec2 rise = vec2(0.0);
+    mat3 own; // a column a row of texels
     for (int y = 0; y < 3; ++y) {
         for (int x = 0; x < 3; ++x) {
             ivec2 texel = clamp(middle + ivec2(x, y) - 1, ivec2(0), ivec2(frame.thick_extent.xy) - 1);
             vec3 t = texelFetch(sheets, texel, 0).xyz;
-            vec2 own = front < boundary_of(texel) ? t.xy : t.yx;
-            rise += (own.x + (1.0 - air(t.z)) * own.y) * vec2(slopes[x] * down[y], weights[x] * falls[y]);
+            vec2 parts = front < boundary_of(texel) ? t.xy : t.yx;
+            own[y][x] = parts.x + (1.0 - air(t.z)) * parts.y;
         }
     }
-    return rise / frame.thick_extent.z;
+    return spline_slope(h - vec2(middle), own[0], own[1], own[2]) / frame.thick_extent.z;
 }
 
 // The ray from the eye as it goes on in the water, a unit vector.

@@ -355,20 +355,25 @@ struct Foam {
 
 // Rise a texel, right and down, of the quadratic B-splines through the nine texels about a place h of an image of the
 // thickness' size, f from their middle: differences of neighbours alone change from texel to texel, which stays where it is
-// on the screen while the water moves. From gathers before the middle, right of it, below, and after; texels beyond the
-// frame repeat its edge, the image may be larger.
-vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 after) {
+// on the screen while the water moves. From three rows of texels, top to bottom.
+vec2 spline_slope(vec2 f, vec3 low, vec3 mid, vec3 high) {
     vec3 weights = vec3(0.5 * (0.5 - f.x) * (0.5 - f.x), 0.75 - f.x * f.x, 0.5 * (0.5 + f.x) * (0.5 + f.x));
     vec3 slopes = vec3(f.x - 0.5, -2.0 * f.x, f.x + 0.5);
     vec3 down = vec3(0.5 * (0.5 - f.y) * (0.5 - f.y), 0.75 - f.y * f.y, 0.5 * (0.5 + f.y) * (0.5 + f.y));
     vec3 falls = vec3(f.y - 0.5, -2.0 * f.y, f.y + 0.5);
+    return vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
+         + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
+         + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
+}
+
+// The same from gathers before the middle, right of it, below, and after; texels beyond the frame repeat its edge, the image may
+// be larger.
+vec2 spline_rise(vec2 middle, vec2 f, vec4 before, vec4 right, vec4 below, vec4 after) {
     bvec2 ends = greaterThanEqual(middle, frame.thick_extent.xy - 1.0);
     vec3 low = vec3(before.wz, ends.x ? before.z : right.z);
     vec3 mid = vec3(before.xy, ends.x ? before.y : right.y);
     vec3 high = ends.y ? mid : vec3(below.xy, ends.x ? below.y : after.y);
-    return vec2(dot(low, slopes), dot(low, weights)) * vec2(down.x, falls.x)
-         + vec2(dot(mid, slopes), dot(mid, weights)) * vec2(down.y, falls.y)
-         + vec2(dot(high, slopes), dot(high, weights)) * vec2(down.z, falls.z);
+    return spline_slope(f, low, mid, high);
 }
 
 // Light on foam whose front layer is as high as it is thick: over 1 where it is turned to the sun, under

@@ -6,23 +6,13 @@ use whitewater::headless::scene::{Ground, Material, Mesh, Pattern, Scene, SunLig
 use whitewater::headless::{Background, Headless};
 use whitewater::{Camera, Error, Settings};
 
-use crate::support::device::Gpu;
-use crate::support::rig::{config, extent};
+use crate::support::rig::{extent, finish, headless};
 use crate::support::scenes::{Lens, projection};
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 48, height: 32 };
 
 /// Colour and depth of a picture.
 type Shot = (Vec<[f32; 4]>, Vec<f32>);
-
-fn headless() -> Headless {
-    Headless::new(Gpu::own().take_device(), &config(SIZE)).expect("headless")
-}
-
-fn finish(headless: Headless) {
-    let device = headless.finish().expect("finish");
-    assert_eq!(device.take_messages(), Vec::<String>::new());
-}
 
 fn camera(eye: Vec3, target: Vec3) -> Camera {
     Camera {
@@ -68,7 +58,7 @@ fn stage(backdrop: bool) -> Scene {
 /// What the backdrop does not cover is the same to the bit.
 #[test]
 fn a_backdrop_is_seen_and_changes_nothing_else() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let camera = camera(Vec3::new(0.0, 1.5, 5.0), Vec3::new(0.0, 0.8, 0.0));
     let (alone, depths) = shot(&mut headless, &stage(false), &camera);
@@ -92,7 +82,7 @@ fn a_backdrop_is_seen_and_changes_nothing_else() {
 /// Beer's law: over a length of haze 1/e of the contrast to the horizon is left.
 #[test]
 fn haze_takes_the_contrast_of_the_backdrop() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let eye = Vec3::new(0.0, 2.0, 5.0);
     let camera = camera(eye, Vec3::new(0.0, 2.0, 0.0));
@@ -124,7 +114,7 @@ fn haze_takes_the_contrast_of_the_backdrop() {
 /// A roof of the backdrop keeps the sun from the backdrop, and from nothing else.
 #[test]
 fn a_backdrop_shades_itself_alone() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let down = camera(Vec3::new(0.0, 3.0, 0.01), Vec3::ZERO);
     let sheet = |y: f32, half: f32| Mesh::plane([0.0, y, 0.0], [half, half], matt());
@@ -154,7 +144,7 @@ fn a_backdrop_shades_itself_alone() {
 /// Procedural surfaces go by the metre that is said: all of it four times as large looks the same.
 #[test]
 fn surfaces_go_by_the_metre() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let scene = |size: f32, metre: Option<f32>, pattern: Pattern| {
         let material = Material { pattern, ..matt() };

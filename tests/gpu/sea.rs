@@ -8,23 +8,13 @@ use whitewater::headless::scene::{Liquid, Material, Mesh, Scene, Sea, SunLight};
 use whitewater::headless::{Background, Headless};
 use whitewater::{Camera, Error, Settings};
 
-use crate::support::device::Gpu;
-use crate::support::rig::{config, extent};
+use crate::support::rig::{extent, finish, headless};
 use crate::support::scenes::{Lens, projection};
 
 const SIZE: vk::Extent2D = vk::Extent2D { width: 32, height: 24 };
 
 /// Colour and depth of a picture.
 type Shot = (Vec<[f32; 4]>, Vec<f32>);
-
-fn headless() -> Headless {
-    Headless::new(Gpu::own().take_device(), &config(SIZE)).expect("headless")
-}
-
-fn finish(headless: Headless) {
-    let device = headless.finish().expect("finish");
-    assert_eq!(device.take_messages(), Vec::<String>::new());
-}
 
 fn camera(eye: [f32; 3], target: [f32; 3], up: [f32; 3], lens: Lens) -> Camera {
     Camera {
@@ -82,7 +72,7 @@ fn fresnel(cosine: f32) -> f32 {
 
 #[test]
 fn a_sea_is_seen_and_not_there() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     for camera in [from_above(), level()] {
         for antialias in [false, true] {
             let (dry, depth) = shot(&mut headless, &stage(None), &camera, antialias);
@@ -99,7 +89,7 @@ fn a_sea_is_seen_and_not_there() {
 /// Straight down through a mirror of a sea on a floor, or on none: what Beer, Fresnel and Lambert leave of the light.
 #[test]
 fn water_absorbs_and_scatters_as_a_closed_form_says() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     under_a_grey_sky(&mut headless);
     let (albedo, sun, height) = (0.5, [2.0, 1.6, 1.0], 0.8_f32);
     let sea = Sea { waves: 0.0, ..Sea::default() };
@@ -146,7 +136,7 @@ fn water_absorbs_and_scatters_as_a_closed_form_says() {
 /// A wall that stands over the sea and fills the picture, and an eye under water: as without a sea.
 #[test]
 fn what_is_not_seen_through_a_sea_is_as_it_was() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     let plain = Material::default();
     let wall =
         Mesh::cuboid([0.0, 30.0, -2.0], [60.0, 29.0, 1.0], [0.0, 0.0, 0.0, 1.0], plain.clone());
@@ -170,7 +160,7 @@ fn what_is_not_seen_through_a_sea_is_as_it_was() {
 
 #[test]
 fn time_moves_it_and_equal_times_give_equal_pictures() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     for sea in [Sea::default(), lava()] {
         let scene = |time| Scene { time, ..stage(Some(sea.clone())) };
         let at = |headless: &mut Headless, time: f64, frame: u64| {
@@ -193,7 +183,7 @@ fn time_moves_it_and_equal_times_give_equal_pictures() {
 
 #[test]
 fn bad_values_are_named() {
-    let mut headless = headless();
+    let mut headless = headless(SIZE);
     let sea = Sea::default;
     let lava = |radiance, speed| Sea { liquid: Liquid::Lava { radiance, speed }, ..sea() };
     for (sea, named) in [

@@ -6,6 +6,7 @@ mod drawn;
 mod shot;
 
 use ash::vk;
+use whitewater::headless::Headless;
 use whitewater::water::{Exit, Kernels, Shading, Splat};
 use whitewater::{
     Access, Config, Count, DiffuseParticles, EnvironmentSource, Equirectangular, Error, Frame,
@@ -51,6 +52,17 @@ pub fn config(size: vk::Extent2D) -> Config {
 /// The same, smoothed at several levels where water is near.
 pub fn coarsening(config: Config) -> Config {
     Config { coarsening: Config::new(config.extent, OUTPUT, 1).coarsening, ..config }
+}
+
+/// The stand-in scene on a device of its own.
+pub fn headless(size: vk::Extent2D) -> Headless {
+    Headless::new(Gpu::own().take_device(), &config(size)).expect("headless")
+}
+
+/// Its end: no word from validation.
+pub fn finish(headless: Headless) {
+    let device = headless.finish().expect("finish");
+    assert_eq!(device.take_messages(), Vec::<String>::new());
 }
 
 /// A renderer and its host.
