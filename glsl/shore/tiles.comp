@@ -81,9 +81,13 @@ void main() {
     float off = (0.5 * length(high - low) + 2.5) / max(shore.map.z, 1.0e-9);
     float distance = texelFetch(map, ivec2(middle), 0).x;
     bool band = over && (distance - off) * shore.reach.y < 1.0 && (distance + off) * shore.reach.x > -1.0;
-    bool near_shore = shore.reach.w > 2.5 || shore.reach.w == 2.0 && (band || shore.surface_part.z > 1.5);
+    bool by_map = shore.reach.w == 2.0, by_depth = shore.reach.w > 2.5;
+    bool in_band = band || shore.surface_part.z > 1.5;
+    bool lines = by_depth || by_map && in_band;
+    bool contacts = shore.mask_part.z > 0.0;
     // The depths only where the surface is in view and they are a matter.
-    bool asked = inside && (near_shore || shore.mask_part.z > 0.0) && (most > 0.0 || GENERAL == 1u);
+    bool in_view = inside && (most > 0.0 || GENERAL == 1u);
+    bool asked = in_view && (lines || contacts);
     Range range = range_of(vec4(least), vec4(most), vec4(part));
     float side = sign(frame.depth.x);
     vec2 texel = 1.0 / vec2(textureSize(scene_depth, 0));
@@ -102,10 +106,14 @@ void main() {
         }
     }
     float found = max(max(nearest.x, nearest.y), max(nearest.z, nearest.w));
-    bool line = near_shore && found > NONE;
-    bool contact = found > (GENERAL == 1u ? 0.0 : range.contact.x);
-    uint kind = asked ? (line ? 1u : 0u) | (contact ? 2u : 0u) : 0u;
-    if (kind != 0u) {
-        adds(kind);
+    lines = asked && lines && found > NONE;
+    contacts = asked && contacts && found > (GENERAL == 1u ? 0.0 : range.contact.x);
+    // Each list by its own number: by one index for all, NVIDIA 580.159 listed no tile that has both.
+    if (lines && contacts) {
+        adds(3u);
+    } else if (lines) {
+        adds(1u);
+    } else if (contacts) {
+        adds(2u);
     }
 }

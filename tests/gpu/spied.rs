@@ -229,7 +229,9 @@ fn a_failed_construction_leaves_nothing() {
                 Err(error) if is_memory_error(&error) && !error.to_string().is_empty() => {}
                 Err(error) => wrong.push(format!("{name}: {error}")),
                 Ok(renderer) => {
-                    if !function.pending() {
+                    // An allocator may ask another kind of memory in its place.
+                    let made_up = function.name == c"vkAllocateMemory" && function.calls() > calls;
+                    if !function.pending() && !made_up {
                         wrong.push(format!("{name}: no error"));
                     }
                     // SAFETY: nothing was recorded.

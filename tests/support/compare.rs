@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use super::tolerance::Between;
+use super::tolerance::{Between, U};
 use crate::reference::{self, Census, Image};
 
 fn folder() -> PathBuf {
@@ -116,6 +116,34 @@ pub fn same_color(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[f32; 4
             actual.data[*first],
             expected.data[*first]
         );
+        let files = triple(name, actual, expected, &census);
+        panic!("{name}: {census}\nsee {files}");
+    }
+}
+
+/// Asserts that two pictures are the same but for what two pipelines round otherwise: a compiler may contract the same
+/// sums of products in each as it likes. As the twins of what shades, 400u of a channel and of 1; by what it is there, where
+/// both are one pipeline, [`same_color`] is asked.
+pub fn same_but_rounded(name: &str, actual: &Image<[f32; 4]>, expected: &Image<[f32; 4]>) {
+    assert_eq!((actual.width, actual.height), (expected.width, expected.height), "{name}");
+    let off = |i: usize| {
+        let parts = actual.data[i].iter().zip(&expected.data[i]);
+        // What is no number in both is the same.
+        parts.fold(0.0_f64, |most, (a, b)| match a.to_bits() == b.to_bits() {
+            true => most,
+            false => {
+                let [a, b] = [f64::from(*a), f64::from(*b)];
+                let part = (a - b).abs() / (400.0 * U * (1.0 + b.abs()));
+                most.max(if part.is_nan() { f64::INFINITY } else { part })
+            }
+        })
+    };
+    let worst = (0..actual.data.len()).map(|i| (i, off(i))).max_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((i, part)) = worst.filter(|(_, part)| *part > 1.0) {
+        let (x, y) = (i % actual.width, i / actual.width);
+        let (own, other) = (actual.data[i], expected.data[i]);
+        let census =
+            format!("({x}, {y}) is off by {part:.1} times the bound: {own:?}, expected {other:?}");
         let files = triple(name, actual, expected, &census);
         panic!("{name}: {census}\nsee {files}");
     }

@@ -254,6 +254,33 @@ impl Gpu {
             .optimal_tiling_features
     }
 
+    /// By how much of their bytes images of an extent, and of its halves, are larger: a device's tiles are rows and columns
+    /// that are whole (720 rows are 768 where they are 128 high).
+    pub fn padding(&self, extent: vk::Extent2D) -> f64 {
+        let usage = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::STORAGE;
+        let part = |(level, format, bytes): (u32, vk::Format, u64)| {
+            let [width, height] = [extent.width, extent.height].map(|n| n.div_ceil(1 << level));
+            let info = vk::ImageCreateInfo::default()
+                .image_type(vk::ImageType::TYPE_2D)
+                .format(format)
+                .extent(vk::Extent3D { width, height, depth: 1 })
+                .mip_levels(1)
+                .array_layers(1)
+                .samples(vk::SampleCountFlags::TYPE_1)
+                .usage(usage);
+            let asked = vk::DeviceImageMemoryRequirements::default().create_info(&info);
+            let mut needs = vk::MemoryRequirements2::default();
+            // SAFETY: valid create info, of Vulkan 1.3.
+            unsafe { self.functions.get_device_image_memory_requirements(&asked, &mut needs) };
+            let needed = bytes * u64::from(width) * u64::from(height);
+            needs.memory_requirements.size as f64 / needed as f64 - 1.0
+        };
+        let formats = [(vk::Format::R32_SFLOAT, 4), (vk::Format::R16G16B16A16_SFLOAT, 8)];
+        (0..3)
+            .flat_map(|level| formats.map(|(format, bytes)| part((level, format, bytes))))
+            .fold(0.0, f64::max)
+    }
+
     /// Limits of the device.
     pub fn limits(&self) -> vk::PhysicalDeviceLimits {
         // SAFETY: live handles.

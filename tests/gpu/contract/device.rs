@@ -211,7 +211,7 @@ fn ten_million_particles_have_room() {
 }
 
 /// The memory table of the crate's documentation: bytes a pixel and a particle. Images are padded
-/// and aligned as the driver likes; that is a hundredth, and some KiB an object.
+/// and aligned as the driver likes: by a hundredth more than a device says of images by themselves, and some KiB an object.
 #[test]
 fn memory_is_as_documented() {
     let gpu = Gpu::shared();
@@ -231,6 +231,7 @@ fn memory_is_as_documented() {
         let whole = slow() || width == 1280;
         let step = if slow() { 1 } else { 2 };
         let (pixels, n) = (f64::from(width * height), f64::from(count));
+        let spare = 0.01 + gpu.padding(extent(width, height));
         let cube = 6.0 * 8.0 * 4.0 / 3.0 * 256.0 * 256.0;
         // The light's maps, and a lit scene in place of the copied one, which is of half precision
         // too; in a texel of foam a sum more.
@@ -247,7 +248,7 @@ fn memory_is_as_documented() {
             let lit = if cast.is_some() && foam { 0.25 * pixels } else { 0.0 };
             let said = needed(width, height, count, (2, 3, foam, false)) + maps + lit;
             let off = (found - said).abs();
-            assert!(off < 0.01 * said + 512.0 * 1024.0, "{cast:?}, {foam}: {found}, said {said}");
+            assert!(off < spare * said + 512.0 * 1024.0, "{cast:?}, {foam}: {found}, said {said}");
         }
         // Motion: a vector; of a texel of 16 pixels 64 bytes of sums and two depths.
         for (thickness_level, said) in [(0, 48.0), (1, 26.0), (2, 12.5), (3, 9.125)]
@@ -267,7 +268,7 @@ fn memory_is_as_documented() {
             };
             let found = of(true) - of(false);
             let off = (found - said * pixels).abs();
-            assert!(off < 0.01 * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
+            assert!(off < spare * said * pixels + 512.0 * 1024.0, "{thickness_level}: {found}");
         }
         // Bubble foam: of a pixel its depth, colour and layers, of a tile its lists; the blobs; the film's table, and a
         // picture of the core.
@@ -293,7 +294,7 @@ fn memory_is_as_documented() {
             let more = found - needed(width, height, count, (2, 3, false, false));
             let said = each * pixels + 64.0 * n + 64.0 * 256.0 * 8.0 + 258.0 * 258.0 * 8.0;
             assert!(
-                (more - said).abs() < 0.01 * said + 64.0 * 1024.0,
+                (more - said).abs() < spare * said + 64.0 * 1024.0,
                 "{sort:?}, {layers}: {more}, said {said}"
             );
         }
@@ -311,7 +312,7 @@ fn memory_is_as_documented() {
             let plain = needed(width, height, count, (2, 3, false, false));
             let (more, said) = (found - plain, 4.0 * texels + 16.0 * n);
             assert!(
-                (more - said).abs() < 0.01 * said + 64.0 * 1024.0,
+                (more - said).abs() < spare * said + 64.0 * 1024.0,
                 "{level}: {more}, said {said}"
             );
         }
@@ -341,7 +342,7 @@ fn memory_is_as_documented() {
             let name = format!("{width}x{height}, {sheets} sheets, foam {foam}, spray {spray}");
             // A driver may keep a border round each face of the cube: two texels more each way, of all levels.
             let border: f64 = (0..9).map(|mip| 48.0 * 4.0 * f64::from((256 >> mip) + 1)).sum();
-            let most = 0.01 * said + 512.0 * 1024.0 + border;
+            let most = spare * said + 512.0 * 1024.0 + border;
             assert!(off < most, "{name}: {found}, said {said}");
         }
     }

@@ -28,9 +28,9 @@ fn all_ways_are_the_same() {
     }
 }
 
-/// To the last bit.
+/// The sums to the last bit; what shades is a pipeline of its own where there are no atomics.
 fn same(way: Splat, found: &Drawn, expected: &Drawn) {
-    compare::same_color(&format!("diffuse-{way:?}"), &found.output, &expected.output);
+    compare::same_but_rounded(&format!("diffuse-{way:?}"), &found.output, &expected.output);
     let [found, expected] = [found, expected].map(|drawn| drawn.diffuse.as_ref().expect("foam"));
     for (name, found, expected) in [
         ("occluders", &found.occluders, &expected.occluders),
@@ -224,7 +224,11 @@ fn memory_is_by_the_pixel() {
         for most in [2, 30_000_000] {
             let said = a_pixel * 1280.0 * 720.0 + goes * lists(&gpu, most);
             let found = of(most, way) - without;
-            assert!((found - said).abs() < 0.01 * said + 128.0 * 1024.0, "{way:?} {most}: {found}");
+            let spare = 0.01 + gpu.padding(extent(1280, 720));
+            assert!(
+                (found - said).abs() < spare * said + 128.0 * 1024.0,
+                "{way:?} {most}: {found}"
+            );
         }
     }
 }

@@ -244,8 +244,9 @@ fn measure_of(measure: Measure) -> twin::Measure {
     }
 }
 
-/// What eight bits may be off.
-const STEP: f64 = 0.5 / 255.0;
+/// What eight bits may be off: Vulkan asks for one of the two steps about a number, Direct3D for 0.6 of one (an H200 is up
+/// to 0.514 off).
+const STEP: f64 = 0.6 / 255.0;
 
 /// Of amounts in eight bits: how many were compared, how many are neither nothing nor all, and how far off they are.
 #[derive(Debug, Default)]
@@ -284,7 +285,7 @@ impl Tally {
         let count = f64::from(self.partial.max(1));
         let (error, own) = (self.error / count, self.bound / count);
         println!(
-            "{name}: {} pixels, {} in between: mean error {error:.4}, mean bound {own:.4}, worst {:.2} of bound and half a step",
+            "{name}: {} pixels, {} in between: mean error {error:.4}, mean bound {own:.4}, worst {:.2} of bound and step",
             self.compared, self.partial, self.worst
         );
         assert_eq!(self.beyond, 0, "{name}: {:?}", self.first);
