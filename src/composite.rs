@@ -24,7 +24,8 @@ use crate::water::settings::{EXIT_STEPS, Exit, Shading};
 use crate::water::split::{DISPATCHES, KINDS};
 use crate::water::{Recording, WaterLayers};
 
-/// As fast as compute on lavapipe (docs/performance.md); GPUs are still to be measured.
+/// As fast as compute on lavapipe, and open to outputs that cannot be stored to. On an H200, which hardly rasterizes, compute
+/// takes a fourteenth (docs/performance.md).
 const DEFAULT_SHADING: Shading = Shading::Raster;
 
 /// The way a configuration takes.

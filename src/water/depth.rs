@@ -187,7 +187,7 @@ impl Depth {
     }
 }
 
-/// Faster than sprites on lavapipe at every size (docs/performance.md); GPUs are still to be measured.
+/// Faster than sprites on lavapipe at every size, and on an H200 (docs/performance.md).
 pub const DEFAULT_SPLAT: Splat = Splat::Compute;
 
 /// Draws all chunks' sprites inside a render pass: points, then quads.

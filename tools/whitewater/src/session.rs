@@ -9,7 +9,7 @@ use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Display, Layers};
-use whitewater::water::{FoamSettings, NoiseLook, Rule, WaterSettings};
+use whitewater::water::{FoamSettings, NoiseLook, Rule, Shading, WaterSettings};
 use whitewater::{Config, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
@@ -272,6 +272,8 @@ impl<'a> Session<'a> {
         let room = room(count).max(before.map_or(0, |config| config.max_particles));
         let mut config = Config::new(extent, COLOR_FORMAT, room);
         config.max_stride = 12;
+        // GPUs made for computing rasterize with a small part of themselves (docs/performance.md); elsewhere both take as long.
+        config.composite = Some(Shading::Compute);
         config.smoothing_level = args.smoothing_level;
         config.thickness_level = args.thickness_level;
         let thesis = self.look.file.is_thesis();
