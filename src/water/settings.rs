@@ -264,11 +264,11 @@ pub struct Ellipsoids {
     /// Radius within which particles are neighbours, in spacings, [1, 4], default 2.5. They count by `1 − (d/reach)³`. The time
     /// that the pass takes grows with its cube.
     pub reach: f32,
-    /// Longest half-axis over the shortest, at most, [1, 8], default 4 as the source. 1: spheres.
+    /// Longest half-axis over the shortest, at most, [1, 8], default 2.5 (the source: 4). 1: spheres.
     pub ratio: f32,
-    /// Sum of the neighbours' weights from which on a particle is an ellipsoid, [0, 64], default 3: there are 2.9 in a line
-    /// of particles, 11 in a sheet of one layer, 32 inside. Up to half of it a particle is a sphere (the source: up to 25
-    /// neighbours).
+    /// Sum of the neighbours' weights from which on a particle is an ellipsoid, [0, 64], default 8: there are 2.9 in a line
+    /// of particles, 11 in a sheet of one layer, 32 inside. Up to half of it a particle is a sphere, as small drops are (the
+    /// source: up to 25 neighbours).
     pub fewest: f32,
     /// Radius of a particle with so few neighbours that it is a sphere, in what it would be, [0.25, 1], default 1 (the
     /// source: 0.5). It holds the same volume.
@@ -281,7 +281,7 @@ pub struct Ellipsoids {
 
 impl Default for Ellipsoids {
     fn default() -> Self {
-        Self { reach: 2.5, ratio: 4.0, fewest: 3.0, lone: 1.0, centred: 0.9 }
+        Self { reach: 2.5, ratio: 2.5, fewest: 8.0, lone: 1.0, centred: 0.9 }
     }
 }
 
@@ -686,7 +686,7 @@ pub struct SprayLook {
     /// How far they lie from its centre at most, in spacings, [0, 8], default 0.7; 0: nowhere else
     /// (the source).
     pub spread: f32,
-    /// Seconds of motion that a droplet streaks over, [0, 1], default 1/60; as it is longer it is
+    /// Seconds of motion that a droplet streaks over, [0, 1], default 1/250, as the water is drawn at an instant; as it is longer it is
     /// thinner.
     pub shutter: f32,
     /// Albedo, linear RGB, 0 to 1, default 0.95.
@@ -703,7 +703,7 @@ impl Default for SprayLook {
             droplets: 16,
             densities: [0.6, 0.7, 0.85],
             spread: 0.7,
-            shutter: 1.0 / 60.0,
+            shutter: 1.0 / 250.0,
             color: [0.95; 3],
             additive: false,
         }

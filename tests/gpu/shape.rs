@@ -353,6 +353,7 @@ fn a_sheet_has_no_holes_and_is_flat() {
     let size = extent(96, 64);
     for splat in BOTH {
         let mut shot = Shot::new(size, Lens::Standard, 0.2, &[]);
+        shot.settings.water.ellipsoids.ratio = 4.0;
         let (spacing, far) = (shot.settings.water.spacing, 4.0);
         shot.positions = lattice(&shot, [0.0, 0.0, far], facing(&shot), [18, 14, 0]);
         let drawn = Rig::new(&gpu, &ellipsoids(size, splat)).draw(&shot);
@@ -384,6 +385,8 @@ fn a_stream_is_long() {
     let gpu = Gpu::shared();
     let size = extent(96, 64);
     let mut shot = Shot::new(size, Lens::Standard, 0.1, &[]);
+    let ellipsoids_of = &mut shot.settings.water.ellipsoids;
+    (ellipsoids_of.ratio, ellipsoids_of.fewest) = (4.0, 3.0);
     let turn = facing(&shot);
     shot.positions = lattice(&shot, [0.0, 0.0, 4.0], turn, [8, 0, 0]);
     let drawn = Rig::new(&gpu, &ellipsoids(size, Splat::Compute)).draw(&shot);

@@ -9,8 +9,8 @@ use whitewater::headless::scene::Scene;
 use whitewater::headless::{Background, COLOR_FORMAT, Device, DeviceOptions, Headless, Stepped};
 use whitewater::io::particles::{self, Particles, WriteFormat};
 use whitewater::io::picture::{self, Display, Layers};
-use whitewater::water::{FoamSettings, NoiseLook, Rule, Shading, WaterSettings};
-use whitewater::{Config, Previous, Region, Settings};
+use whitewater::water::{FoamSettings, Kernels, NoiseLook, Rule, Shading, WaterSettings};
+use whitewater::{Config, Offer, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
 use crate::bubbles::{self, Blobs};
@@ -281,7 +281,7 @@ impl<'a> Session<'a> {
         config.mirror_steps = self.look.file.water.mirror_steps(thesis);
         // Of water alone the scene behind is another's: what leaves it goes straight on.
         config.exit = self.look.file.water.exit(thesis || self.look.matte);
-        config.kernels = self.look.file.water.kernels();
+        config.kernels = self.look.file.water.kernels(thesis);
         config.foam = self.look.foam.is_some();
         config.spray = self.look.spray;
         config.diffuse = self.look.diffuse.as_ref().map(|source| {
@@ -310,6 +310,17 @@ impl<'a> Session<'a> {
         config.thickness_splat = args.splat.map(Into::into);
         let rule = if thesis { Rule::Source } else { Rule::ConstantWidth };
         config.rule = args.rule.unwrap_or(rule);
+        if config.kernels == Kernels::Ellipsoids && !self.look.file.water.says_kernels() {
+            // A device may not bind so many.
+            let offer = Offer::of(&device.instance, device.physical, COLOR_FORMAT);
+            let spheres = Config { kernels: Kernels::Spheres, ..config };
+            if offer.check(&config).is_err() && offer.check(&spheres).is_ok() {
+                times.say(&format!(
+                    "{room} particles are drawn as spheres: the device binds the shapes of fewer"
+                ));
+                config = spheres;
+            }
+        }
         let mut headless = times
             .step("set up", number, || Headless::new(device, &config))
             .map_err(|error| too_large(error, args.supersample))?;

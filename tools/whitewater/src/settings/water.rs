@@ -184,9 +184,15 @@ impl WaterTable {
         self.exit.map_or(if straight { Exit::Straight } else { standard }, Into::into)
     }
 
-    /// What of each particle is drawn.
-    pub fn kernels(&self) -> Kernels {
-        self.kernels.map_or(Kernels::Spheres, Into::into)
+    /// What of each particle is drawn, in the thesis' look or ours.
+    pub fn kernels(&self, thesis: bool) -> Kernels {
+        let standard = if thesis { Kernels::Spheres } else { Kernels::Ellipsoids };
+        self.kernels.map_or(standard, Into::into)
+    }
+
+    /// Whether the table says so itself.
+    pub fn says_kernels(&self) -> bool {
+        self.kernels.is_some()
     }
 
     /// The table that says all of them, and of the passes as this table does.
@@ -195,7 +201,7 @@ impl WaterTable {
             medium: Some(water.medium.into()),
             mirror_steps: Some(self.mirror_steps(thesis)),
             exit: Some(self.exit(thesis).into()),
-            kernels: Some(self.kernels().into()),
+            kernels: Some(self.kernels(thesis).into()),
             ..Self::of(water)
         }
     }

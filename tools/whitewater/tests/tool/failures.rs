@@ -220,7 +220,7 @@ fn an_interrupt_leaves_nothing_half() {
         .spawn()
         .unwrap();
     let began = std::time::Instant::now();
-    while names(&folder.path("out")).len() < 3 && began.elapsed().as_secs() < 30 {
+    while names(&folder.path("out")).len() < 3 && began.elapsed().as_secs() < 300 {
         std::thread::sleep(std::time::Duration::from_millis(7));
     }
     let id = child.id().to_string();
