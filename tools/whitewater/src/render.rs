@@ -340,18 +340,19 @@ impl Probes {
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
 const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
 
-/// Puts the look of foam in caches over the library's: thin foam is lace, lit by the shape of the splash. (The library's
-/// relief is as large as a particle, which makes gravel here; its veil, a cloud.)
+/// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
+/// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
+/// veil, a cloud.)
 fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
     *foam = FoamLook {
         extinction: 0.35 / spacing,
-        front_extinction: 0.5 / spacing,
+        front_extinction: 0.1 / spacing,
         veil: 0.0,
-        relief: 0.0,
+        relief: 0.2,
         lace: 1.0,
-        lace_size: 2.5,
+        lace_size: 1.2,
         shape: 0.8,
-        back_color: [0.78; 3],
+        back_color: [0.4, 0.48, 0.55],
         front_color: [0.93; 3],
         ..*foam
     };
