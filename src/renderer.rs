@@ -18,7 +18,7 @@ use crate::foam::Foam;
 use crate::foam::streams::{self, Chunks};
 use crate::frame::{FrameUniforms, Lens};
 use crate::gpu::Gpu;
-use crate::gpu::access::{self, COMPUTE_READ, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
+use crate::gpu::access::{self, COPY_READ, COPY_WRITE, FRAGMENT_SAMPLED, buffer};
 use crate::gpu::buffer::Buffer;
 use crate::gpu::descriptors::{Descriptors, Resource};
 use crate::gpu::graveyard::Owned;
@@ -28,7 +28,7 @@ use crate::gpu::timing::{Timer, Timing};
 use crate::host_images::{Uses, acquire, depth_layout, depth_use, release, shadow_map, sunlight};
 use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
 use crate::shore::{Given, Shore, ShoreUniforms};
-use crate::water::{Beside, Recording, Water, buffers_of, shape_sets};
+use crate::water::{Beside, Recording, STREAM_USE, Water, buffers_of, shape_sets};
 
 /// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
 const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
@@ -349,7 +349,7 @@ impl Renderer {
         )?;
 
         let cmd = r.cmd;
-        let given_back = |handle| buffer(handle, COMPUTE_READ, frame.particles.after);
+        let given_back = |handle| buffer(handle, STREAM_USE, frame.particles.after);
         let mut buffers: Vec<_> =
             buffers_of(&frame.particles).into_iter().map(given_back).collect();
         if let (Some(diffuse), Some(foam)) = (&frame.diffuse, &self.foam) {

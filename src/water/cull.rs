@@ -152,6 +152,9 @@ fn member_bytes(chunk_size: u32) -> u64 {
 /// How lists are read by the passes that draw or dispatch them.
 pub const LIST_USE: Access = INDIRECT.and(COMPUTE_READ).and(VERTEX_READ);
 
+/// How the host's streams are read: pass `light` does so in its vertex shader.
+pub const STREAM_USE: Access = COMPUTE_READ.and(VERTEX_READ);
+
 /// Spheres in eye space with the counts that draw them, chunk by chunk.
 pub struct SphereList {
     /// `Counts` of every chunk.
@@ -377,7 +380,7 @@ impl Cull {
         // In: the host's buffers, and ours from the frame before.
         let mut host: Vec<_> = buffers_of(particles)
             .into_iter()
-            .map(|handle| buffer(handle, particles.before, COMPUTE_READ))
+            .map(|handle| buffer(handle, particles.before, STREAM_USE))
             .collect();
         host.push(buffer(list.counts.handle, LIST_USE, COMPUTE_WRITE));
         host.push(buffer(list.spheres.handle, LIST_USE, COMPUTE_WRITE));

@@ -42,7 +42,7 @@ use crate::light::{Light, Sunlight};
 
 pub(crate) use classify::Classify;
 pub(crate) use cull::{
-    CAST, SphereList, Window, buffers_of, capacity, chunk_unit, chunks, each_once,
+    CAST, STREAM_USE, SphereList, Window, buffers_of, capacity, chunk_unit, chunks, each_once,
 };
 pub(crate) use depth::DEFAULT_SPLAT;
 pub(crate) use foam::word_bytes as foam_bytes;

@@ -13,7 +13,7 @@ use ash::vk;
 use bytemuck::NoUninit;
 use gpu_allocator::MemoryLocation;
 
-use super::cull::{Window, buffers_of, most};
+use super::cull::{STREAM_USE, Window, buffers_of, most};
 use super::settings::{Ellipsoids, Kernels};
 use super::{Recording, chunks};
 use crate::contract::{Config, Count, Particles, Stream};
@@ -180,7 +180,7 @@ impl Shape {
         let (buckets, places) = (&self.buckets, &self.places);
         let host = buffers_of(particles).into_iter();
         let mut before: Vec<_> =
-            host.map(|handle| buffer(handle, particles.before, COMPUTE_READ)).collect();
+            host.map(|handle| buffer(handle, particles.before, STREAM_USE)).collect();
         before.extend([
             buffer(buckets.handle, COMPUTE_READ, CLEAR),
             buffer(places.handle, COMPUTE_READ, COMPUTE_WRITE),

@@ -1,16 +1,17 @@
 //! Every kind of host image: formats of the scene's depth, in place and apart, any layout and access.
 
 use ash::vk;
-use whitewater::water::Shading;
-use whitewater::{Access, Config, HostImage, Recorded};
+use whitewater::foam::{DiffuseConfig, Splat};
+use whitewater::water::{Kernels, Shading};
+use whitewater::{Access, Config, Count, DiffuseParticles, HostImage, Particles, Recorded};
 
 use crate::support::compare;
 use crate::support::device::Gpu;
-use crate::support::host::COLOR;
-use crate::support::rig::{OUTPUT, Rig, Shot, config, extent};
+use crate::support::host::{COLOR, HOST_WRITE};
+use crate::support::rig::{OUTPUT, Rig, Shot, config, extent, stream};
 use crate::support::scenes::Lens;
 
-use super::water;
+use super::{sunny, water};
 
 /// Every depth format there is, sizes that differ, and a device with nothing optional.
 #[test]
@@ -119,5 +120,84 @@ fn in_any_state(composite: Shading) {
         rig.stub.wait(0);
         let found = rig.read(&output, &Recorded::default());
         compare::same_color("states", &found.output, &expected.output);
+    }
+}
+
+/// Particles that commands write before the frame and over again after it: whatever reads them, in whatever stage, comes
+/// between, and gives what particles of the CPU's give.
+#[test]
+fn particles_that_the_device_writes_are_waited_for() {
+    const COPIED: Access = Access::new(
+        vk::PipelineStageFlags2::ALL_TRANSFER,
+        vk::AccessFlags2::TRANSFER_WRITE,
+        vk::ImageLayout::GENERAL,
+    );
+    let gpu = Gpu::shared();
+    let size = extent(64, 48);
+    let plain = config(size);
+    let light = Config { cast: Some(64), ..plain };
+    let diffuse = |splat| Config {
+        diffuse: Some(DiffuseConfig { splat: Some(splat), ..DiffuseConfig::new(500) }),
+        ..light
+    };
+    for config in [
+        plain,
+        light,
+        Config { kernels: Kernels::Ellipsoids, ..light },
+        diffuse(Splat::Compute),
+        diffuse(Splat::Raster),
+    ] {
+        let mut rig = Rig::lit(&gpu, &config, 1);
+        let mut shot = water(size, Lens::Standard);
+        let densities = vec![1000.0_f32; shot.positions.len()];
+        shot.densities = Some(densities.clone());
+        let _shadow = sunny(&rig, &mut shot);
+        let points: Vec<_> = shot.positions.iter().map(|[x, y, z]| [*x, *y + 0.2, *z]).collect();
+        let count = Count::Cpu(points.len().min(500) as u32);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
+        let all = [
+            bytemuck::cast_slice(&shot.positions),
+            bytemuck::cast_slice::<_, u8>(&densities),
+            bytemuck::cast_slice(&points),
+        ];
+        let buffers = all.map(|bytes| rig.stub.data(bytes, usage));
+        let [positions, dense, places] = &buffers;
+        let diffuse = config.diffuse.map(|_| DiffuseParticles {
+            before: HOST_WRITE,
+            after: HOST_WRITE,
+            ..DiffuseParticles::new(stream(places, 0, 12), count)
+        });
+        let expected = {
+            let cloud = rig.particles(&shot);
+            rig.draw_diffuse(&shot, &cloud.particles(), diffuse)
+        };
+        let written = |rig: &Rig<'_>, cmd| {
+            for (data, bytes) in buffers.iter().zip(all).take(2 + usize::from(diffuse.is_some())) {
+                for (at, part) in (0_u64..).step_by(65536).zip(bytes.chunks(65536)) {
+                    // SAFETY: cmd is recording outside a render pass; the buffer may be copied to.
+                    unsafe { rig.stub.functions().cmd_update_buffer(cmd, data.buffer, at, part) };
+                }
+            }
+        };
+        let particles = Particles {
+            densities: Some(stream(dense, 0, 4)),
+            before: COPIED,
+            after: COPIED,
+            ..Particles::new(stream(positions, 0, 12), Count::Cpu(densities.len() as u32))
+        };
+        let (color, depth) = rig.scene(&shot);
+        let output = HostImage { before: COLOR, after: COLOR, ..color.host_image() };
+        let mut frame = shot.frame(output, depth.host_image(), particles);
+        frame.diffuse =
+            diffuse.map(|host| DiffuseParticles { before: COPIED, after: COPIED, ..host });
+        let cmd = rig.stub.begin(0);
+        written(&rig, cmd);
+        // SAFETY: cmd is recording, the slot's work is done, all of the frame outlives it.
+        let recorded = unsafe { rig.renderer().record(cmd, &frame) }.expect("record");
+        written(&rig, cmd);
+        rig.stub.end(0);
+        rig.stub.wait(0);
+        let found = rig.read(&frame.output, &recorded);
+        compare::same_color("written-by-device", &found.output, &expected.output);
     }
 }
