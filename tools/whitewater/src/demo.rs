@@ -11,6 +11,7 @@ use crate::failure::{Failure, Outcome};
 use crate::foam;
 use crate::output;
 use crate::progress::Progress;
+use crate::render::foam_of_caches;
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 
@@ -47,6 +48,9 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     scene.sun = environment.sun_light();
     let mut settings = file.look(SPACING, environment.light());
     settings.noise = session::noise(&args.draw);
+    if !file.is_thesis() {
+        foam_of_caches(&mut settings.foam, SPACING);
+    }
     file.apply(&mut settings);
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,

@@ -343,7 +343,7 @@ const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
 /// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
 /// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
 /// veil, a cloud.)
-fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
+pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
     *foam = FoamLook {
         extinction: 0.35 / spacing,
         front_extinction: 0.1 / spacing,
