@@ -5,8 +5,8 @@ use whitewater::Settings;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::sequence::{self, Frame};
 use whitewater::io::particles::{self, Particles};
-use whitewater::water::FoamLook;
 use whitewater::water::settings::Medium;
+use whitewater::water::{FoamLook, SprayLook};
 
 use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Whitewater};
 use crate::bounds::{self, Bounds};
@@ -340,6 +340,13 @@ impl Probes {
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
 const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
 
+/// Puts the look of spray in caches over the library's: fine droplets far enough apart that those of a particle are no mark
+/// that repeats.
+fn spray_of_caches(spray: &mut SprayLook) {
+    *spray =
+        SprayLook { densities: SPRAY_DENSITIES, droplets: 24, size: 0.35, spread: 1.6, ..*spray };
+}
+
 /// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
 /// it is lit by the shape of the splash. (Of the library's whole relief, which is as large as a particle, it is gravel; of its
 /// veil, a cloud.)
@@ -352,8 +359,8 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
         lace: 1.0,
         lace_size: 1.2,
         shape: 0.8,
-        back_color: [0.4, 0.48, 0.55],
-        front_color: [0.93; 3],
+        back_color: [0.62, 0.68, 0.73],
+        front_color: [0.97; 3],
         ..*foam
     };
 }
@@ -497,7 +504,7 @@ fn look(
     }
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
-        settings.spray.densities = SPRAY_DENSITIES;
+        spray_of_caches(&mut settings.spray);
         foam_of_caches(&mut settings.foam, spacing);
         if bounds.size().x.max(bounds.size().z) < SMALL {
             settings.water.medium = Medium::CLEAR;
