@@ -1,6 +1,8 @@
 // Pass `lit`: the scene with what water and foam do to the sunlight on it. Not in the source.
 // Needs frame.glsl, sunlight.glsl. Reads: scene colour and depth, caustics, the light's maps.
 
+#include "filtered.glsl"
+
 layout(set = 0, binding = 1) uniform sampler2D scene_color;
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;
 layout(set = 0, binding = 3) uniform sampler2D caustics;
@@ -27,8 +29,7 @@ float caustics_at(LightTexels t) {
 
 // Colour of a pixel (its centre, at +0.5), filtered as the scene's size is.
 vec4 lit_at(vec2 pixel) {
-    vec2 place = clamp(pixel * frame.lit_color.xy, vec2(0.5), frame.lit_color.zw - 0.5);
-    vec4 color = textureLod(scene_color, (place + frame.lit_origin.xy) / vec2(textureSize(scene_color, 0)), 0.0);
+    vec4 color = filtered(scene_color, pixel * frame.lit_color.xy, frame.lit_origin.xy, frame.lit_color.zw);
     float z = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
     if (!(z > 0.0 && z < frame.depth.w)) {
         return color;

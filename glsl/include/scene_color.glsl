@@ -2,6 +2,7 @@
 // Reads: scene colour, shoreline and contact foam.
 
 #include "coat_light.glsl"
+#include "filtered.glsl"
 
 // 1: there may be some; else it is not read.
 layout(constant_id = 24) const uint SHORE = 0;
@@ -17,8 +18,7 @@ vec3 under(vec3 sun) {
 // Along shores, at contacts on the host's surface, what of the sun's light does not come there, on the particles'
 // water.
 vec4 coat_at(vec2 pixel) {
-    vec2 place = clamp(pixel, vec2(0.5), frame.extent.xy - 0.5) / vec2(textureSize(shore_foam, 0));
-    return textureLod(shore_foam, place, 0.0);
+    return filtered(shore_foam, pixel, vec2(0.0), frame.extent.xy);
 }
 
 vec3 with_contact(vec3 c, float amount, float lost, CoatLight light) {
@@ -37,9 +37,7 @@ float uncovered(vec4 coat, CoatLight light) {
 
 // At a place, filtered.
 vec3 uncoated_at(vec2 pixel) {
-    vec2 texel = clamp(pixel * frame.scene_color.xy, vec2(0.5), frame.scene_color.zw - 0.5);
-    texel = (texel + frame.scene_origin.zw) / vec2(textureSize(scene_color, 0));
-    return textureLod(scene_color, texel, 0.0).rgb;
+    return filtered(scene_color, pixel * frame.scene_color.xy, frame.scene_origin.zw, frame.scene_color.zw).rgb;
 }
 
 vec3 scene_at(vec2 pixel) {

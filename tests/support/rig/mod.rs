@@ -20,7 +20,8 @@ use super::slow;
 pub use bubbles::{Foamed, Soaped};
 pub use diffuse::{attenuation, twins};
 pub use drawn::{Diffused, Drawn, Foaming, Sheets};
-pub use shot::{AROUND, Shot};
+use shot::AROUND;
+pub use shot::{Shot, is_around};
 
 /// Format of the outputs: its rounding is that of the shaders.
 pub const OUTPUT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;

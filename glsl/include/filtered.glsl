@@ -1,0 +1,14 @@
+// Bilinear look-up in a part of an image.
+
+// At a place in texels from the part's first. Nothing outside the part is read, not even with weight 0: a NaN there
+// would come through. So a texel's centre is read alone, and places keep a step of the filter's 8 bits from the
+// centres of the outermost texels.
+vec4 filtered(sampler2D image, vec2 place, vec2 first, vec2 size) {
+    place = clamp(place, vec2(0.5), size - 0.5);
+    vec2 texel = floor(place);
+    if (all(lessThan(abs(place - texel - 0.5), vec2(1.0 / 512.0)))) {
+        return texelFetch(image, ivec2(first + texel), 0);
+    }
+    vec2 edge = min(vec2(0.5 + 1.0 / 256.0), 0.5 * size);
+    return textureLod(image, (first + clamp(place, edge, size - edge)) / vec2(textureSize(image, 0)), 0.0);
+}
