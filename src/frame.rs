@@ -55,6 +55,7 @@ pub struct FrameUniforms {
     pub foam_front: [f32; 4],
     pub spray: [f32; 4],
     pub spray_color: [f32; 4],
+    pub spray_cloud: [f32; 4],
     pub shadow: [[f32; 4]; 4],
     pub to_light: [[f32; 4]; 4],
     pub shadow_map: [f32; 4],
@@ -129,6 +130,7 @@ shader::assert_layout!(
         foam_front,
         spray,
         spray_color,
+        spray_cloud,
         shadow,
         to_light,
         shadow_map,
@@ -403,6 +405,7 @@ impl FrameUniforms {
             foam_front: with(foam_color(look.front_color, light), look.front_power),
             spray: spray_shape(&frame.settings.spray, water),
             spray_color: spray_color(&frame.settings.spray, light),
+            spray_cloud: spray_cloud(&frame.settings.spray, water),
             shadow: shadow
                 .map_or(Mat4::ZERO, |s| TO_PLACE * s.view_projection * to_world)
                 .to_cols_array_2d(),
@@ -583,10 +586,14 @@ fn densities(settings: &Settings, config: &Config) -> [f32; 4] {
 
 fn spray_shape(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
     let optical_depth = -(1.0 - spray.opacity).ln();
-    // Droplets together cover what one would: of their squares 0.513 is the mean (spray.vert).
-    let many = if spray.droplets > 1 { 0.513 * spray.droplets as f32 } else { 1.0 };
+    // Droplets together cover what one would: of their squares 0.513 is the mean, and 0.6 of them are drawn (spray.vert).
+    let many = if spray.droplets > 1 { 0.513 * 0.6 * spray.droplets as f32 } else { 1.0 };
     let half_axis = spray.size * water.radius() / many.sqrt();
     [optical_depth, half_axis, spray.spread * water.spacing, spray.shutter]
+}
+
+fn spray_cloud(spray: &SprayLook, water: &WaterSettings) -> [f32; 4] {
+    [-(1.0 - spray.mist).ln(), spray.mist_size * water.spacing, spray.stretch, 0.0]
 }
 
 fn spray_color(spray: &SprayLook, light: &Light) -> [f32; 4] {

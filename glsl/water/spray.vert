@@ -24,10 +24,17 @@ layout(location = 6) flat out uint chance; // that it is rounded up by
 
 // Salts of the random numbers.
 const uint PLACE = 0x5370u;
+// Of those that a particle has but once.
+const uint SPINDLE = 4096u;
 // Where water is asked for, in drawn radii.
 const float ASIDE = 1.5;
-// Optical depth of mist over that of a droplet.
-const float MIST = 0.08;
+
+vec3 direction_of(uint id, uint number) {
+    float level = 2.0 * uniform_of(PLACE, id, number) - 1.0;
+    float turn = 6.2831853 * uniform_of(PLACE, id, number + 1u);
+    float ring = sqrt(max(1.0 - level * level, 0.0));
+    return vec3(ring * cos(turn), ring * sin(turn), level);
+}
 
 void main() {
     uint droplets = uint(frame.density.w);
@@ -35,21 +42,23 @@ void main() {
     uint id = floatBitsToUint(sprite.velocity.w);
     uint number = 5u * (gl_InstanceIndex % droplets);
     chance = chance_of(id, number);
-    // Even in the ball of the spread.
-    float level = 2.0 * uniform_of(PLACE, id, number) - 1.0;
-    float turn = 6.2831853 * uniform_of(PLACE, id, number + 1u);
-    float away = frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
-    float level_radius = sqrt(max(1.0 - level * level, 0.0));
-    vec3 off = away * vec3(level_radius * cos(turn), level_radius * sin(turn), level);
-    // Many are small, a few large; one is mist. No two particles alike.
-    float wide = 0.6 + 0.8 * uniform_of(PLACE, id, 4096u);
+    bool several = droplets > 1u;
+    // Even in a ball; of several it is a spindle of any direction, and none is as another: some are a burst, some hardly
+    // torn.
+    vec3 off = direction_of(id, number);
+    off *= frame.spray.z * pow(uniform_of(PLACE, id, number + 2u), 1.0 / 3.0);
+    vec3 axis = direction_of(id, SPINDLE);
+    float wide = (1.0 + 5.0 * uniform_of(PLACE, id, SPINDLE + 2u)) / 6.0;
+    off = several ? wide * (0.4 * off + 0.6 * dot(off, axis) * axis) : off;
+    float kept = several ? (0.2 + 0.8 * uniform_of(PLACE, id, SPINDLE + 3u)) * float(droplets) : 1.0;
+    // Many are small, a few large; the first is mist.
     float small = uniform_of(PLACE, id, number + 3u);
-    float size = droplets > 1u ? 0.35 + 1.15 * small * small * small : 1.0;
-    bool mist = droplets > 1u && gl_InstanceIndex % droplets == 0u;
-    off *= droplets > 1u ? wide : 1.0;
+    float size = several ? 0.35 + 1.15 * small * small * small : 1.0;
+    bool mist = several && gl_InstanceIndex % droplets == 0u;
 
     // World, so that it does not turn with the camera.
-    centre = sprite.centre.xyz + mat3(frame.view) * off;
+    float along_motion = 2.0 * uniform_of(PLACE, id, number + 4u) - 1.0;
+    centre = sprite.centre.xyz + mat3(frame.view) * off + along_motion * frame.spray_cloud.z * sprite.velocity.xyz;
     normal = normalize(centre);
     vec3 motion = sprite.velocity.xyz;
     motion -= dot(motion, normal) * normal;
@@ -63,9 +72,9 @@ void main() {
     // and a half, or it would flicker; then it is thinner.
     float depth = -centre.z;
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
-    float still = mist ? 0.7 * frame.spray.z : frame.spray.y * size;
+    float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
     vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
-    amount.x = sprite.centre.w * frame.spray.x * (mist ? MIST : 1.0) * still * still / (axes.x * axes.y);
+    amount.x = sprite.centre.w * (mist ? frame.spray_cloud.x : frame.spray.x) * still * still / (axes.x * axes.y);
     // Of all colours together: what it is in is foam more than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));
@@ -76,7 +85,8 @@ void main() {
     vec2 corner = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
     // A pixel more: snapping must not cut the footprint.
     vec3 at = centre + corner.x * e1 * (axes.x + pixel) + corner.y * e2 * (axes.y + pixel);
-    bool whole = depth > 2.0 * (axes.x + pixel) && depth > frame.depth.z;
+    bool drawn = float(gl_InstanceIndex % droplets) < kept;
+    bool whole = drawn && depth > 2.0 * (axes.x + pixel) && depth > frame.depth.z;
     vec2 place = (at.xy / -at.z - frame.slope.zw) / frame.slope.xy;
     // Off the screen where it comes too near.
     gl_Position = vec4(whole ? place / frame.extent.xy * 2.0 - 1.0 : vec2(-2.0), 0.5, 1.0);

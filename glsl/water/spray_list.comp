@@ -56,8 +56,9 @@ void visit(uint index) {
     velocity = mat3(frame.view) * velocity;
     // Droplets lie round the centre, and reach half their streak. Nearer than that nothing is drawn:
     // it would fill the picture.
-    float reach = 2.2 * frame.spray.z + LARGEST_DROPLET * frame.spray.y + 0.5 * length(velocity) * frame.spray.w;
-    if (-centre.z <= max(frame.depth.z, 2.0 * frame.spray.z) || !in_frustum(centre, reach)) {
+    float reach = frame.spray.z + max(LARGEST_DROPLET * frame.spray.y, frame.spray_cloud.y)
+                + length(velocity) * (0.5 * frame.spray.w + frame.spray_cloud.z);
+    if (-centre.z <= max(frame.depth.z, frame.spray.z) || !in_frustum(centre, reach)) {
         return;
     }
     uint id = push.id_stride > 0u ? ids[push.id_word + index * push.id_stride] : push.chunk_first + index;

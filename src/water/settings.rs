@@ -675,7 +675,7 @@ pub struct SprayLook {
     /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as the source. Its
     /// droplets together are about as large.
     pub size: f32,
-    /// Droplets that a particle is drawn as, 1 (the source) to 64, default 16.
+    /// Droplets that a particle is drawn as at most, 1 (the source) to 64, default 16; of several a fifth at least.
     pub droplets: u32,
     /// Fractions of the rest density, rising, [0, ∞): below the first a particle is nothing but
     /// spray, from the second on its water has its full radius and its foam is whole, from the third
@@ -683,9 +683,16 @@ pub struct SprayLook {
     /// cubic spline), sheets of one layer (0.70) hardly. They take the place of
     /// [`WaterSettings::density_threshold`] and [`density_full`](WaterSettings::density_full).
     pub densities: [f32; 3],
-    /// How far they lie from its centre at most, in spacings, [0, 8], default 0.7; 0: nowhere else
+    /// How far they lie from its centre at most, in spacings, [0, 8], default 1.5; 0: nowhere else
     /// (the source).
     pub spread: f32,
+    /// Seconds of motion that they lie apart along it besides, before and behind, [0, 1], default 0: torn water flies in strands.
+    pub stretch: f32,
+    /// Share of the light that the middle of a particle's mist takes away, [0, 1), default 0.05. Mist takes the place of the
+    /// first droplet where there are several.
+    pub mist: f32,
+    /// Half-axis of that mist in spacings, (0, 8], default 0.5.
+    pub mist_size: f32,
     /// Seconds of motion that a droplet streaks over, [0, 1], default 1/250, as the water is drawn at an instant; as it is longer it is
     /// thinner.
     pub shutter: f32,
@@ -702,7 +709,10 @@ impl Default for SprayLook {
             size: 0.5,
             droplets: 16,
             densities: [0.6, 0.7, 0.85],
-            spread: 0.7,
+            spread: 1.5,
+            stretch: 0.0,
+            mist: 0.05,
+            mist_size: 0.5,
             shutter: 1.0 / 250.0,
             color: [0.95; 3],
             additive: false,
@@ -718,6 +728,9 @@ impl SprayLook {
         droplets: 1,
         densities: [0.35, 0.45, 0.35],
         spread: 0.0,
+        stretch: 0.0,
+        mist: 0.0,
+        mist_size: 0.5,
         shutter: 1.0 / 60.0,
         color: [1.0; 3],
         additive: true,
@@ -733,6 +746,9 @@ impl SprayLook {
         range("Settings.spray.densities", full, all, f32::MAX)?;
         range("Settings.spray.densities", none, all, f32::MAX)?;
         range("Settings.spray.spread", self.spread, 0.0, 8.0)?;
+        range("Settings.spray.stretch", self.stretch, 0.0, 1.0)?;
+        range("Settings.spray.mist", self.mist, 0.0, 1.0 - f32::EPSILON)?;
+        range("Settings.spray.mist_size", self.mist_size, 1.0e-6, 8.0)?;
         range("Settings.spray.shutter", self.shutter, 0.0, 1.0)?;
         for color in self.color {
             range("Settings.spray.color", color, 0.0, 1.0)?;

@@ -86,11 +86,14 @@ const KERNEL: f64 = 0.340_003;
 fn spray_of(case: &Foamy) -> f64 {
     let look = &case.shot.settings.spray;
     let many = f64::from(look.droplets);
-    // All droplets together cover what one would of this half-axis; mist, the first, is 0.7 of the spread wide.
+    // Half-axis of one that covers as much as 0.6 of them. Of those but the first, which is mist, k is there where less than
+    // k of them were left out, which are even from none to four fifths.
     let whole = f64::from(look.size) * 0.656;
-    let droplets = (many - 1.0) / many * whole * whole * SQUARES / 0.513;
-    let mist = 0.08 * (0.7 * f64::from(look.spread)).powi(2);
-    -(1.0 - f64::from(look.opacity)).ln() * std::f64::consts::PI * KERNEL * (droplets + mist)
+    let drawn: f64 = (1..look.droplets).map(|k| (1.0 - f64::from(k) / many).min(0.8) / 0.8).sum();
+    let droplets = drawn / (0.6 * many) * whole * whole * SQUARES / 0.513;
+    let depth = |taken: f32| -(1.0 - f64::from(taken)).ln();
+    let mist = depth(look.mist) * f64::from(look.mist_size).powi(2);
+    std::f64::consts::PI * KERNEL * (depth(look.opacity) * droplets + mist)
 }
 
 fn spray(drawn: &Drawn) -> impl Iterator<Item = f32> {

@@ -110,6 +110,8 @@ impl Sprayed {
             size: f64::from(look.size),
             droplets: look.droplets,
             spread: f64::from(look.spread),
+            stretch: f64::from(look.stretch),
+            mist: [f64::from(look.mist), f64::from(look.mist_size)],
             densities: [all, none],
             shutter: f64::from(look.shutter),
             sums: Sums::SINGLE,
@@ -198,13 +200,17 @@ fn spray_of_all_settings_is_the_twins() {
     let gpu = Gpu::shared();
     let size = extent(97, 61);
     let mut rig = Rig::new(&gpu, &spraying(size));
-    let changes: [Change; 15] = [
+    let changes: [Change; 19] = [
         ("default", |look| *look = SprayLook::default()),
         ("source", |look| *look = SprayLook::SOURCE),
         ("spread-0", |look| look.spread = 0.0),
         // Droplets beyond the near plane of centres before it.
         ("spread-small", |look| look.spread = 0.3),
         ("spread-8", |look| look.spread = 8.0),
+        ("stretch-0.05", |look| look.stretch = 0.05),
+        ("stretch-1", |look| look.stretch = 1.0),
+        ("no mist", |look| look.mist = 0.0),
+        ("mist-0.9", |look| (look.mist, look.mist_size) = (0.9, 2.0)),
         ("shutter-0", |look| look.shutter = 0.0),
         ("shutter-1", |look| look.shutter = 1.0),
         ("opacity-99", |look| look.opacity = 0.99),
@@ -276,6 +282,7 @@ fn spray_lies_over_the_scene() {
         case.shot.color[7] = [f32::from_bits(1), -0.0, 1e30, -3.0];
         for (opacity, additive) in [(0.5, false), (0.5, true), (0.99, false), (0.0, false)] {
             (case.look().opacity, case.look().additive) = (opacity, additive);
+            case.look().mist = 0.1 * opacity;
             let drawn = case.draw(&mut rig);
             let name = format!("spray-over-{shading:?}-{opacity}-{additive}");
             case.check_over(&name, &drawn, &case.shot.color);
@@ -298,10 +305,10 @@ fn spray_lies_over_water_and_foam() {
         let mut rig = Rig::lit(&gpu, &config, 1);
         let mut case = Sprayed::new(size, Lens::Reversed, 10.0);
         case.amounts = foam.then(|| vec![[0.4, 0.3]; case.shot.positions.len()]);
-        case.look().opacity = 0.0;
+        (case.look().opacity, case.look().mist) = (0.0, 0.0);
         let none = case.draw(&mut rig);
         assert!(of(&none).data.iter().all(|x| *x == 0.0));
-        case.look().opacity = 0.9;
+        (case.look().opacity, case.look().mist) = (0.9, 0.05);
         for additive in [false, true] {
             case.look().additive = additive;
             let drawn = case.draw(&mut rig);
@@ -427,9 +434,9 @@ fn tiles_with_spray_alone_are_drawn() {
         case.shot.densities = Some(densities.collect());
         case.shot.settings.water.smoothing_width = 40.0;
         (case.look().size, case.look().spread, case.look().droplets) = (0.1, 0.1, 4);
-        case.look().opacity = 0.0;
+        (case.look().opacity, case.look().mist) = (0.0, 0.0);
         let none = case.draw(&mut rig);
-        case.look().opacity = 0.9;
+        (case.look().opacity, case.look().mist) = (0.9, 0.05);
         let drawn = case.draw(&mut rig);
         let name = format!("spray-tiles-{smoothing_level}-{coarsening}");
         case.check(&name, &drawn);
@@ -475,9 +482,9 @@ fn each_droplet_has_its_own_sun() {
     let size = extent(97, 61);
     let config = Config { shadow: Some(Shadows::Map), ..spraying(size) };
     let mut rig = Rig::lit(&gpu, &config, 1);
-    for (lens, droplets) in [(Lens::Standard, 8), (Lens::OffAxis, 16), (Lens::Reversed, 1)] {
+    for (lens, droplets) in [(Lens::Standard, 16), (Lens::OffAxis, 40), (Lens::Reversed, 1)] {
         let mut case = Sprayed::new(size, lens, 20.0);
-        (case.look().droplets, case.look().spread) = (droplets, 3.0);
+        (case.look().droplets, case.look().spread) = (droplets, 8.0);
         let middle = Vec3::from(scenes::world(&case.shot.camera, &[[0.0, 0.0, 5.0]])[0]);
         let sun = Vec3::new(0.5, 0.8, 0.3).normalize();
         let light = Mat4::look_at_rh(middle + 20.0 * sun, middle, Vec3::Y);

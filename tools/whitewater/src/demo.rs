@@ -11,7 +11,7 @@ use crate::failure::{Failure, Outcome};
 use crate::foam;
 use crate::output;
 use crate::progress::Progress;
-use crate::render::foam_of_caches;
+use crate::render::{foam_of_caches, spray_of_caches};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 
@@ -50,6 +50,10 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
         foam_of_caches(&mut settings.foam, SPACING);
+        // Its particles are so large that drops of one would be.
+        let densities = settings.spray.densities;
+        spray_of_caches(&mut settings.spray, SPACING);
+        settings.spray.densities = densities;
     }
     file.apply(&mut settings);
     let camera = match CameraFile::from_args(&args.camera)? {

@@ -338,13 +338,24 @@ impl Probes {
 /// Of spray in caches: what is alone, or nearly, is. Solvers' densities read low at every surface, in a sheet and a jet, so
 /// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
-const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.45];
+/// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
+const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.65];
 
-/// Puts the look of spray in caches over the library's: fine droplets far enough apart that those of a particle are no mark
-/// that repeats.
-fn spray_of_caches(spray: &mut SprayLook) {
-    *spray =
-        SprayLook { densities: SPRAY_DENSITIES, droplets: 24, size: 0.35, spread: 1.6, ..*spray };
+/// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
+/// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
+/// of the time of a fall through a spacing.
+pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32) {
+    *spray = SprayLook {
+        densities: SPRAY_DENSITIES,
+        opacity: 0.85,
+        droplets: 64,
+        size: 0.4,
+        spread: 3.5,
+        stretch: (0.25 * (spacing / 9.81).sqrt()).min(1.0),
+        mist: 0.03,
+        mist_size: 2.0,
+        ..*spray
+    };
 }
 
 /// Puts the look of foam in caches over the library's: thin foam is lace, and as dim as the water under it, and all of
@@ -504,7 +515,7 @@ fn look(
     }
     settings.noise = session::noise(&args.draw);
     if !file.is_thesis() {
-        spray_of_caches(&mut settings.spray);
+        spray_of_caches(&mut settings.spray, spacing);
         foam_of_caches(&mut settings.foam, spacing);
         if bounds.size().x.max(bounds.size().z) < SMALL {
             settings.water.medium = Medium::CLEAR;
