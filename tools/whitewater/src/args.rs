@@ -219,7 +219,7 @@ pub struct DrawArgs {
     /// How the light of the picture becomes that of the PNG: aces (the Academy's, a film's, by Hill's fit), agx (Sobotka's:
     /// less contrast, bright colours go pale), neutral (Khronos': dim colours as they are) or linear (clipped). EXR is
     /// linear light always
-    #[arg(long, value_enum, default_value_t = ToneArg::Agx)]
+    #[arg(long, value_enum, default_value_t = ToneArg::Aces)]
     pub tone: ToneArg,
     /// Resolution of the smoothing: 0 full, 1 half, 2 quarter
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=2))]

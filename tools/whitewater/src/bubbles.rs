@@ -175,10 +175,11 @@ fn field_of(scene: &Scene, largest: f32) -> Outcome<Option<DistanceField>> {
 }
 
 /// Uniform numbers (PCG, O'Neill 2014): the same in every run.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn next(&mut self) -> f32 {
+    /// From 0 on, below 1.
+    pub fn next(&mut self) -> f32 {
         let old = self.0;
         self.0 =
             old.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

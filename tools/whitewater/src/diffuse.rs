@@ -2,14 +2,17 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::f32::consts::PI;
+use std::iter;
 use std::path::PathBuf;
 
+use glam::Vec3;
 use whitewater::Settings;
 use whitewater::foam::DiffuseLook;
 use whitewater::headless::{self, Headless};
 use whitewater::io::particles::{Particles, Parts, sequence};
 
 use crate::args::{Up, Whitewater};
+use crate::bubbles::Random;
 use crate::failure::{Failure, Outcome};
 use crate::generate::Generate;
 use crate::layers;
@@ -32,8 +35,21 @@ pub struct Files {
     life: Option<f32>,
     /// Of each kind, how many a column holds that holds any; none where there are none of it.
     columns: [Option<f32>; 3],
-    /// Of each kind, where they are not all alike.
-    radii: Option<[f32; 3]>,
+    /// The most particles of a frame.
+    most: usize,
+    /// How each is drawn, where that is found.
+    drawn: Option<Drawn>,
+}
+
+/// How the particles of files are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Drawn {
+    /// Of foam, spray and bubbles.
+    radii: [f32; 3],
+    /// So many in the place of one.
+    copies: u32,
+    /// The water's.
+    spacing: f32,
 }
 
 /// The diffuse particles of a frame, in files that are open. Nothing needs all of them at once: of the frames before
@@ -42,7 +58,7 @@ pub struct Reading {
     files: Vec<(Parts<'static>, Option<u32>)>,
     up: Up,
     life: Option<f32>,
-    radii: Option<[f32; 3]>,
+    drawn: Option<Drawn>,
 }
 
 /// A part of them, as it is uploaded.
@@ -71,6 +87,11 @@ const SHARE: f32 =
 const HIDDEN: f32 = 0.8;
 /// `half` of few particles: the middle of one alone hides 1 / 1.12, as a drop of white water does.
 const FEW: f32 = 0.12;
+/// So many particles a column that holds any are drawn at least, of foam or spray, where there are fewer: each as several,
+/// no more than the second number and no more of all than the third.
+const COPIES: (f32, u32, usize) = (60.0, 24, 3_000_000);
+/// Copies lie so many spacings from their particle at most, of foam, spray and bubbles; foam a third of that above and below.
+const SCATTER: [f32; KINDS] = [1.2, 2.0, 0.8];
 /// Shortest and longest radius in spacings: in smaller spheres their own shadow is not found, larger ones look like balls.
 const RADII: [f32; 2] = [0.1, 0.25];
 
@@ -168,7 +189,7 @@ impl Files {
                 frames.entry(number).or_default().push((frame.path, *kind));
             }
         }
-        let mut files = Self { frames, up, life: None, columns: [None; 3], radii: None };
+        let mut files = Self { frames, up, life: None, columns: [None; 3], most: 0, drawn: None };
         files.look(spacing);
         Ok(Some(files))
     }
@@ -176,7 +197,7 @@ impl Files {
     /// At some frames of the whole sequence, so that what is found is the same however it is cut into jobs.
     fn look(&mut self, spacing: f32) {
         let step = self.frames.len().div_ceil(PROBES).max(1);
-        let (mut longest, mut columns) = (None, Columns::default());
+        let (mut longest, mut columns, mut here) = (None, Columns::default(), 0);
         for (path, kind, last) in self.frames.values().step_by(step).flat_map(|files| {
             let last = files.len() - 1;
             files.iter().enumerate().map(move |(i, (path, kind))| (path, *kind, i == last))
@@ -186,6 +207,7 @@ impl Files {
                 let lifetimes = part.lifetimes.iter().flatten().copied();
                 most = lifetimes.filter(|l| l.is_finite()).chain(most).reduce(f32::max);
                 columns.add(part, kind, self.up, spacing);
+                here += part.positions.len();
             });
             // One that can't be read is said when its frame is drawn.
             if read.is_ok() {
@@ -193,6 +215,7 @@ impl Files {
             }
             if last {
                 columns.end_frame();
+                self.most = self.most.max(std::mem::take(&mut here));
             }
         }
         self.life = longest.filter(|life| *life > 0.0);
@@ -205,11 +228,15 @@ impl Files {
         if file.is_thesis() {
             return;
         }
-        let found = Sizes::of_columns(self.columns, settings.water.spacing);
         let table = &file.diffuse;
-        let radii = table.radii.or((table.radius.is_none()).then_some(found.radii));
+        let said = table.radii.is_some() || table.radius.is_some();
+        let spacing = settings.water.spacing;
+        let copies = if said { 1 } else { copies(self.columns, self.most) };
+        let columns = self.columns.map(|n| n.map(|n| n * copies as f32));
+        let found = Sizes::of_columns(columns, spacing);
+        let radii = table.radii.or((!said).then_some(found.radii));
         if let Some(radii) = radii {
-            self.radii = Some(radii);
+            self.drawn = Some(Drawn { radii, copies, spacing });
             settings.diffuse.radius = radii.into_iter().fold(0.0, f32::max);
         }
         settings.diffuse.half = table.half.unwrap_or(found.half);
@@ -217,7 +244,12 @@ impl Files {
 
     /// Radii of foam, spray and bubbles, where they are not all alike.
     pub fn radii(&self) -> Option<[f32; 3]> {
-        self.radii
+        self.drawn.map(|drawn| drawn.radii)
+    }
+
+    /// As how many each is drawn.
+    pub fn copies(&self) -> u32 {
+        self.drawn.map_or(1, |drawn| drawn.copies)
     }
 
     /// What to say where some of the frames have no file of their number.
@@ -236,24 +268,27 @@ impl Files {
         let open =
             |(path, kind): &(PathBuf, _)| Outcome::Ok((Parts::open(path, Parts::USUAL)?, *kind));
         let files = named.map(open).collect::<Outcome<_>>()?;
-        Ok(Reading { files, up: self.up, life: self.life, radii: self.radii })
+        Ok(Reading { files, up: self.up, life: self.life, drawn: self.drawn })
     }
 }
 
 impl Reading {
-    /// Particles of all files.
+    /// Particles of all files, as they are drawn.
     pub fn total(&self) -> usize {
-        self.files.iter().map(|(parts, _)| parts.total()).sum()
+        let copies = self.drawn.map_or(1, |drawn| drawn.copies as usize);
+        self.files.iter().map(|(parts, _)| parts.total() * copies).sum()
     }
 
     /// Reads them and makes them those of the frames to come.
     pub fn upload(self, headless: &mut Headless) -> Outcome<()> {
         let mut upload = headless.diffuse_parts(self.total())?;
+        let mut first = 0;
         // All files have them, or they are of no use.
         let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
         for (parts, kind) in self.files {
             for part in parts {
-                let part = Part::new(part?, kind, (self.up, self.life, self.radii));
+                let part = Part::new(part?, kind, (self.up, self.life, self.drawn), first);
+                first = first.wrapping_add(part.positions.len() as u32);
                 upload.push(&headless::Diffuse {
                     positions: &part.positions,
                     kinds: Some(&part.kinds),
@@ -271,7 +306,8 @@ impl Part {
     fn new(
         mut read: Particles,
         kind: Option<u32>,
-        (up, life, radii): (Up, Option<f32>, Option<[f32; 3]>),
+        (up, life, drawn): (Up, Option<f32>, Option<Drawn>),
+        first: u32,
     ) -> Self {
         if up == Up::Z {
             layers::turn_up(read.positions.iter_mut());
@@ -285,15 +321,62 @@ impl Part {
         };
         let ages = read.lifetimes.map(|left| left.into_iter().map(age).collect());
         let kinds = kinds.unwrap_or_else(|| vec![0; count]);
-        let of_kind = |radii: [f32; 3]| kinds.iter().map(|kind| radii[kind_of(*kind)]).collect();
-        Self {
+        let mut part = Self {
             positions: read.positions,
-            radii: radii.map(of_kind),
+            radii: None,
             kinds,
             ages: ages.unwrap_or_else(|| vec![0.0; count]),
             ids: read.ids,
+        };
+        if let Some(drawn) = drawn {
+            part.scatter(&drawn, first);
+            let of_kind = |kind: &u32| drawn.radii[kind_of(*kind)];
+            part.radii = Some(part.kinds.iter().map(of_kind).collect());
         }
+        part
     }
+
+    /// Puts several round each, the first in its place, by its id, or by its number where it has none.
+    fn scatter(&mut self, drawn: &Drawn, first: u32) {
+        let copies = drawn.copies as usize;
+        if copies < 2 {
+            return;
+        }
+        let known = |i: usize| self.ids.as_ref().map_or(first.wrapping_add(i as u32), |ids| ids[i]);
+        let mut positions = Vec::with_capacity(self.positions.len() * copies);
+        for (i, &p) in self.positions.iter().enumerate() {
+            positions.push(p);
+            let kind = kind_of(self.kinds[i]);
+            // A ball has more outside than in its middle; these are denser there.
+            let reach = SCATTER[kind] * drawn.spacing;
+            let high = if kind == 0 { reach / 3.0 } else { reach };
+            // The golden ratio's bits: neighbours' numbers are far apart.
+            let mut random = Random((u64::from(known(i)) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            positions.extend((1..copies).map(|_| {
+                let away = Vec3::from([(); 3].map(|()| 2.0 * random.next() - 1.0));
+                let away = away.normalize_or_zero() * random.next();
+                (Vec3::from(p) + away * Vec3::new(reach, high, reach)).to_array()
+            }));
+        }
+        let each =
+            |values: &[f32]| values.iter().flat_map(|v| iter::repeat_n(*v, copies)).collect();
+        self.positions = positions;
+        self.ages = each(&self.ages);
+        self.kinds = self.kinds.iter().flat_map(|v| iter::repeat_n(*v, copies)).collect();
+        self.ids = self.ids.take().map(|ids| {
+            let number =
+                |id: u32| (0..drawn.copies).map(move |k| id.wrapping_mul(drawn.copies) + k);
+            ids.into_iter().flat_map(number).collect()
+        });
+    }
+}
+
+/// As how many particles each is drawn: by the kind of foam and spray that has the fewest a column.
+fn copies(columns: [Option<f32>; KINDS], most: usize) -> u32 {
+    let (wanted, copies, all) = COPIES;
+    let fewest = columns.into_iter().take(2).flatten().fold(f32::INFINITY, f32::min);
+    let room = (all / most.max(1)).clamp(1, copies as usize) as u32;
+    ((wanted / fewest).ceil() as u32).clamp(1, room)
 }
 
 /// `generate` or `[KIND=]FILES`.
@@ -326,8 +409,8 @@ mod tests {
     #[test]
     fn frames_without_a_file_are_told() {
         let frames = [2, 4].map(|frame| (frame, vec![(PathBuf::new(), None)])).into();
-        let (columns, radii) = ([None; 3], None);
-        let files = Files { frames, up: Up::Y, life: None, columns, radii };
+        let columns = [None; 3];
+        let files = Files { frames, up: Up::Y, life: None, columns, most: 0, drawn: None };
         assert_eq!(files.missing([2, 4].into_iter()), None);
         let said = files.missing(2..=5).expect("a warning");
         assert!(said.contains("2 frames, from 3 on"), "{said}");
@@ -367,6 +450,47 @@ mod tests {
         // Spray is sparse where foam is dense; of what is not there anything may do.
         let Sizes { radii, .. } = Sizes::of_columns([Some(200.0), Some(2.0), None], 1.0);
         assert_eq!(radii, [RADII[0], RADII[1], RADII[1]]);
+    }
+
+    #[test]
+    fn few_are_drawn_as_several_where_each_lies() {
+        assert_eq!(copies([Some(120.0), Some(60.0), Some(1.0)], 1_000_000), 1, "bubbles need none");
+        assert_eq!(copies([Some(120.0), Some(10.0), None], 10_000), 6);
+        assert_eq!(copies([Some(0.5), None, None], 10_000), COPIES.1);
+        assert_eq!(copies([Some(0.5), None, None], 1_000_000), 3, "no more of all");
+        assert_eq!(copies([None; 3], 0), 1);
+        let mut read = Particles::from_positions((0..6_u8).map(|i| [f32::from(i); 3]).collect());
+        read.kinds = Some(vec![0, 1, 2, 0, 1, 2]);
+        read.lifetimes = Some(vec![1.0, 2.0, 0.5, 1.0, 2.0, 0.5]);
+        read.ids = Some((10..16).collect());
+        let radii = [0.01, 0.02, 0.03];
+        let drawn = Drawn { radii, copies: 5, spacing: 0.1 };
+        let of = |read: Particles, drawn| Part::new(read, None, (Up::Y, Some(2.0), drawn), 0);
+        let (one, all) = (of(read.clone(), None), of(read.clone(), Some(drawn)));
+        assert_eq!((all.positions.len(), all.radii.as_ref().map(Vec::len)), (30, Some(30)));
+        for (i, copies) in all.positions.chunks(5).enumerate() {
+            assert_eq!(copies[0], one.positions[i]);
+            let reach = 0.1 * SCATTER[i % 3];
+            let off = |p: &[f32; 3]| Vec3::from(*p) - Vec3::from(one.positions[i]);
+            let tall = if i % 3 == 0 { reach / 3.0 } else { reach };
+            let near =
+                |p: &[f32; 3]| off(p).length() <= 1.001 * reach && off(p).y.abs() <= 1.001 * tall;
+            assert!(copies.iter().all(near), "{copies:?}");
+            assert!(copies[1..].iter().all(|p| off(p).length() > 0.0), "{copies:?}");
+            assert_eq!(all.ages[5 * i..][..5], [one.ages[i]; 5]);
+            assert_eq!(all.radii.as_ref().unwrap()[5 * i + 4], radii[i % 3]);
+        }
+        let mut ids = all.ids.clone().unwrap();
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids.len(), 30);
+        // In another place of the file the same particle has the same copies.
+        read.positions.reverse();
+        read.ids.as_mut().unwrap().reverse();
+        read.kinds.as_mut().unwrap().reverse();
+        read.lifetimes.as_mut().unwrap().reverse();
+        let turned = of(read, Some(drawn));
+        assert_eq!(turned.positions[25..], all.positions[..5]);
     }
 
     #[test]

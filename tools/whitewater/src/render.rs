@@ -527,6 +527,11 @@ fn look(
         files.choose(&file, &mut settings);
         if let Some([foam, spray, bubbles]) = files.radii().filter(|_| file.diffuse.radii.is_none())
         {
+            let copies = files.copies();
+            if copies > 1 {
+                progress
+                    .say(&format!("each diffuse particle as {copies}, scattered: they are few"));
+            }
             progress.say(&format!(
                 "diffuse particles with radii of {}, {} and {} (foam, spray, bubbles) and half = {} (found; table \
                  [diffuse] sets them)",
