@@ -338,6 +338,21 @@ impl Headless {
         Ok(())
     }
 
+    /// Puts the particles uploaded last elsewhere: their densities, foam and motion stay.
+    ///
+    /// # Errors
+    /// Not as many as were uploaded.
+    pub fn move_particles(&mut self, positions: &[[f32; 3]]) -> Result<(), Error> {
+        match &mut self.positions {
+            Some(buffer) if positions.len() == self.count as usize => {
+                let bytes = bytemuck::cast_slice(positions);
+                buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
+                Ok(())
+            }
+            _ => Err(Error::bad("positions", "not as many as before")),
+        }
+    }
+
     /// Uploads how the particles uploaded last move: their velocities, for foam, spray and motion
     /// vectors, and `ids` that follow them from frame to frame, so that the noise in their foam and
     /// their droplets do.

@@ -175,9 +175,25 @@ pub struct DrawArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (u32, u32),
     /// Draws that many times as wide and high, and makes the picture from it: 1, 2 or 4. Smooth
-    /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame
-    #[arg(long, value_name = "N", default_value_t = 2, value_parser = times_as_large)]
-    pub supersample: u32,
+    /// outlines, drops and refraction of fine ripples; the times of --timings are of the large frame [default: 2, or 1
+    /// where the picture is the mean of --samples]
+    #[arg(long, value_name = "N", value_parser = times_as_large)]
+    pub supersample: Option<u32>,
+    /// Motion blur: seconds that the shutter is open, about the moment of the frame, as 1/50 or 0.02; 0: none. By the
+    /// velocities of the water; diffuse particles and bubbles stand still [default: 1/100 of a single picture that is a PNG,
+    /// else 0]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub shutter: Option<f32>,
+    /// Depth of field: diameter of the lens in scene units, 0: all is sharp; 50 mm at f/2 are 0.025 metres [default: of a
+    /// single picture that is a PNG 0.006 of the distance at which it is sharp, 0.06 at most, else 0]
+    #[arg(long, value_name = "DIAMETER", value_parser = no_less_than_0)]
+    pub aperture: Option<f32>,
+    /// How far away it is sharp [default: as the camera's target]
+    #[arg(long, value_name = "DISTANCE", value_parser = positive)]
+    pub focus: Option<f32>,
+    /// Pictures that one with --shutter or --aperture is the mean of, 1 to 256: each is drawn, and takes as long as one
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
+    pub samples: u32,
     /// Settings as TOML, tables [water], [foam], [spray], [diffuse], [bubbles], [generate], [shore], [shoreline], [contact],
     /// [shadow], [noise] and [light]; what a picture was drawn with stands in its EXR, attribute 'settings', whole. Table
     /// [water] medium is as --medium, or by its numbers per metre: {absorption = [r, g, b], reduced_scattering = [r, g, b],
@@ -521,6 +537,20 @@ fn exposure(text: &str) -> Result<f32, String> {
         "auto" => Ok(0.0),
         stops => finite(stops).map_err(|_| "expected auto, or stops".into()),
     }
+}
+
+/// A number, or one over another.
+fn seconds(text: &str) -> Result<f32, String> {
+    let found = match text.split_once('/') {
+        Some((over, under)) => finite(over).and_then(|over| Ok(over / finite(under)?)),
+        None => finite(text),
+    };
+    let good = found.ok().filter(|v| (0.0..=10.0).contains(v));
+    good.ok_or_else(|| "expected seconds from 0 to 10, as 1/50".into())
+}
+
+fn no_less_than_0(text: &str) -> Result<f32, String> {
+    finite(text).ok().filter(|v| *v >= 0.0).ok_or_else(|| "expected 0 or more".into())
 }
 
 fn positive(text: &str) -> Result<f32, String> {

@@ -203,6 +203,11 @@ impl CameraFile {
         })
     }
 
+    /// From the eye to the target.
+    pub fn distance(&self) -> Option<f32> {
+        Some(Vec3::from(self.eye?).distance(self.target?.into()))
+    }
+
     /// Its matrices for a picture's size.
     pub fn camera(&self, size: (u32, u32)) -> Outcome<Camera> {
         let bad = |what: &str| Err(Failure::input(format!("camera: {what}")));

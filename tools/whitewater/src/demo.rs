@@ -74,6 +74,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
     let look = Look {
         camera,
         settings,
+        photograph: !file.is_thesis(),
         file,
         environment,
         scene,

@@ -4,6 +4,8 @@
 mod air;
 mod args;
 mod bench;
+
+mod blur;
 mod bounds;
 mod bubbles;
 mod camera;

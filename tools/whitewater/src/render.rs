@@ -662,13 +662,15 @@ fn look(
         }
         false => files.map(diffuse::Diffusing::Files),
     };
+    let matte = set == SetArg::None;
     Ok(Look {
         camera,
         settings,
+        photograph: !(sequence.is || sequence.still.is_some() || matte || file.is_thesis()),
         file,
         environment,
         scene,
-        matte: set == SetArg::None,
+        matte,
         still: sequence.still,
         foam,
         diffuse,

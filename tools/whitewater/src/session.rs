@@ -13,6 +13,7 @@ use whitewater::water::{FoamSettings, Kernels, NoiseLook, Rule, Shading, WaterSe
 use whitewater::{Config, Offer, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
+use crate::blur::{self, Blur, Mean};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
@@ -47,6 +48,8 @@ pub struct Look {
     pub bubbles: Option<(Blobs, BubbleConfig)>,
     /// Shoreline and contact foam.
     pub shores: Option<Shores>,
+    /// Where nothing else is said it is drawn as a camera has it.
+    pub photograph: bool,
     /// Stops beside those of the environment.
     pub exposure: f32,
     /// Particles of the water turn to spray.
@@ -182,6 +185,8 @@ impl<'a> Session<'a> {
     ) -> Outcome<Self> {
         let motion = has_motion(&checked);
         let (targets, wanted) = checked;
+        let png = |target: &Target<Output>| target.format == Output::Picture(PictureFormat::Png);
+        let look = Look { photograph: look.photograph && targets.iter().all(png), ..look };
         for path in [&args.timings, &args.trace].into_iter().flatten() {
             output::probe(path)?;
         }
@@ -222,6 +227,12 @@ impl<'a> Session<'a> {
         })
     }
 
+    /// How many times as wide and high frames are drawn.
+    fn supersample(&self) -> u32 {
+        let averaged = Blur::of(self.args, self.look.photograph, 1.0).is_some();
+        self.args.supersample.unwrap_or(if averaged { 1 } else { 2 })
+    }
+
     /// Where a frame goes.
     pub fn paths(&self, frame: u64) -> Vec<PathBuf> {
         self.targets.iter().map(|t| t.path(frame)).collect()
@@ -240,6 +251,7 @@ impl<'a> Session<'a> {
     }
 
     fn make_room_with(&mut self, count: usize, diffuse: usize) -> Outcome<()> {
+        let supersample = self.supersample();
         let count = u32::try_from(count.max(self.look.fullest))
             .map_err(|_| Failure::input("expected fewer than 2^32 particles, found more"))?;
         let diffuse = diffuse::counted(diffuse)?;
@@ -262,8 +274,7 @@ impl<'a> Session<'a> {
         };
         let (args, times) = (self.args, self.times.clone());
         let number = self.look.scene.frame;
-        let [width, height] =
-            [args.size.0, args.size.1].map(|n| n.saturating_mul(args.supersample));
+        let [width, height] = [args.size.0, args.size.1].map(|n| n.saturating_mul(supersample));
         let extent = vk::Extent2D { width, height };
         // Frames between those that were looked at may hold more: a quarter.
         let room = |count: u32| count.saturating_add(count / 4).max(1024);
@@ -323,7 +334,7 @@ impl<'a> Session<'a> {
         }
         let mut headless = times
             .step("set up", number, || Headless::new(device, &config))
-            .map_err(|error| too_large(error, args.supersample))?;
+            .map_err(|error| too_large(error, supersample))?;
         times.step("environment", number, || match &self.look.environment.source {
             Source::Sky(sky) => Ok(headless.sky(sky)?),
             Source::Picture { shown, without_sun } => {
@@ -335,7 +346,7 @@ impl<'a> Session<'a> {
                 made.map_err(|error| bad_picture(error, &args.environment))
             }
         })?;
-        times.step("scene", number, || headless.scene(&self.look.scene, args.supersample == 1))?;
+        times.step("scene", number, || headless.scene(&self.look.scene, supersample == 1))?;
         if shadows == ShadowArg::All {
             headless.region(self.look.region);
         }
@@ -470,6 +481,7 @@ impl<'a> Session<'a> {
         particles: &Particles,
         drawn: bool,
     ) -> Outcome<()> {
+        let supersample = self.supersample();
         let content = self.look.still.unwrap_or(number);
         let (times, time) = (self.times.clone(), self.time(content));
         let Some(headless) = self.headless.as_mut() else {
@@ -573,7 +585,7 @@ impl<'a> Session<'a> {
         let lens = Lens::new(&camera)?;
         if !self.look.scene.rests_between(self.staged, content) {
             times.step("scene", number, || {
-                headless.scene_frame(&self.look.scene, self.args.supersample == 1)
+                headless.scene_frame(&self.look.scene, supersample == 1)
             })?;
             if let Some(shores) = &self.look.shores {
                 times.step("shore", number, || {
@@ -603,6 +615,36 @@ impl<'a> Session<'a> {
             }
             Outcome::Ok(layers)
         })?;
+        let mut layers = layers;
+        let focus = self.args.focus.or_else(|| camera_file.distance()).unwrap_or(1.0);
+        if let Some(blur) = Blur::of(self.args, self.look.photograph, focus) {
+            let mut mean = Mean::default();
+            times.step("samples", number, || {
+                for sample in blur.samples() {
+                    let view = blur::through(&camera, sample, focus, self.args.size);
+                    if let Some(velocities) =
+                        particles.velocities.as_ref().filter(|_| blur.seconds > 0.0)
+                    {
+                        let moved = blur::moved(&particles.positions, velocities, sample.time);
+                        headless.move_particles(&moved)?;
+                    }
+                    headless.render(&view, &self.look.settings, &background)?;
+                    let mut drawn = layers::collect(headless, self.args.size, &[], &lens)?;
+                    if self.look.matte {
+                        layers::matte(headless, &view, &self.look.settings, &mut drawn)?;
+                    }
+                    mean.add(drawn.channels.iter().map(|channel| &channel.data[..]));
+                }
+                headless.move_particles(&particles.positions)?;
+                Outcome::Ok(())
+            })?;
+            for (i, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+                let channel = layers.channels.iter_mut().find(|channel| channel.name == name);
+                if let (Some(channel), Some(data)) = (channel, mean.of(i)) {
+                    channel.data = data;
+                }
+            }
+        }
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {
             let first = first.split_whitespace().collect::<Vec<_>>().join(" ");

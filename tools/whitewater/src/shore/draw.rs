@@ -300,6 +300,7 @@ pub fn run(args: &RenderArgs, which: &Which) -> Outcome<()> {
         environment,
         scene,
         matte: false,
+        photograph: false,
         still: None,
         foam: None,
         diffuse: None,

@@ -69,7 +69,9 @@ fn bad_command_lines_are_code_2() {
     let folder = Folder::new();
     folder.particles("a.ply", block(3));
     folder.run("render a.ply -o out.jpg").fails(2, &[".exr, .png or .mp4", "out.jpg"]);
-    folder.run("render a.ply -o out.png --size 200000x10").fails(2, &["400000", "--supersample"]);
+    folder
+        .run("render a.ply -o out.png --size 200000x10 --supersample 2")
+        .fails(2, &["400000", "--supersample"]);
     folder.run("render a.ply -o out.png --sun 0,0,0").fails(2, &["--sun"]);
     for arguments in [
         "",
@@ -78,6 +80,11 @@ fn bad_command_lines_are_code_2() {
         "render a.ply -o o.png --size 0x3",
         "render a.ply -o o.png --thickness-level 4",
         "render a.ply -o o.png --supersample 3",
+        "render a.ply -o o.png --shutter -1",
+        "render a.ply -o o.png --shutter 1/0",
+        "render a.ply -o o.png --aperture -0.1",
+        "render a.ply -o o.png --focus 0",
+        "render a.ply -o o.png --samples 257",
         "render a.ply -o o.png --radius -1",
         "render a.ply -o o.png --eye 0,0,1",
         "render a.ply -o o.png --rule fast",

@@ -1,7 +1,7 @@
 //! What is in the pictures.
 
 use whitewater::io::particles::Particles;
-use whitewater::io::picture::EMPTY;
+use whitewater::io::picture::{EMPTY, Layers};
 
 use super::support::{FRONT, Folder, SMALL, SPACING, block};
 
@@ -113,6 +113,73 @@ fn layers_can_be_chosen() {
     assert_eq!(names("water.depth.Z,scene"), 6);
     assert_eq!(names("motion"), 6);
     folder.run("render a.ply -o a.exr --layers water").fails(2, &["water.depth", "'water'"]);
+}
+
+/// Columns and rows in which anything of the water is seen.
+fn covered(exr: &Layers) -> [usize; 2] {
+    let alpha = exr.channel("A").unwrap();
+    let seen = |x: usize, y: usize| alpha[y * exr.width + x] > 0.01;
+    let columns = (0..exr.width).filter(|x| (0..exr.height).any(|y| seen(*x, y)));
+    let rows = (0..exr.height).filter(|y| (0..exr.width).any(|x| seen(x, *y)));
+    [columns.count(), rows.count()]
+}
+
+/// A block that flies to the right is drawn out by as far as it goes while the shutter is open; through a lens it is as sharp
+/// as before where it is in focus, and else as much wider as its edges are blurred.
+#[test]
+fn shutter_and_lens_blur_by_motion_and_depth() {
+    let folder = Folder::new();
+    let mut water = Particles::from_positions(block(4));
+    water.velocities = Some(vec![[2.0, 0.0, 0.0]; water.positions.len()]);
+    folder.write("a.vtu", &water);
+    let of = |more: &str| {
+        let view = "--eye 0,0,4 --target 0,0,0 --fov 30 --radius 0.05 --set none --medium milk --foam none --spray none";
+        let command =
+            format!("render a.vtu -o a.exr --size 120x80 {view} --supersample 2 --validate {more}");
+        folder.run(&command).ok();
+        covered(&folder.picture("a.exr"))
+    };
+    // Pixels that a metre has where it lies: 4 m away, 80 pixels in 2 tan(15°).
+    let metre = 80.0 / (2.0 * 4.0 * 15.0_f32.to_radians().tan());
+    let near = |found: usize, expected: f32| (found as f32 - expected).abs() <= 2.0;
+    let [wide, high] = of("");
+    let [blurred, as_high] = of("--shutter 1/10 --samples 32");
+    assert!(
+        near(blurred, wide as f32 + 0.2 * metre) && near(as_high, high as f32),
+        "{blurred} {wide}"
+    );
+    let sharp = of("--aperture 0.2 --samples 32");
+    // Edges are within 0.2 m of the focus: a circle of 0.2 * 0.2 / 4 m at most.
+    assert!(near(sharp[0], wide as f32 + 0.01 * metre) && near(sharp[1], high as f32), "{sharp:?}");
+    let circle = 0.2 * (4.0 / 2.0 - 1.0) * metre;
+    let soft = of("--aperture 0.2 --focus 2 --samples 32");
+    assert!(
+        near(soft[0], wide as f32 + circle) && near(soft[1], high as f32 + circle),
+        "{soft:?} of {wide} {high}"
+    );
+}
+
+/// Of what is drawn once nothing is averaged: EXR, sequences, and what is told not to be. A single PNG is.
+#[test]
+fn single_pngs_are_photographs() {
+    let folder = Folder::new();
+    let mut water = Particles::from_positions(block(4));
+    water.velocities = Some(vec![[2.0, 0.0, 0.0]; water.positions.len()]);
+    folder.write("a_1.vtu", &water);
+    folder.write("a_2.vtu", &water);
+    let look =
+        format!("--size 96x64 --supersample 1 {FRONT} --foam none --spray none --set studio");
+    let png = |command: &str| {
+        folder.run(&format!("{command} {look}")).ok();
+        folder.picture("o.png").rgb().unwrap()
+    };
+    let usual = png("render a_1.vtu -o o.png");
+    let sharp = png("render a_1.vtu -o o.png --shutter 0 --aperture 0");
+    assert!(usual != sharp && sharp == png("render a_1.vtu -o o.png --samples 1"));
+    assert!(usual == png("render a_1.vtu -o o.png --shutter 1/100"));
+    assert!(sharp == png("render a_1.vtu -o o.png -o o.exr"));
+    folder.run(&format!("render a_*.vtu -o s_%d.png {look}")).ok();
+    assert!(folder.picture("s_1.png").rgb().unwrap() == sharp);
 }
 
 /// Each rung differs from the one below, in the water alone. Without foam all water is before it.

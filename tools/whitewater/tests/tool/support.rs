@@ -147,6 +147,7 @@ pub fn block(n: usize) -> Vec<[f32; 3]> {
 }
 
 /// Small and quick.
-pub const SMALL: &str = "--size 96x64";
+/// Single pictures are no means of several, so that they are quick.
+pub const SMALL: &str = "--size 96x64 --samples 1";
 /// From 2 in front of the middle of `block(8)`, straight on.
 pub const FRONT: &str = "--eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05";

@@ -1,0 +1,184 @@
+//! Motion blur and depth of field: the mean of pictures at moments while the shutter is open, through points of the lens
+//! (the accumulation buffer, Haeberli and Akeley 1990).
+
+use glam::{Vec2, Vec3};
+use whitewater::Camera;
+
+use crate::args::DrawArgs;
+
+/// Of a photograph: seconds, diameter of the lens over the distance in focus, and at most in metres.
+const SHUTTER: f32 = 0.01;
+const LENS: f32 = 0.006;
+const LARGEST: f32 = 0.06;
+
+/// What is averaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blur {
+    /// Pictures, 2 or more.
+    pub samples: u32,
+    /// Seconds that the shutter is open, about the frame's moment.
+    pub seconds: f32,
+    /// Radius of the lens, scene units.
+    pub radius: f32,
+}
+
+/// One of the pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Seconds from the frame's moment.
+    pub time: f32,
+    /// From the middle of the lens, scene units, to the right and upwards.
+    pub lens: Vec2,
+    /// From the middle of a pixel, pixels.
+    pub pixel: Vec2,
+}
+
+impl Blur {
+    /// None where nothing is to be blurred. `photograph`: where nothing is said it is as a camera has it; `focus`: how far
+    /// away all is sharp.
+    pub fn of(args: &DrawArgs, photograph: bool, focus: f32) -> Option<Self> {
+        let usual = |value: f32| if photograph { value } else { 0.0 };
+        let seconds = args.shutter.unwrap_or(usual(SHUTTER));
+        let diameter = args.aperture.unwrap_or(usual((focus * LENS).min(LARGEST)));
+        let blurs = args.samples > 1 && (seconds > 0.0 || diameter > 0.0);
+        blurs.then_some(Self { samples: args.samples, seconds, radius: 0.5 * diameter })
+    }
+
+    /// Even over the time (the radical inverse of 2), over the lens (Vogel's sunflower) and over the pixel (Roberts'
+    /// sequence), none by another.
+    pub fn samples(&self) -> impl Iterator<Item = Sample> {
+        let Self { samples, seconds, radius } = *self;
+        let golden = std::f32::consts::PI * (3.0 - 5.0_f32.sqrt());
+        (0..samples).map(move |i| {
+            let inverse = i.reverse_bits() as f32 / 2.0_f32.powi(32);
+            let first = (samples.next_power_of_two() as f32).recip();
+            let turn = Vec2::from_angle(golden * i as f32);
+            let away = ((i as f32 + 0.5) / samples as f32).sqrt();
+            let pixel = (Vec2::splat(0.5) + i as f32 * Vec2::new(0.754_877_7, 0.569_840_3)).fract();
+            let time = seconds * (inverse + 0.5 * first - 0.5);
+            Sample { time, lens: radius * away * turn, pixel: pixel - 0.5 }
+        })
+    }
+}
+
+/// The view from a point of the lens: what is `focus` away stays where it is in the picture of a size, but for the part of
+/// a pixel.
+pub fn through(
+    camera: &Camera,
+    Sample { lens, pixel, .. }: Sample,
+    focus: f32,
+    size: (u32, u32),
+) -> Camera {
+    let mut camera = *camera;
+    camera.view.w_axis -= lens.extend(0.0).extend(0.0);
+    // 1 or -1: whether depth grows along z.
+    let along = camera.projection.z_axis.w;
+    let pixel = 2.0 * pixel / Vec2::new(size.0 as f32, size.1 as f32);
+    let scale = Vec2::new(camera.projection.x_axis.x, camera.projection.y_axis.y);
+    let shear = (scale * lens / focus + pixel) * along;
+    camera.projection.z_axis += shear.extend(0.0).extend(0.0);
+    camera
+}
+
+/// Where particles are after some seconds. What has no finite velocity stays.
+pub fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> Vec<[f32; 3]> {
+    let there = |(p, v): (&[f32; 3], &[f32; 3])| {
+        let to = Vec3::from(*p) + seconds * Vec3::from(*v);
+        if to.is_finite() { to.to_array() } else { *p }
+    };
+    positions.iter().zip(velocities).map(there).collect()
+}
+
+/// Sums of the channels of a picture, and their mean.
+#[derive(Default)]
+pub struct Mean {
+    sums: Vec<Vec<f64>>,
+    count: u32,
+}
+
+impl Mean {
+    /// Channels of one size, each time as many.
+    pub fn add<'a>(&mut self, channels: impl Iterator<Item = &'a [f32]>) {
+        for (i, channel) in channels.enumerate() {
+            if self.sums.len() <= i {
+                self.sums.push(vec![0.0; channel.len()]);
+            }
+            for (sum, value) in self.sums[i].iter_mut().zip(channel) {
+                *sum += f64::from(*value);
+            }
+        }
+        self.count += 1;
+    }
+
+    /// Of the channel of a number.
+    pub fn of(&self, channel: usize) -> Option<Vec<f32>> {
+        let count = f64::from(self.count.max(1));
+        self.sums.get(channel).map(|sums| sums.iter().map(|sum| (sum / count) as f32).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{Mat4, Vec4};
+
+    #[test]
+    fn samples_are_even_in_time_and_over_the_lens() {
+        for samples in [2, 5, 16, 64] {
+            let blur = Blur { samples, seconds: 0.02, radius: 0.1 };
+            let all: Vec<_> = blur.samples().collect();
+            assert_eq!(all.len(), samples as usize);
+            assert!(all.iter().all(|s| s.time.abs() < 0.01 && s.lens.length() < 0.1), "{all:?}");
+            let mean = all.iter().map(|s| s.time).sum::<f32>() / samples as f32;
+            // Where a power of two is not full the last of it are missing.
+            let most = if samples.is_power_of_two() { 1.0e-6 } else { 0.003 };
+            assert!(mean.abs() < most, "{samples}: {mean}");
+            let pixel = all.iter().map(|s| s.pixel).sum::<Vec2>() / samples as f32;
+            assert!(all.iter().all(|s| s.pixel.abs().max_element() <= 0.5));
+            assert!(pixel.length() < 2.0 / samples as f32, "{samples}: {pixel}");
+            // A disc has half its area within 0.71 of its radius.
+            let inner = all.iter().filter(|s| s.lens.length() < 0.1 * 0.5_f32.sqrt()).count();
+            assert!(inner.abs_diff(samples as usize / 2) <= 1, "{samples}: {inner}");
+        }
+    }
+
+    #[test]
+    fn what_is_in_focus_stays_and_what_is_not_goes_by_its_depth() {
+        let right = Mat4::perspective_infinite_reverse_rh(0.7, 1.5, 0.1);
+        let left = Mat4::perspective_lh(0.7, 1.5, 0.1, 100.0);
+        let lens = Vec2::new(0.04, -0.03);
+        for (projection, along) in [(right, -1.0), (left, 1.0)] {
+            let view = Mat4::look_at_rh(Vec3::new(1.0, 2.0, 3.0), Vec3::ZERO, Vec3::Y);
+            let camera = Camera { view, projection };
+            let seen = |camera: &Camera, p: Vec4| {
+                let clip = camera.projection * camera.view * p;
+                Vec2::new(clip.x, clip.y) / clip.w
+            };
+            let sample = Sample { time: 0.0, lens, pixel: Vec2::new(0.3, -0.4) };
+            let other = through(&camera, sample, 5.0, (300, 200));
+            for depth in [2.0_f32, 5.0, 20.0] {
+                let point = view.inverse() * Vec4::new(0.3, -0.2, along * depth, 1.0);
+                let off = seen(&other, point) - seen(&camera, point);
+                // By similar triangles, in the picture's half widths.
+                let scale = Vec2::new(projection.x_axis.x, projection.y_axis.y);
+                let expected = lens * scale * (1.0 / 5.0 - 1.0 / depth) + Vec2::new(0.002, -0.004);
+                assert!((off - expected).length() < 1.0e-6, "{along} {depth}: {off} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn particles_go_by_their_velocity() {
+        let velocities = [[2.0, 0.0, -1.0], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0]];
+        let found = moved(&[[1.0; 3], [2.0; 3], [3.0; 3]], &velocities, -0.5);
+        assert_eq!(found, [[0.0, 1.0, 1.5], [2.0; 3], [3.0; 3]]);
+        let mut mean = Mean::default();
+        for value in [1.0_f32, 3.0] {
+            mean.add([[value; 2].as_slice(), &[5.0]].into_iter());
+        }
+        assert_eq!(
+            (mean.of(0), mean.of(1), mean.of(2)),
+            (Some(vec![2.0; 2]), Some(vec![5.0]), None)
+        );
+    }
+}
