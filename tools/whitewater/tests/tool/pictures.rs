@@ -143,16 +143,16 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
     let metre = 80.0 / (2.0 * 4.0 * 15.0_f32.to_radians().tan());
     let near = |found: usize, expected: f32| (found as f32 - expected).abs() <= 2.0;
     let [wide, high] = of("");
-    let [blurred, as_high] = of("--shutter 1/10 --samples 32");
+    let [blurred, as_high] = of("--shutter 1/10 --samples 16");
     assert!(
         near(blurred, wide as f32 + 0.2 * metre) && near(as_high, high as f32),
         "{blurred} {wide}"
     );
-    let sharp = of("--aperture 0.2 --samples 32");
+    let sharp = of("--aperture 0.2 --samples 16");
     // Edges are within 0.2 m of the focus: a circle of 0.2 * 0.2 / 4 m at most.
     assert!(near(sharp[0], wide as f32 + 0.01 * metre) && near(sharp[1], high as f32), "{sharp:?}");
     let circle = 0.2 * (4.0 / 2.0 - 1.0) * metre;
-    let soft = of("--aperture 0.2 --focus 2 --samples 32");
+    let soft = of("--aperture 0.2 --focus 2 --samples 16");
     assert!(
         near(soft[0], wide as f32 + circle) && near(soft[1], high as f32 + circle),
         "{soft:?} of {wide} {high}"
