@@ -9,6 +9,8 @@ mod allocation;
 mod bad;
 #[path = "formats/data.rs"]
 mod data;
+#[path = "formats/dialects.rs"]
+mod dialects;
 #[path = "formats/parts.rs"]
 mod parts;
 #[path = "formats/samples/mod.rs"]

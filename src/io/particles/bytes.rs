@@ -94,10 +94,17 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// A number as text. Takes what printf writes for NaN and infinity on any platform.
+/// A number as text. Takes what printf writes for NaN and infinity on any platform, and the doubles of Fortran.
 pub(super) fn parse_number(token: &[u8]) -> Option<f64> {
     let text = std::str::from_utf8(token).ok()?;
     if let Ok(value) = text.parse() {
+        return Some(value);
+    }
+    // Fortran writes the exponent of a double behind a D.
+    if let Some(d) = text.find(['d', 'D'])
+        && let (Some(mantissa), Some(exponent)) = (text.get(..d), text.get(d + 1..))
+        && let Ok(value) = format!("{mantissa}e{exponent}").parse()
+    {
         return Some(value);
     }
     let bare = text.trim_start_matches(['+', '-']).to_ascii_lowercase();

@@ -1,6 +1,7 @@
 //! From named columns of numbers to [`Particles`]: which names mean what, and checks that hold for all formats.
 
 use super::error::{Place, ReadError};
+use super::names::{self, Names};
 use super::{Format, Particles, bytes};
 
 /// How an attribute is stored.
@@ -206,10 +207,15 @@ impl Data {
             }
             return false;
         }
-        match (bytes::parse_number(token), self) {
-            (Some(x), Self::F64(v)) => v.push(x),
-            (Some(x), Self::F32(v)) => v.push(x as f32),
-            _ => return false,
+        bytes::parse_number(token).is_some_and(|x| self.push_number(x))
+    }
+
+    /// Appends a number; false where these are whole ones.
+    pub(super) fn push_number(&mut self, x: f64) -> bool {
+        match self {
+            Self::F64(v) => v.push(x),
+            Self::F32(v) => v.push(x as f32),
+            Self::Int(_) => return false,
         }
         true
     }
@@ -285,51 +291,6 @@ pub(super) struct Table {
     pub(super) warnings: Vec<String>,
 }
 
-const POSITION: &[&str] =
-    &["position", "positions", "pos", "points", "point", "coordinates", "coords", "x", "p"];
-const POSITION_BASES: &[&str] =
-    &["", "points", "point", "position", "positions", "pos", "coordinates", "coords", "p"];
-const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";
-const VELOCITY: &[&str] = &["velocity", "velocities", "vel", "v"];
-const DENSITY: &[&str] = &["density", "densities", "rho"];
-const ID: &[&str] = &["id", "ids", "particle_id", "particleid", "index"];
-const LIFETIME: &[&str] = &["lifetime", "life"];
-const KIND: &[&str] = &["type"];
-/// How the components of a vector are told apart.
-const SUFFIXES: &[[&str; 3]] = &[
-    [":0", ":1", ":2"],
-    ["_0", "_1", "_2"],
-    ["[0]", "[1]", "[2]"],
-    [":x", ":y", ":z"],
-    ["_x", "_y", "_z"],
-    [".x", ".y", ".z"],
-    ["x", "y", "z"],
-];
-
-/// The names of the three scalars that a vector may be split into.
-fn triples(bases: &[&str]) -> impl Iterator<Item = [String; 3]> {
-    bases.iter().flat_map(|base| {
-        SUFFIXES
-            .iter()
-            .filter(move |s| !base.is_empty() || s[0] == "x")
-            .map(move |s| s.map(|s| format!("{base}{s}")))
-    })
-}
-
-fn uvw() -> [String; 3] {
-    ["u", "v", "w"].map(String::from)
-}
-
-/// Whether an attribute of this name may be used, so that a reader need not unpack the others.
-pub(super) fn wanted(name: &str) -> bool {
-    let name = name.trim().to_lowercase();
-    [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND]
-        .iter()
-        .any(|names| names.contains(&name.as_str()))
-        || uvw().contains(&name)
-        || triples(POSITION_BASES).chain(triples(VELOCITY)).any(|names| names.contains(&name))
-}
-
 /// Lists an attribute, and says whether its numbers are wanted.
 pub(super) fn list(
     attributes: &mut Vec<Attribute>,
@@ -338,13 +299,7 @@ pub(super) fn list(
     ty: AttributeType,
 ) -> bool {
     attributes.push(Attribute { name: name.into(), components, ty });
-    wanted(name)
-}
-
-/// Whether `name` can be one of the columns that carry positions: tells a header from data.
-pub(super) fn names_position(name: &str) -> bool {
-    let name = name.trim().to_lowercase();
-    POSITION.contains(&name.as_str()) || triples(POSITION_BASES).any(|n| n.contains(&name))
+    names::wanted(name)
 }
 
 impl Table {
@@ -366,6 +321,7 @@ impl Table {
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
         let roles = Roles::find(&shapes, placed, &self.attributes)?;
         roles.rows(&shapes)?;
+        self.warnings.extend(roles.warnings());
         let mut survey = Survey::default();
         let particles = survey.part(&roles, self.columns, format);
         self.warnings.extend(survey.warnings());
@@ -410,11 +366,28 @@ impl Shape<'_> {
     }
 }
 
-/// A column of three components, or three of one, by their indices.
+/// A column of three components or of two, or one column for each, by their indices. What is missing is 0.
 #[derive(Debug, Clone, Copy)]
 enum Vector {
-    Whole(usize),
-    Split([usize; 3]),
+    Whole(usize, usize),
+    Split([Option<usize>; 3]),
+}
+
+impl Vector {
+    fn is_flat(self) -> bool {
+        match self {
+            Self::Whole(_, components) => components < 3,
+            Self::Split(columns) => columns.contains(&None),
+        }
+    }
+
+    fn columns(self) -> impl Iterator<Item = usize> {
+        let columns = match self {
+            Self::Whole(column, _) => [Some(column), None, None],
+            Self::Split(columns) => columns,
+        };
+        columns.into_iter().flatten()
+    }
 }
 
 /// Which column is what, by its index. Of two of one name it is the first.
@@ -428,28 +401,43 @@ pub(super) struct Roles {
     kinds: Option<usize>,
 }
 
-/// The first column of the first of these names that has this number of components.
-fn named(shapes: &[Shape<'_>], names: &[&str], components: usize) -> Option<usize> {
-    names.iter().find_map(|name| {
-        shapes
-            .iter()
-            .position(|s| s.components == components && s.name.trim().eq_ignore_ascii_case(name))
-    })
+/// What is looked for among the columns of a file.
+struct Search<'a> {
+    shapes: &'a [Shape<'a>],
+    /// Their names, as [`names::plain`] gives them.
+    plain: Vec<String>,
 }
 
-/// A vector: one column of three components, or three scalar columns.
-fn named_vector(
-    shapes: &[Shape<'_>],
-    names: &[&str],
-    mut split: impl Iterator<Item = [String; 3]>,
-) -> Option<Vector> {
-    let whole = named(shapes, names, 3).map(Vector::Whole);
-    whole.or_else(|| {
-        split.find_map(|names| {
-            let [x, y, z] = names.map(|name| named(shapes, &[&name], 1));
-            Some(Vector::Split([x?, y?, z?]))
-        })
-    })
+impl<'a> Search<'a> {
+    fn new(shapes: &'a [Shape<'a>]) -> Self {
+        Self { shapes, plain: shapes.iter().map(|shape| names::plain(shape.name)).collect() }
+    }
+
+    /// The first column of this name that has this number of components.
+    fn one(&self, name: &str, components: usize) -> Option<usize> {
+        let mut all = self.shapes.iter().zip(&self.plain);
+        all.position(|(shape, plain)| shape.components == components && plain == name)
+    }
+
+    fn scalar(&self, names: Names) -> Option<usize> {
+        names.iter().find_map(|name| self.one(name, 1))
+    }
+
+    /// A vector: one column of three components, or three scalar columns; or else of two dimensions.
+    fn vector(&self, names: Names) -> Option<Vector> {
+        let whole = |components| {
+            let column = names.iter().find_map(|name| self.one(name, components))?;
+            Some(Vector::Whole(column, components))
+        };
+        let split = || names::triples(names).map(|n| n.map(|name| self.one(&name, 1)));
+        let of_three = || split().find(|columns| !columns.contains(&None)).map(Vector::Split);
+        let of_two = || {
+            let mut split = split();
+            let found = split.find(|[x, y, z]| x.is_some() && (y.is_some() || z.is_some()));
+            found.map(Vector::Split)
+        };
+        whole(3).or_else(of_three).or_else(|| whole(2)).or_else(of_two)
+    }
 }
 
 impl Roles {
@@ -459,14 +447,17 @@ impl Roles {
         placed: Option<usize>,
         attributes: &[Attribute],
     ) -> Result<Self, ReadError> {
+        let search = Search::new(shapes);
         let positions = match placed {
-            Some(placed) => Some(Vector::Whole(placed)),
-            None => named_vector(shapes, POSITION, triples(POSITION_BASES)),
+            Some(placed) => {
+                Some(Vector::Whole(placed, shapes.get(placed).map_or(3, |s| s.components)))
+            }
+            None => search.vector(names::POSITION),
         };
         let Some(positions) = positions else {
             let names: Vec<_> = attributes.iter().map(Attribute::to_string).collect();
             return Err(ReadError::NoPositions {
-                expected: POSITION_NAMES,
+                expected: names::POSITION_NAMES,
                 found: match names.len() {
                     0 => "no attributes at all".into(),
                     n => {
@@ -477,36 +468,40 @@ impl Roles {
                 },
             });
         };
-        let scalar = |names| named(shapes, names, 1);
         Ok(Self {
             positions,
-            velocities: named_vector(
-                shapes,
-                VELOCITY,
-                triples(VELOCITY).chain(std::iter::once(uvw())),
-            ),
-            densities: scalar(DENSITY),
-            lifetimes: scalar(LIFETIME),
-            ids: scalar(ID),
-            kinds: scalar(KIND),
+            velocities: search.vector(names::VELOCITY),
+            densities: search.scalar(names::DENSITY),
+            lifetimes: search.scalar(names::LIFETIME),
+            ids: search.scalar(names::ID),
+            kinds: search.scalar(names::KIND),
         })
+    }
+
+    /// What a user should know of them.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = String> {
+        self.positions
+            .is_flat()
+            .then(|| "positions have two components: the third is taken as 0".to_string())
+            .into_iter()
     }
 
     /// How many particles there are: as many as positions, and as what else there is.
     pub(super) fn rows(&self, shapes: &[Shape<'_>]) -> Result<usize, ReadError> {
         let rows = match self.positions {
-            Vector::Whole(i) => {
+            Vector::Whole(i, components) => {
                 let Some(shape) = shapes.get(i) else { return Ok(0) };
-                if !shape.values.is_multiple_of(3) {
+                let components = components as u64;
+                if !shape.values.is_multiple_of(components) {
                     return Err(ReadError::malformed(
-                        format!("three values per particle for `{}`", shape.name),
+                        format!("{components} values per particle for `{}`", shape.name),
                         format!("{} values", shape.values),
                         Place::Unknown,
                     ));
                 }
-                shape.values / 3
+                shape.values / components
             }
-            Vector::Split([x, ..]) => shapes.get(x).map_or(0, |shape| shape.values),
+            Vector::Split([x, ..]) => x.and_then(|x| shapes.get(x)).map_or(0, |shape| shape.values),
         };
         for shape in self.used().filter_map(|i| shapes.get(i)) {
             shape.check(rows)?;
@@ -520,10 +515,7 @@ impl Roles {
     /// The columns that have a meaning, in the order in which they are checked.
     pub(super) fn used(&self) -> impl Iterator<Item = usize> {
         let vectors = [Some(self.positions), self.velocities].into_iter().flatten();
-        let vectors = vectors.flat_map(|vector| match vector {
-            Vector::Whole(i) => vec![i],
-            Vector::Split(all) => all.to_vec(),
-        });
+        let vectors = vectors.flat_map(Vector::columns);
         let scalars = [self.densities, self.lifetimes, self.ids, self.kinds];
         vectors.chain(scalars.into_iter().flatten())
     }
@@ -539,16 +531,17 @@ impl Columns {
 
     fn vector(&self, vector: Vector, i: usize) -> [f64; 3] {
         match vector {
-            Vector::Whole(column) => [0, 1, 2].map(|k| self.f64(column, 3 * i + k)),
-            Vector::Split(columns) => columns.map(|column| self.f64(column, i)),
+            Vector::Whole(column, 3) => [0, 1, 2].map(|k| self.f64(column, 3 * i + k)),
+            Vector::Whole(column, _) => [self.f64(column, 2 * i), self.f64(column, 2 * i + 1), 0.0],
+            Vector::Split(columns) => columns.map(|c| c.map_or(0.0, |column| self.f64(column, i))),
         }
     }
 
     fn rows(&self, vector: Vector) -> usize {
         let values = |column: usize| self.0.get(column).map_or(0, |c| c.data.len());
         match vector {
-            Vector::Whole(column) => values(column) / 3,
-            Vector::Split([x, ..]) => values(x),
+            Vector::Whole(column, components) => values(column) / components.max(1),
+            Vector::Split([x, ..]) => x.map_or(0, values),
         }
     }
 
@@ -560,19 +553,16 @@ impl Columns {
 
     fn take_vectors(&mut self, vector: Vector) -> Vec<[f32; 3]> {
         let all = match vector {
-            Vector::Whole(column) => match self.0.get(column) {
+            Vector::Whole(column, 3) => match self.0.get(column) {
                 Some(Column { data: Data::F32(v), .. }) => Some(v.as_chunks::<3>().0.to_vec()),
                 _ => None,
             },
-            Vector::Split(_) => None,
+            _ => None,
         };
         let all = all.unwrap_or_else(|| {
             (0..self.rows(vector)).map(|i| self.vector(vector, i).map(|c| c as f32)).collect()
         });
-        match vector {
-            Vector::Whole(column) => drop(self.take(column)),
-            Vector::Split(columns) => columns.into_iter().for_each(|c| drop(self.take(c))),
-        }
+        vector.columns().for_each(|column| drop(self.take(column)));
         all
     }
 }

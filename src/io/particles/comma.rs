@@ -1,42 +1,40 @@
 //! Comma-separated values: a line of names and a line for each particle.
 //!
-//! ParaView names components `Points:0` or `Points_0`; plain names are `x,y,z,vx,vy,vz`. Semicolons and tabs
-//! separate too. Without a line of names the first three columns are the positions. An empty field is NaN.
+//! ParaView names components `Points:0` or `Points_0`, DualSPHysics `Pos.x [m]`; plain names are `x,y,z,vx,vy,vz`.
+//! Semicolons and tabs separate too, and leave the comma to decimals. Comments and other lines may stand above the names;
+//! a separator may end each line. Without a line of names the first three columns are the positions. An empty field is
+//! NaN.
 
 use super::Format;
-use super::bytes::{parse_number, show};
-use super::columns::{self, AttributeType, Column, names_position};
+use super::bytes::show;
+use super::columns::{self, AttributeType, Column};
 use super::error::{Place, ReadError};
+use super::heading::{Heading, number_with_comma};
 use super::plan::About;
 use super::source::{Content, Source, inner_error};
 use super::table::{RowReader, Table};
-use super::text::Text;
 
 pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
-    let mut text = Text::of(content)?;
-    let start = text.at();
-    let mut first = Vec::new();
-    while let Some(line) = text.line()? {
-        if !line.trim_ascii().is_empty() {
-            first = line.to_vec();
-            break;
-        }
+    let heading = Heading::read(content)?;
+    match heading.delimiter {
+        Some(delimiter) => open_at(content, heading, delimiter),
+        None => super::xyz::open(content),
     }
-    let count = |d: u8| first.iter().filter(|b| **b == d).count();
-    let delimiter = [b',', b';', b'\t'].into_iter().rev().max_by_key(|d| count(*d)).unwrap_or(b',');
-    if count(delimiter) == 0 {
-        return super::xyz::open(content);
-    }
-    // A line of names may be written as a comment.
-    let hashed = first.starts_with(b"#")
-        && first.split(|b| *b == delimiter).any(|f| names_position(&field_name(f)));
+}
+
+/// Rows whose fields a certain character separates.
+pub(super) fn open_at<'a>(
+    content: &Content<'a>,
+    heading: Heading,
+    delimiter: u8,
+) -> Result<Table<'a>, ReadError> {
     let mut builder = csv::ReaderBuilder::new();
     builder.has_headers(false).delimiter(delimiter).trim(csv::Trim::All).buffer_capacity(1 << 16);
-    if !hashed {
-        builder.comment(Some(b'#'));
-    }
+    builder.comment(Some(b'#')).flexible(true);
     let mut records = Records {
-        reader: builder.from_reader(content.open(start, content.length())?),
+        reader: builder.from_reader(content.open(heading.at, content.length())?),
+        lines: heading.line,
+        decimal_comma: delimiter != b',',
         names: Vec::new(),
         columns: Vec::new(),
         record: csv::ByteRecord::new(),
@@ -45,36 +43,50 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     let mut about =
         About { placed: None, attributes: Vec::new(), warnings: Vec::new(), format: Format::Csv };
     let mut columns = Vec::new();
-    if records.next_record()? {
-        let header = records.record.iter().any(|f| !f.is_empty() && parse_number(f).is_none());
-        for (i, field) in records.record.iter().enumerate() {
-            let name = match (header, i) {
-                (true, _) => field_name(field),
-                (false, 0) => "x".into(),
-                (false, 1) => "y".into(),
-                (false, 2) => "z".into(),
-                (false, i) => format!("column {}", i + 1),
-            };
-            let keep = columns::list(&mut about.attributes, &name, 1, AttributeType::Number);
-            records.columns.push(keep.then_some(columns.len()));
-            if keep {
-                columns.push(Column::new(&name, 1, AttributeType::Number));
-            }
-            records.names.push(name);
-        }
-        records.unread = !header;
-        if !header && records.names.len() > 3 {
+    let header = !heading.names.is_empty();
+    let mut names = heading.names;
+    if !header && records.next_record()? {
+        records.unread = true;
+        let fields: Vec<_> = records.record.iter().collect();
+        let last = fields.iter().rposition(|field| !field.is_empty()).map_or(0, |i| i + 1);
+        names.extend((0..last).map(unnamed));
+        if last > 3 {
             about.warnings.push(format!(
-                "no line of names: the first 3 of {} columns are taken as positions, the others are not read",
-                records.names.len()
+                "no line of names: the first 3 of {last} columns are taken as positions, the others are not read"
             ));
         }
+    }
+    about.warnings.extend(passed_over(heading.passed));
+    for name in names {
+        let keep = columns::list(&mut about.attributes, &name, 1, AttributeType::Number);
+        records.columns.push(keep.then_some(columns.len()));
+        if keep {
+            columns.push(Column::new(&name, 1, AttributeType::Number));
+        }
+        records.names.push(name);
     }
     Ok(Table { columns, about, rows: Box::new(records) })
 }
 
+/// What a column is called that has no name.
+pub(super) fn unnamed(i: usize) -> String {
+    match ["x", "y", "z"].get(i) {
+        Some(name) => (*name).to_string(),
+        None => format!("column {}", i + 1),
+    }
+}
+
+/// What is said of lines above the table.
+pub(super) fn passed_over(lines: u64) -> Option<String> {
+    (lines > 0).then(|| format!("{lines} lines above the names and numbers are passed over"))
+}
+
 struct Records<'a> {
     reader: csv::Reader<Source<'a>>,
+    /// Before the first that it reads.
+    lines: u64,
+    /// Whether decimals may stand behind a comma.
+    decimal_comma: bool,
     names: Vec<String>,
     /// For each name the column that takes its numbers.
     columns: Vec<Option<usize>>,
@@ -85,18 +97,20 @@ struct Records<'a> {
 
 impl Records<'_> {
     fn next_record(&mut self) -> Result<bool, ReadError> {
+        let lines = self.lines;
         self.reader.read_byte_record(&mut self.record).map_err(|e| {
-            let line = e.position().map_or(Place::Unknown, |p| Place::Line(p.line()));
+            let line = e.position().map_or(Place::Unknown, |p| Place::Line(lines + p.line()));
             let expected = format!("{} fields in each line", self.names.len());
             let text = e.to_string();
             match e.into_kind() {
-                csv::ErrorKind::UnequalLengths { len, .. } => {
-                    ReadError::malformed(expected, format!("{len}"), line)
-                }
                 csv::ErrorKind::Io(reason) => inner_error(reason),
                 _ => ReadError::malformed(expected, text, line),
             }
         })
+    }
+
+    fn place(&self) -> Place {
+        self.record.position().map_or(Place::Unknown, |p| Place::Line(self.lines + p.line()))
     }
 }
 
@@ -105,22 +119,30 @@ impl RowReader for Records<'_> {
         if !std::mem::take(&mut self.unread) && !self.next_record()? {
             return Ok(false);
         }
+        // A separator may end the line.
+        let more = self.record.iter().skip(self.names.len());
+        if self.record.len() < self.names.len() || more.into_iter().any(|f| !f.is_empty()) {
+            return Err(ReadError::malformed(
+                format!("{} fields in each line", self.names.len()),
+                format!("{}", self.record.len()),
+                self.place(),
+            ));
+        }
         for ((field, column), name) in self.record.iter().zip(&self.columns).zip(&self.names) {
             let Some(column) = column.and_then(|i| columns.get_mut(i)) else { continue };
             let field = if field.is_empty() { b"nan" } else { field };
-            if !column.data.push_text(field) {
-                let line = self.record.position().map_or(Place::Unknown, |p| Place::Line(p.line()));
+            if column.data.push_text(field) {
+                continue;
+            }
+            let number = number_with_comma(field).filter(|_| self.decimal_comma);
+            if !number.is_some_and(|number| column.data.push_number(number)) {
                 return Err(ReadError::malformed(
                     format!("a number in column `{name}`"),
                     show(field),
-                    line,
+                    self.place(),
                 ));
             }
         }
         Ok(true)
     }
-}
-
-fn field_name(field: &[u8]) -> String {
-    String::from_utf8_lossy(field).trim_start_matches('#').trim().trim_matches('"').to_string()
 }

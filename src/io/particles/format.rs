@@ -30,6 +30,8 @@ pub enum Extension {
     Csv,
     /// `.xyz`, `.txt`, `.asc`, `.pts`: text or raw `f32` triples
     Xyz,
+    /// `.dat`, `.extxyz`, `.out`, `.tab`: text
+    Text,
     /// `.json`
     Json,
     /// None of these
@@ -55,6 +57,7 @@ impl Extension {
             Some("npy") => Self::Npy,
             Some("npz") => Self::Npz,
             Some("csv" | "tsv") => Self::Csv,
+            Some("dat" | "extxyz" | "out" | "tab") => Self::Text,
             Some("xyz" | "txt" | "asc" | "pts") => Self::Xyz,
             Some("json") => Self::Json,
             _ => Self::Unknown,
@@ -260,7 +263,6 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
     let text = is_text(bytes);
     if text {
         let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-        let head = body.get(..body.len().min(4096)).unwrap_or(body);
         if body.starts_with(b"<?xml") || body.starts_with(b"<VTKFile") || body.starts_with(b"<!--")
         {
             return Ok(Reader::VtkXml);
@@ -270,15 +272,11 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         }
         match hint {
             Extension::Csv => return Ok(Reader::Csv),
-            Extension::Xyz => {
-                let line = head.split(|b| *b == b'\n').next().unwrap_or(head);
-                let named = !line.starts_with(b"#")
-                    && line.iter().any(|b| matches!(b, b',' | b';' | b'\t'))
-                    && line.iter().any(|b| b.is_ascii_alphabetic() && !matches!(b, b'e' | b'E'));
-                return Ok(if named { Reader::Csv } else { Reader::XyzText });
-            }
+            Extension::Xyz | Extension::Text => return Ok(Reader::XyzText),
             _ => {}
         }
+    } else if hint == Extension::Csv && is_readable(bytes) {
+        return Ok(Reader::Csv);
     } else if hint == Extension::Xyz {
         return Ok(Reader::XyzRaw);
     }
@@ -297,8 +295,33 @@ fn is_text(bytes: &[u8]) -> bool {
         // A character cut by the end of the prefix is no fault.
         Err(e) => e.error_len().is_none() && head.len() < bytes.len(),
     };
-    valid
-        && !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
+    valid && is_readable(bytes)
+}
+
+/// Whether the beginning has no control characters: text in whatever encoding (a unit may have a superscript).
+fn is_readable(bytes: &[u8]) -> bool {
+    let head = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
+    !head.iter().any(|b| b.is_ascii_control() && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c))
+}
+
+/// Text in UTF-16 that begins with its mark, as spreadsheets write it, as UTF-8.
+pub(super) fn from_utf16(bytes: &[u8]) -> Option<Vec<u8>> {
+    let (mark, rest) = bytes.split_first_chunk::<2>()?;
+    let unit: fn([u8; 2]) -> u16 = match mark {
+        b"\xff\xfe" => u16::from_le_bytes,
+        b"\xfe\xff" => u16::from_be_bytes,
+        _ => return None,
+    };
+    let decode = |bytes: &[u8]| {
+        let units = bytes.as_chunks::<2>().0.iter().map(|pair| unit(*pair));
+        char::decode_utf16(units)
+            .map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
+            .collect::<String>()
+    };
+    // Raw numbers may begin so.
+    let head = decode(rest.get(..rest.len().min(4096)).unwrap_or(rest));
+    let text = is_readable(head.as_bytes()) && !head.contains(char::REPLACEMENT_CHARACTER);
+    (text && !head.is_empty()).then(|| decode(rest).into_bytes())
 }
 
 fn describe(bytes: &[u8], hint: Extension) -> String {

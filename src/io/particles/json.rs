@@ -6,8 +6,9 @@
 use serde_json::Value;
 
 use super::bytes::show;
-use super::columns::{AttributeType, Data, Table, wanted};
+use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
+use super::names;
 use super::{Format, Particles};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
@@ -33,7 +34,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
         Value::Object(map) => {
             for (name, value) in map {
                 let Value::Array(rows) = value else { continue };
-                if !wanted(&name) {
+                if !names::wanted(&name) {
                     let components = rows.first().and_then(Value::as_array).map_or(1, Vec::len);
                     table.list(&name, components, AttributeType::Number);
                     continue;

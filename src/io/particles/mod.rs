@@ -36,7 +36,9 @@ mod error;
 mod format;
 mod geo;
 mod head;
+mod heading;
 mod json;
+mod names;
 mod numpy;
 mod parts;
 mod plan;
@@ -132,6 +134,9 @@ pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError>
 }
 
 fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, ReadError> {
+    if let Some(text) = format::from_utf16(bytes) {
+        return read_plain(&text, hint, gzip);
+    }
     let content = || source::Content::of_bytes(bytes);
     match format::detect(bytes, hint)? {
         format::Reader::Bgeo => bgeo::layout(bytes, gzip)?.read(bytes),

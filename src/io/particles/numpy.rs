@@ -10,8 +10,9 @@
 use std::io::{Cursor as IoCursor, Read};
 
 use super::bytes::{Cursor, show, unpack, unpack_limit};
-use super::columns::{Attribute, AttributeType, Data, Table, wanted};
+use super::columns::{Attribute, AttributeType, Data, Table};
 use super::error::{Place, ReadError};
+use super::names;
 use super::rows::{Field, Layout, Rows};
 use super::source::{self, Check, Input, Packing, Piece, Source};
 use super::{Format, Particles};
@@ -177,7 +178,7 @@ fn bad_zip(error: zip::result::ZipError) -> ReadError {
 /// The name of an array that may be used. Another one is listed.
 fn wanted_array(file: &mut zip::read::ZipFile<'_, impl Read>, table: &mut Table) -> Option<String> {
     let name = file.name().ok()?.strip_suffix(".npy")?.to_string();
-    if wanted(&name) {
+    if names::wanted(&name) {
         return Some(name);
     }
     // Its header alone is of interest; one that cannot be read is no reason to stop.

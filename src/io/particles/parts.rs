@@ -26,7 +26,7 @@ const START: u64 = 1 << 16;
 /// header of VTK XML are its elements without the texts that are longer than 64 characters. A block that LZ4 or LZMA has
 /// packed is unpacked as a whole, by LZMA with a dictionary of 64 MiB at most.
 ///
-/// This holds for all formats but JSON, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
+/// This holds for all formats but JSON, text in UTF-16, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
 /// by deflate, and VTK XML whose texts have references (`&#32;`) or CDATA in them. Those are read as a whole: see
 /// [`in_memory`](Self::in_memory), but for the last, of which the header alone is as long as the file. Attributes of VTK
 /// have places of their own in the file: what gzip has packed is unpacked for each of them.
@@ -244,6 +244,9 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
     let all = (start.len() as u64) < START;
     // What that is not enough to tell is nothing that comes in parts.
     if !all && start.trim_ascii_start().len() < start.len() / 2 {
+        return Ok(None);
+    }
+    if format::from_utf16(&start).is_some() {
         return Ok(None);
     }
     let Ok(reader) = format::detect(&start, hint) else { return Ok(None) };

@@ -77,9 +77,10 @@ pub(super) struct Surveyed {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(tracks: Vec<Track<'a>>, about: About, limit: u64) -> Result<Self, ReadError> {
-        let About { placed, attributes, warnings, format } = about;
+        let About { placed, attributes, mut warnings, format } = about;
         let shapes: Vec<_> = tracks.iter().flat_map(shapes).collect();
         let roles = Roles::find(&shapes, placed, &attributes)?;
+        warnings.extend(roles.warnings());
         let known = tracks.iter().all(|track| track.lengths.is_some());
         let rows = if known { Some(roles.rows(&shapes)?) } else { None };
         let mut used = vec![false; shapes.len()];

@@ -15,6 +15,7 @@ use super::columns::{self, AttributeType, Column, PLACED};
 use super::encoded::Encoding;
 use super::error::{Place, ReadError};
 use super::head::{Head, Words};
+use super::names;
 use super::plan::{About, Plan};
 use super::source::Content;
 use super::text::Text;
@@ -133,7 +134,7 @@ fn plan_of<'a>(content: &Content<'a>, head: &Head) -> Result<Option<Plan<'a>>, R
             let wanted = if first_piece {
                 columns::list(&mut attributes, &name, components, ty)
             } else {
-                columns::wanted(&name)
+                names::wanted(&name)
             };
             if !wanted || ty.size().is_none() {
                 continue;

@@ -1,13 +1,20 @@
 //! XYZ: a line of numbers for each particle, or raw little-endian `f32` triples without any header.
 //!
 //! Of a line the first three numbers are the position; spaces, tabs, commas and semicolons separate. Empty lines
-//! and lines that begin with `#`, `%` or `//` are passed over. A first line of one number is the count, and the
-//! line after it may be a comment. A first line of names (`x y z vx vy vz`) names the columns.
+//! and lines that begin with `#`, `%` or `//` are passed over. A line of names (`x y z vx vy vz`) above the numbers, `#`
+//! before it or not, names the columns.
+//!
+//! A first line of one number is the count, as chemists have it: the line behind it is a comment, which may say what the
+//! columns are (`Properties=species:S:1:pos:R:3`, extended XYZ), and else the first of four columns or more, or one of
+//! words, is the element.
 
 use super::Format;
 use super::bytes::{parse_number, show};
-use super::columns::{self, AttributeType, Column, PLACED, names_position};
+use super::columns::{self, AttributeType, Column, PLACED};
+use super::comma::{self, passed_over, unnamed};
 use super::error::{Place, ReadError};
+use super::heading::{self, Heading, Line, is_comment, number_with_comma};
+use super::names;
 use super::plan::About;
 use super::rows::{Field, Layout, Rows};
 use super::source::Content;
@@ -44,33 +51,158 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
 pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     let mut about =
         About { placed: None, attributes: Vec::new(), warnings: Vec::new(), format: Format::Xyz };
-    let mut lines = Lines {
-        text: Text::of(content)?,
-        number: 0,
-        rows: 0,
-        promised: None,
-        columns: Vec::new(),
-        unread: None,
+    let lines = heading::lines(content)?;
+    let counted = Counted::of(&lines);
+    let (heading, promised) = match counted {
+        Some(Counted { heading, count }) => (heading, Some(count)),
+        None => (Heading::of(&lines), None),
     };
-    let names = lines.names(&mut about)?;
-    if names.is_empty() {
-        lines.end()?;
-        if lines.promised.is_none() {
+    let named = !heading.names.is_empty();
+    if let (Some(delimiter), true, None) = (heading.delimiter, named, promised) {
+        return comma::open_at(content, heading, delimiter);
+    }
+    about.warnings.extend(passed_over(heading.passed));
+    let first = lines.iter().find(|line| line.start >= heading.at && !is_comment(&line.text));
+    let mut names = heading.names;
+    let commas = heading.delimiter == Some(b',');
+    match first {
+        None if promised.is_none() && !named => {
             return Err(ReadError::malformed("lines of three numbers", "none", Place::Unknown));
         }
-        about.placed = Some(0);
-        let columns = vec![Column::new(PLACED, 3, AttributeType::Number)];
-        return Ok(Table { columns, about, rows: Box::new(lines) });
+        Some(line) if !named => {
+            let row: Vec<_> = words(&line.text, commas).collect();
+            let from = element(&lines, heading.at, commas, promised.is_some());
+            if row.len() < from + 2 {
+                return Err(bad_line(&line.text, heading.line + 1));
+            }
+            names.extend((0..from).map(|_| "element".to_string()));
+            names.extend((from..row.len()).map(|i| unnamed(i - from)));
+            about.warnings.extend(unnamed_warning(from, row.len()));
+        }
+        _ => {}
+    }
+    let mut rows = Lines {
+        text: Text::new(content.open(heading.at, content.length())?),
+        number: heading.line,
+        rows: 0,
+        promised,
+        commas,
+        columns: Vec::new(),
+    };
+    if names.is_empty() {
+        names.extend((0..3).map(unnamed));
     }
     let mut columns = Vec::new();
     for name in &names {
         let keep = columns::list(&mut about.attributes, name, 1, AttributeType::Number);
-        lines.columns.push(keep.then_some(columns.len()));
+        rows.columns.push(keep.then_some(columns.len()));
         if keep {
             columns.push(Column::new(name, 1, AttributeType::Number));
         }
     }
-    Ok(Table { columns, about, rows: Box::new(lines) })
+    Ok(Table { columns, about, rows: Box::new(rows) })
+}
+
+/// What is said of columns without names, of which so many are an element.
+fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
+    let more = columns > from + 3;
+    match from {
+        0 if more => Some(format!(
+            "no line of names: the first 3 of {columns} columns are taken as positions, the others are not read"
+        )),
+        1 if more => Some(format!(
+            "no line of names: the first of {columns} columns is taken as the element, the 3 behind it as positions, \
+             the others are not read"
+        )),
+        _ => None,
+    }
+}
+
+/// How many columns are before the position: one of words, or in files with a count one of whole numbers.
+fn element(lines: &[Line], at: u64, commas: bool, counted: bool) -> usize {
+    let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
+    let rows: Vec<Vec<_>> = rows.map(|line| words(&line.text, commas).collect()).collect();
+    let numbers = |row: &Vec<&[u8]>| row.iter().filter(|w| number(w).is_some()).count();
+    let first = |test: &dyn Fn(&[u8]) -> bool| {
+        // The next frame's lines may be among them.
+        rows.first().and_then(|row| row.first()).is_some_and(|word| test(word))
+    };
+    let of_word = first(&|word| number(word).is_none());
+    let whole = |word: &[u8]| word.iter().all(u8::is_ascii_digit);
+    let same = rows.first().map_or(0, Vec::len);
+    let of_number = counted
+        && same > 3
+        && rows
+            .iter()
+            .filter(|row| row.len() == same)
+            .all(|row| row.first().is_some_and(|w| whole(w)));
+    let enough = rows.first().is_some_and(|row| numbers(row) >= 3);
+    usize::from((of_word || of_number) && enough)
+}
+
+/// What a file with a count begins with.
+struct Counted {
+    heading: Heading,
+    count: u64,
+}
+
+impl Counted {
+    /// None of a file whose first line is no count.
+    fn of(lines: &[Line]) -> Option<Self> {
+        let at = lines.iter().position(|line| !is_comment(&line.text))?;
+        let first = lines.get(at)?;
+        let text = std::str::from_utf8(first.text.trim_ascii()).ok()?;
+        let count = text.parse().ok()?;
+        let mut heading = Heading {
+            delimiter: None,
+            names: Vec::new(),
+            at: first.next,
+            line: at as u64 + 1,
+            passed: 0,
+        };
+        let Some(comment) = lines.get(at + 1) else { return Some(Self { heading, count }) };
+        let row = lines.iter().skip(at + 2).find(|line| !is_comment(&line.text));
+        heading.delimiter = heading::delimiter(row.map_or(&comment.text, |row| &row.text));
+        let commas = heading.delimiter == Some(b',');
+        let fields = |line: &Line| words(&line.text, commas).count();
+        let numbers = words(&comment.text, commas).filter(|w| number(w).is_some()).count();
+        let alike = row.is_none_or(|row| fields(row) == fields(comment));
+        if numbers >= 2 && numbers == fields(comment) && alike {
+            // No comment, but the first particle.
+            return Some(Self { heading, count });
+        }
+        heading.at = comment.next;
+        heading.line += 1;
+        heading.names = properties(&comment.text).unwrap_or_else(|| {
+            let names = heading::fields(&comment.text, None);
+            let same = row.is_some_and(|row| fields(row) == names.len());
+            if same && names::have_positions(&names) { names } else { Vec::new() }
+        });
+        Some(Self { heading, count })
+    }
+}
+
+/// Names of the columns as the comment of extended XYZ has them, a component each.
+fn properties(comment: &[u8]) -> Option<Vec<String>> {
+    let text = std::str::from_utf8(comment).ok()?;
+    let start = text.to_ascii_lowercase().find("properties=")? + "properties=".len();
+    let value = text.get(start..)?.trim_start_matches(['"', '\'']);
+    let value = value.split(|c: char| c.is_whitespace() || c == '"' || c == '\'').next()?;
+    let words: Vec<_> = value.split(':').collect();
+    let mut names = Vec::new();
+    for property in words.chunks(3) {
+        let [name, kind, count] = property else { return None };
+        let count: usize = count.parse().ok().filter(|count| (1..=64).contains(count))?;
+        let numbers = matches!(*kind, "R" | "I");
+        for i in 0..count {
+            names.push(match (numbers, count) {
+                (false, _) => format!("{name} (text)"),
+                (true, 1) => (*name).to_string(),
+                (true, _) => format!("{name}:{i}"),
+            });
+        }
+    }
+    Some(names).filter(|names| names::have_positions(names))
 }
 
 struct Lines<'a> {
@@ -80,61 +212,13 @@ struct Lines<'a> {
     /// Particles until now.
     rows: u64,
     promised: Option<u64>,
+    /// Whether commas separate.
+    commas: bool,
     /// For each word of a line the column that takes it.
     columns: Vec<Option<usize>>,
-    /// The first particle, where no names stand before it.
-    unread: Option<Vec<u8>>,
 }
 
 impl Lines<'_> {
-    /// Names of the columns, from the first line that tells them; none where there is no such line.
-    fn names(&mut self, about: &mut About) -> Result<Vec<String>, ReadError> {
-        while let Some(line) = self.text.line()? {
-            self.number += 1;
-            let line = line.trim_ascii();
-            if is_comment(line) {
-                continue;
-            }
-            let words: Vec<_> = words(line).collect();
-            let numeric = words.iter().all(|w| parse_number(w).is_some());
-            if self.promised.is_none() && words.len() == 1 && numeric {
-                let count = std::str::from_utf8(line).ok().and_then(|w| w.parse::<u64>().ok());
-                self.promised = Some(count.ok_or_else(|| {
-                    ReadError::malformed(
-                        "three numbers, or the number of particles",
-                        show(line),
-                        Place::Line(self.number),
-                    )
-                })?);
-                continue;
-            }
-            let header: Vec<String> = words
-                .iter()
-                .map(|w| String::from_utf8_lossy(w).trim_matches('"').to_string())
-                .collect();
-            if !numeric && header.iter().any(|n| names_position(n)) {
-                return Ok(header);
-            }
-            if self.promised.is_some() && (!numeric || words.len() < 3) {
-                if self.number > 2 {
-                    return Err(bad_line(line, self.number));
-                }
-                continue; // the comment after the count
-            }
-            let mut names: Vec<_> = ["x", "y", "z"].map(String::from).into();
-            if words.len() > 3 {
-                about.warnings.push(format!(
-                    "no line of names: the first 3 of {} columns are taken as positions, the others are not read",
-                    words.len()
-                ));
-                names.extend((4..=words.len()).map(|i| format!("column {i}")));
-            }
-            self.unread = Some(line.to_vec());
-            return Ok(names);
-        }
-        Ok(Vec::new())
-    }
-
     /// After the last line.
     fn end(&self) -> Result<(), ReadError> {
         match self.promised {
@@ -149,22 +233,29 @@ impl Lines<'_> {
 
 impl RowReader for Lines<'_> {
     fn next(&mut self, columns: &mut [Column]) -> Result<bool, ReadError> {
-        if let Some(line) = self.unread.take() {
-            row(&line, self.number, &self.columns, columns)?;
-            self.rows += 1;
-            return Ok(true);
-        }
         while let Some(line) = self.text.line()? {
             self.number += 1;
             let line = line.trim_ascii();
-            if !is_comment(line) {
-                row(line, self.number, &self.columns, columns)?;
-                self.rows += 1;
-                return Ok(true);
+            if is_comment(line) {
+                continue;
             }
+            if self.promised == Some(self.rows) && line.iter().all(u8::is_ascii_digit) {
+                return Err(several_frames(self.number));
+            }
+            row(line, self.number, self.commas, &self.columns, columns)?;
+            self.rows += 1;
+            return Ok(true);
         }
         self.end()?;
         Ok(false)
+    }
+}
+
+/// A file that holds more than one.
+pub(super) fn several_frames(line: u64) -> ReadError {
+    ReadError::Unsupported {
+        what: format!("a file of several frames (the second begins in line {line})"),
+        advice: "write a file for each frame, numbered by it, or cut this one: split -d -l LINES FILE frame_",
     }
 }
 
@@ -172,23 +263,20 @@ impl RowReader for Lines<'_> {
 fn row(
     line: &[u8],
     number: u64,
+    commas: bool,
     taken: &[Option<usize>],
     columns: &mut [Column],
 ) -> Result<(), ReadError> {
-    let mut words = words(line);
+    let mut words = words(line, commas);
     for column in taken {
         let word = words.next().ok_or_else(|| bad_line(line, number))?;
-        let column = column.and_then(|i| columns.get_mut(i));
-        if column.is_some_and(|column| !column.data.push_text(word)) {
+        let Some(column) = column.and_then(|i| columns.get_mut(i)) else { continue };
+        let decimal = || number_with_comma(word).filter(|_| !commas);
+        if !column.data.push_text(word) && !decimal().is_some_and(|x| column.data.push_number(x)) {
             return Err(bad_line(line, number));
         }
     }
     Ok(())
-}
-
-/// Whether a line, without the space around it, is passed over.
-fn is_comment(line: &[u8]) -> bool {
-    line.is_empty() || [&b"#"[..], b"%", b"//"].iter().any(|c| line.starts_with(c))
 }
 
 fn bad_line(line: &[u8], number: u64) -> ReadError {
@@ -199,7 +287,12 @@ fn bad_line(line: &[u8], number: u64) -> ReadError {
     )
 }
 
-fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
-    line.split(|b| b.is_ascii_whitespace() || matches!(b, b',' | b';'))
+fn number(word: &[u8]) -> Option<f64> {
+    parse_number(word).or_else(|| number_with_comma(word))
+}
+
+/// `commas`: whether these separate, or are those of decimals.
+fn words(line: &[u8], commas: bool) -> impl Iterator<Item = &[u8]> {
+    line.split(move |b| b.is_ascii_whitespace() || (commas && *b == b',') || *b == b';')
         .filter(|word| !word.is_empty())
 }

@@ -1,0 +1,211 @@
+//! The beginning of a table in text: what separates its fields, what its columns are called, and where its rows begin.
+//!
+//! Names stand in the line before the rows, with or without `#` before them; programs write comments and lines of their
+//! own above it. A line is that of the names where positions are among them and the line of numbers that follows has as
+//! many fields.
+
+use super::bytes::parse_number;
+use super::error::ReadError;
+use super::names::have_positions;
+use super::source::Content;
+use super::text::Text;
+
+/// Lines in which the names are looked for.
+const LINES: usize = 64;
+
+/// What a table begins with.
+pub(super) struct Heading {
+    /// What separates fields; none where blanks do, and whatever stands among them.
+    pub(super) delimiter: Option<u8>,
+    /// Those of the columns; none where there is no line of names.
+    pub(super) names: Vec<String>,
+    /// Where the rows begin, in bytes and in lines.
+    pub(super) at: u64,
+    pub(super) line: u64,
+    /// Lines before the names, or before the rows, that are neither empty nor comments.
+    pub(super) passed: u64,
+}
+
+/// A line, and where the next one begins.
+pub(super) struct Line {
+    pub(super) text: Vec<u8>,
+    pub(super) start: u64,
+    pub(super) next: u64,
+}
+
+/// The first lines of a text.
+pub(super) fn lines(content: &Content<'_>) -> Result<Vec<Line>, ReadError> {
+    let mut text = Text::of(content)?;
+    let mut lines = Vec::new();
+    while lines.len() < LINES {
+        let start = text.at();
+        let Some(line) = text.line()? else { break };
+        let line = line.to_vec();
+        lines.push(Line { text: line, start, next: text.at() });
+    }
+    Ok(lines)
+}
+
+/// Without the mark of a comment, and whether there was one.
+fn uncommented(line: &[u8]) -> (&[u8], bool) {
+    let line = line.trim_ascii();
+    let mark = [&b"#"[..], b"%", b"//"].iter().find_map(|mark| line.strip_prefix(*mark));
+    match mark {
+        Some(rest) => (rest.trim_ascii_start(), true),
+        None => (line, false),
+    }
+}
+
+/// Whether a line is passed over.
+pub(super) fn is_comment(line: &[u8]) -> bool {
+    let (rest, marked) = uncommented(line);
+    marked || rest.is_empty()
+}
+
+/// What separates the fields of a line of numbers. Where others do, commas are those of decimals.
+pub(super) fn delimiter(line: &[u8]) -> Option<u8> {
+    let line = line.trim_ascii();
+    let comma = line.contains(&b',');
+    if line.contains(&b';') {
+        return Some(b';');
+    }
+    let words = || line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    let decimal = |word: &[u8]| !word.contains(&b',') || number_with_comma(word).is_some();
+    if comma && !(words().count() > 1 && words().all(decimal)) {
+        return Some(b',');
+    }
+    line.contains(&b'\t').then_some(b'\t')
+}
+
+/// The fields of a line, without those behind the last separator.
+pub(super) fn fields(line: &[u8], delimiter: Option<u8>) -> Vec<String> {
+    let Some(delimiter) = delimiter else { return words(line) };
+    let mut reader = csv::ReaderBuilder::new();
+    reader.has_headers(false).delimiter(delimiter).trim(csv::Trim::All);
+    let mut record = csv::ByteRecord::new();
+    let mut fields = Vec::new();
+    if reader.from_reader(line).read_byte_record(&mut record).unwrap_or(false) {
+        fields.extend(record.iter().map(|f| String::from_utf8_lossy(f).trim().to_string()));
+    }
+    while fields.last().is_some_and(String::is_empty) {
+        fields.pop();
+    }
+    fields
+}
+
+/// Names between blanks, each with the units in brackets and quotes that it has.
+fn words(line: &[u8]) -> Vec<String> {
+    let text = String::from_utf8_lossy(line);
+    let mut words: Vec<String> = Vec::new();
+    let mut open = None;
+    let mut inside = false;
+    for c in text.chars() {
+        match (open, c) {
+            (None, '"' | '\'') => open = Some(c),
+            (None, '[') => open = Some(']'),
+            (None, '(') => open = Some(')'),
+            (Some(end), c) if c == end => open = None,
+            _ => {}
+        }
+        if open.is_none() && (c.is_whitespace() || c == ';') {
+            inside = false;
+            continue;
+        }
+        // A unit belongs to the name before it.
+        let unit = !inside && matches!(c, '[' | '(') && !words.is_empty();
+        if !inside && !unit {
+            words.push(String::new());
+        } else if unit {
+            words.last_mut().into_iter().for_each(|word| word.push(' '));
+        }
+        inside = true;
+        words.last_mut().into_iter().for_each(|word| word.push(c));
+    }
+    words.iter().map(|word| word.trim_matches(['"', '\'']).trim().to_string()).collect()
+}
+
+/// A number as it may stand in a field of this table; an empty field is none.
+pub(super) fn is_number(field: &str, delimiter: Option<u8>) -> bool {
+    let decimal = || delimiter != Some(b',') && number_with_comma(field.as_bytes()).is_some();
+    field.is_empty() || parse_number(field.as_bytes()).is_some() || decimal()
+}
+
+/// A number whose decimals stand behind a comma.
+pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
+    let comma = field.iter().position(|b| *b == b',')?;
+    let mut field = field.to_vec();
+    *field.get_mut(comma)? = b'.';
+    parse_number(&field)
+}
+
+impl Heading {
+    pub(super) fn read(content: &Content<'_>) -> Result<Self, ReadError> {
+        Ok(Self::of(&lines(content)?))
+    }
+
+    pub(super) fn of(lines: &[Line]) -> Self {
+        let passed = |upto: usize| {
+            lines.iter().take(upto).filter(|line| !is_comment(&line.text)).count() as u64
+        };
+        let data = |after: usize| lines.iter().skip(after).find(|line| !is_comment(&line.text));
+        for (i, line) in lines.iter().enumerate() {
+            let (names_line, _) = uncommented(&line.text);
+            let row = data(i + 1);
+            let separator = row.map_or_else(|| delimiter(names_line), |row| delimiter(&row.text));
+            let count = row.map(|row| fields(&row.text, separator).len());
+            let mut separators = vec![separator];
+            separators.extend([b';', b'\t', b','].map(Some));
+            separators.push(None);
+            let names = separators.into_iter().map(|d| fields(names_line, d)).find(|names| {
+                let words = names.iter().any(|name| !is_number(name, None));
+                words && count.is_none_or(|count| count == names.len()) && have_positions(names)
+            });
+            if let Some(names) = names {
+                let (at, line) = (line.next, i as u64 + 1);
+                return Self { delimiter: separator, names, at, line, passed: passed(i) };
+            }
+            if i > 0 && !is_comment(&line.text) && row.is_none() {
+                break;
+            }
+        }
+        Self::unnamed(lines, passed)
+    }
+
+    /// Where rows begin that have no names with positions among them.
+    fn unnamed(lines: &[Line], passed: impl Fn(usize) -> u64) -> Self {
+        let numbers = |line: &Line| {
+            let separator = delimiter(&line.text);
+            let fields = fields(&line.text, separator);
+            let all = fields.iter().all(|field| is_number(field, separator));
+            (separator, all, fields)
+        };
+        let mut before: Option<Vec<String>> = None;
+        for (i, line) in lines.iter().enumerate() {
+            if is_comment(&line.text) {
+                continue;
+            }
+            let (separator, all, fields) = numbers(line);
+            if all && fields.len() >= 2 {
+                // Names of which none is a position are those of the columns all the same.
+                let names = before.filter(|names| names.len() == fields.len());
+                return Self {
+                    delimiter: separator,
+                    names: names.unwrap_or_default(),
+                    at: line.start,
+                    line: i as u64,
+                    passed: passed(i),
+                };
+            }
+            before = Some(fields);
+        }
+        let first = lines.iter().position(|line| !is_comment(&line.text));
+        let line = first.and_then(|i| lines.get(i));
+        Self {
+            delimiter: line.and_then(|line| delimiter(&line.text)),
+            names: Vec::new(),
+            at: line.map_or_else(|| lines.last().map_or(0, |line| line.next), |line| line.start),
+            line: first.unwrap_or(lines.len()) as u64,
+            passed: 0,
+        }
+    }
+}

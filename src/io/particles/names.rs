@@ -1,0 +1,169 @@
+//! What names of attributes mean, however programs spell them.
+//!
+//! Case, blanks and `_ - . :` say nothing, and neither does a unit in brackets: `Pos.x [m]`, `pos_x` and `PosX` are one
+//! name. Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. What
+//! begins with `particle` or `part` means what the rest does: `Part id`, `particle_velocity_x`.
+
+/// Names with a meaning, as [`plain`] gives them, the surest first.
+pub(super) type Names = &'static [&'static str];
+
+pub(super) const POSITION: Names = &[
+    "position",
+    "positions",
+    "pos",
+    "points",
+    "point",
+    "coordinates",
+    "coordinate",
+    "coords",
+    "coord",
+    "location",
+    "locations",
+    "xyz",
+    "x",
+    "xp",
+    "p",
+];
+pub(super) const VELOCITY: Names =
+    &["velocity", "velocities", "vel", "vels", "velo", "v", "vp", "u"];
+pub(super) const DENSITY: Names = &["density", "densities", "rho", "rhop", "dens", "massdensity"];
+pub(super) const ID: Names = &[
+    "id",
+    "ids",
+    "idp",
+    "pid",
+    "pids",
+    "gid",
+    "gids",
+    "globalid",
+    "globalids",
+    "uid",
+    "identifier",
+    "originalparticleid",
+    "originalid",
+    "origid",
+    "index",
+];
+pub(super) const LIFETIME: Names = &["lifetime", "life"];
+pub(super) const KIND: Names = &["type"];
+
+/// What names are looked for where there are no positions.
+pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";
+
+/// How the components of a vector are told apart.
+const SUFFIXES: [[&str; 3]; 3] = [["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"]];
+
+/// A name without what says nothing.
+pub(super) fn plain(name: &str) -> String {
+    let mut out = String::with_capacity(name.len());
+    let mut rest = name;
+    while let Some(first) = rest.chars().next() {
+        let behind = rest.get(first.len_utf8()..).unwrap_or_default();
+        let closing = match first {
+            '[' => ']',
+            '(' => ')',
+            '{' => '}',
+            _ => {
+                if !first.is_whitespace() && !"_-.:\"'#`".contains(first) {
+                    out.extend(first.to_lowercase());
+                }
+                rest = behind;
+                continue;
+            }
+        };
+        let (inner, behind) = behind.split_once(closing).unwrap_or((behind, ""));
+        let inner = inner.trim().to_ascii_lowercase();
+        // A unit, unless it tells which component it is.
+        if !out.is_empty() && SUFFIXES.iter().any(|s| s.contains(&inner.as_str())) {
+            out.push_str(&inner);
+        }
+        rest = behind;
+    }
+    // Of a particle they are all.
+    let of_particle = ["particles", "particle", "part"].iter();
+    let stripped = of_particle.filter_map(|word| out.strip_prefix(word)).find(|rest| known(rest));
+    match stripped {
+        Some(rest) => rest.to_string(),
+        None => out,
+    }
+}
+
+/// The plain names of three scalars that a vector may be split into.
+pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
+    let position = names == POSITION;
+    let bare = std::iter::once("").filter(move |_| position);
+    let split = bare.chain(names.iter().copied()).flat_map(move |base| {
+        let suffixes = SUFFIXES.iter().filter(move |[first, ..]| match base {
+            "" => *first == "x",
+            // `xx` is a component of a tensor, and `x_0 x_1 x_2` is a position.
+            "x" | "xp" | "xyz" => *first != "x",
+            _ => true,
+        });
+        suffixes.map(move |suffixes| suffixes.map(|suffix| format!("{base}{suffix}")))
+    });
+    let uvw = (names == VELOCITY).then(|| ["u", "v", "w"].map(String::from));
+    split.chain(uvw)
+}
+
+/// Whether a plain name has a meaning.
+fn known(name: &str) -> bool {
+    [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND].iter().any(|names| names.contains(&name))
+        || [POSITION, VELOCITY]
+            .iter()
+            .any(|names| triples(names).any(|t| t.iter().any(|n| n == name)))
+}
+
+/// Whether an attribute of this name may be used, so that a reader need not unpack the others.
+pub(super) fn wanted(name: &str) -> bool {
+    known(&plain(name))
+}
+
+/// Whether columns of these names have positions among them, of two dimensions at least: tells a line of names from others.
+pub(super) fn have_positions<N: AsRef<str>>(names: &[N]) -> bool {
+    let plain: Vec<String> = names.iter().map(|name| plain(name.as_ref())).collect();
+    triples(POSITION)
+        .any(|[x, y, z]| plain.contains(&x) && (plain.contains(&y) || plain.contains(&z)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_name_in_many_spellings() {
+        for (name, expected) in [
+            ("Pos.x [m]", "posx"),
+            ("  \"Vel.z [m/s]\" ", "velz"),
+            ("Points:0", "points0"),
+            ("Points_2", "points2"),
+            ("velocity[1] (m/s)", "velocity1"),
+            ("velocity (x)", "velocityx"),
+            ("Vel [m/s]:0", "vel0"),
+            ("v_1", "v1"),
+            ("X (m)", "x"),
+            ("Rhop [kg/m^3]", "rhop"),
+            ("OriginalParticle_ID", "originalparticleid"),
+            ("Part id", "id"),
+            ("particle_position_x", "positionx"),
+            ("Particle Type", "type"),
+            ("PART", "part"),
+            ("particle_flags", "particleflags"),
+            ("[m]", ""),
+            ("x[", "x"),
+            ("Vitesse (\u{b5}m/s)", "vitesse"),
+        ] {
+            assert_eq!(plain(name), expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_wanted() {
+        for name in ["U", "u", "v_3", "v_0", "Idp", "origId", "Rhop", "Part id", "ux", "VX", "w"] {
+            assert!(wanted(name), "{name}");
+        }
+        for name in ["xx", "d", "PART", "mass", "nx", "Points_Magnitude", "v_4", "v_mag", "", "age"]
+        {
+            assert!(!wanted(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! The same particles as programs that people have spell them and lay them out.
+
+use whitewater::io::particles::{Extension, Format, Particles, read_bytes};
+
+fn read(text: &str, hint: Extension) -> Particles {
+    read_bytes(text.as_bytes(), hint).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+fn error(text: &str, hint: Extension, parts: &[&str]) -> String {
+    let error = match read_bytes(text.as_bytes(), hint) {
+        Ok(p) => panic!("{} particles read of\n{text}", p.positions.len()),
+        Err(e) => e.to_string(),
+    };
+    for part in parts {
+        assert!(error.contains(part), "`{part}` is not in: {error}");
+    }
+    error
+}
+
+/// Two particles, by their columns.
+const ROWS: [[f64; 8]; 2] =
+    [[1.5, 2.5, -3.0, 0.25, -0.5, 4.0, 7.0, 998.5], [10.0, 0.125, 2.0, 1.0, 2.0, 3.0, 8.0, 1001.0]];
+
+/// Whether all of it was read: position, velocity, id and density.
+fn check(name: &str, p: &Particles) {
+    let all = |column: usize| ROWS.map(|row| [0, 1, 2].map(|k| row[column + k] as f32));
+    assert_eq!(p.positions, all(0), "{name}");
+    assert_eq!(p.velocities.as_deref(), Some(&all(3)[..]), "{name}");
+    assert_eq!(p.ids.as_deref(), Some(&ROWS.map(|row| row[6] as u32)[..]), "{name}");
+    assert_eq!(p.densities.as_deref(), Some(&ROWS.map(|row| row[7] as f32)[..]), "{name}");
+    assert!(p.warnings.is_empty(), "{name}: {:?}", p.warnings);
+}
+
+/// The rows, with what separates numbers and what ends lines.
+fn rows(separator: &str, end: &str) -> String {
+    let line = |row: &[f64; 8]| {
+        let words: Vec<_> = row.iter().map(f64::to_string).collect();
+        words.join(separator) + end
+    };
+    ROWS.iter().map(line).collect()
+}
+
+/// Names of eight columns as programs write them.
+const NAMES: [(&str, [&str; 8]); 14] = [
+    ("plain", ["x", "y", "z", "vx", "vy", "vz", "id", "rho"]),
+    ("sphsol", ["X", "Y", "Z", "VX", "VY", "VZ", "ID", "DENSITY"]),
+    (
+        "DualSPHysics",
+        [
+            "Pos.x [m]",
+            "Pos.y [m]",
+            "Pos.z [m]",
+            "Vel.x [m/s]",
+            "Vel.y [m/s]",
+            "Vel.z [m/s]",
+            "Idp",
+            "Rhop [kg/m^3]",
+        ],
+    ),
+    ("ParaView", ["Points:0", "Points:1", "Points:2", "Vel:0", "Vel:1", "Vel:2", "Idp", "Rhop"]),
+    ("ParaView 5.10", ["Points_0", "Points_1", "Points_2", "U_0", "U_1", "U_2", "origId", "rho"]),
+    ("taichi", ["x", "y", "z", "v_1", "v_2", "v_3", "id", "density"]),
+    ("pandas", ["pos_0", "pos_1", "pos_2", "vel_0", "vel_1", "vel_2", "particle_id", "density"]),
+    (
+        "yt",
+        [
+            "particle_position_x",
+            "particle_position_y",
+            "particle_position_z",
+            "particle_velocity_x",
+            "particle_velocity_y",
+            "particle_velocity_z",
+            "particle_index",
+            "particle_density",
+        ],
+    ),
+    (
+        "OVITO",
+        [
+            "Position.X",
+            "Position.Y",
+            "Position.Z",
+            "Velocity.X",
+            "Velocity.Y",
+            "Velocity.Z",
+            "Particle Identifier",
+            "Density",
+        ],
+    ),
+    ("GPUSPH", ["x", "y", "z", "Velocity[0]", "Velocity[1]", "Velocity[2]", "Part id", "Density"]),
+    (
+        "SPHinXsys",
+        [
+            "Position (0)",
+            "Position (1)",
+            "Position (2)",
+            "Velocity (0)",
+            "Velocity (1)",
+            "Velocity (2)",
+            "OriginalParticle_ID",
+            "Density",
+        ],
+    ),
+    ("of one letter", ["x (m)", "y (m)", "z (m)", "u (m/s)", "v (m/s)", "w (m/s)", "ID", "rho"]),
+    ("with units", ["x[mm]", "y[mm]", "z[mm]", "ux", "uy", "uz", "gid", "rho_p"]),
+    ("as words", ["X", "Y", "Z", "Vel X", "Vel Y", "Vel Z", "Global ID", "Mass Density"]),
+];
+
+#[test]
+fn names_of_columns() {
+    for (name, names) in NAMES {
+        let text = format!("{}\n{}", names.join(","), rows(",", "\n"));
+        check(name, &read(&text, Extension::Csv));
+        // Behind `#`, after comments, with a separator at the end of each line, and in quotes.
+        let above = "# solver: example 1.2\n#\n# time = 0.32 s\n\n";
+        let text = format!("{above}# {}\n{}", names.join(","), rows(", ", "\n"));
+        check(name, &read(&text, Extension::Csv));
+        let text = format!("{}; \r\n{}", names.join(";"), rows(";", ";\r\n"));
+        check(name, &read(&text, Extension::Csv));
+        let quoted = names.map(|name| format!("\"{name}\""));
+        let text = format!("{above}{}\n{}", quoted.join(", "), rows(", ", "\n"));
+        check(name, &read(&text, Extension::Csv));
+        check(name, &read(&text, Extension::Xyz));
+        let text = format!("{}\n{}", quoted.join("\t"), rows("\t", "\n"));
+        check(name, &read(&text, Extension::Csv));
+        // Between blanks.
+        if !names.iter().any(|name| name.contains(' ') && !name.contains(['[', '('])) {
+            for hint in [Extension::Csv, Extension::Xyz, Extension::Text] {
+                let text = format!("{above}# {}\n{}", names.join("  "), rows("   ", "\n"));
+                check(name, &read(&text, hint));
+                let text = format!("{}\n{}", names.join(" "), rows(" ", "\n"));
+                check(name, &read(&text, hint));
+            }
+        }
+    }
+}
+
+#[test]
+fn names_of_arrays() {
+    for (position, velocity) in [
+        ("pos", "vel"),
+        ("P", "v"),
+        ("x_p", "v_p"),
+        ("particle_positions", "particle_velocities"),
+        ("Coordinates", "Velocities"),
+        ("points", "U"),
+        ("location", "u"),
+    ] {
+        let text = format!("{{\"{position}\":[[1,2,3],[4,5,6]],\"{velocity}\":[[0,1,0],[1,0,0]]}}");
+        let p = read(&text, Extension::Json);
+        assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], "{position}");
+        assert_eq!(p.velocities, Some(vec![[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]), "{velocity}");
+    }
+    // What is another thing: normals, a component of a tensor, a number of a process.
+    let p =
+        read("x,y,z,nx,ny,nz,sxx,origProc,Points_Magnitude\n1,2,3,0,0,1,5,3,4\n", Extension::Csv);
+    assert_eq!((p.velocities, p.ids, p.densities), (None, None, None));
+}
+
+#[test]
+fn head_lines_of_other_kinds_are_passed_over_and_told() {
+    let head = "TimeStep;Np;Nbound\n0.32;2;0\n\n";
+    let names = NAMES[2].1.join(";");
+    let mut p = read(&format!("{head}{names};\n{}", rows(";", ";\n")), Extension::Csv);
+    assert_eq!(p.warnings.len(), 1);
+    assert!(p.warnings[0].contains("2 lines above"), "{:?}", p.warnings);
+    p.warnings.clear();
+    check("head lines", &p);
+    // A comment with names in its words is none of them.
+    let p = read("# x and y are in metres\n1 2 3\n4 5 6\n", Extension::Xyz);
+    assert_eq!((p.positions.len(), p.warnings.len()), (2, 0));
+    // Faults are told with their line in the file.
+    error(&format!("{head}{names}\n1;2;3;4;5;6;7;x\n"), Extension::Csv, &["line 5", "Rhop"]);
+    error(
+        &format!("{head}{names}\n{}1;2;3\n", rows(";", "\n")),
+        Extension::Csv,
+        &["line 7", "8 fields"],
+    );
+    // Names of which none is a position are told.
+    error("a,b,c\n1,2,3\n", Extension::Csv, &["expected positions", "a: 1 x number, b"]);
+}
+
+#[test]
+fn decimal_commas_where_others_separate() {
+    let german = |separator: &str| rows(separator, "\n").replace('.', ",");
+    let names = NAMES[2].1;
+    check("semicolons", &read(&format!("{}\n{}", names.join(";"), german(";")), Extension::Csv));
+    check("tabs", &read(&format!("{}\n{}", names.join("\t"), german("\t")), Extension::Csv));
+    check("blanks", &read(&format!("# {}\n{}", names.join(" "), german(" ")), Extension::Xyz));
+    let p = read("0,5 1 2,25\n1 2 3\n", Extension::Xyz);
+    assert_eq!(p.positions, [[0.5, 1.0, 2.25], [1.0, 2.0, 3.0]]);
+    let p = read("1 2 3\n0,5 1 2,25\n", Extension::Xyz);
+    assert_eq!(p.positions[1], [0.5, 1.0, 2.25]);
+    // Commas that separate.
+    let p = read("1, 2,\t3\n4, 5,\t6\n", Extension::Xyz);
+    assert_eq!(p.positions, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+}
+
+#[test]
+fn text_in_other_encodings() {
+    let text = format!("{}\r\n{}", NAMES[2].1.join(";"), rows(";", "\r\n"));
+    let units: Vec<u16> = std::iter::once(0xfeff).chain(text.encode_utf16()).collect();
+    for big in [false, true] {
+        let bytes: Vec<u8> = units
+            .iter()
+            .flat_map(|u| if big { u.to_be_bytes() } else { u.to_le_bytes() })
+            .collect();
+        check("UTF-16", &read_bytes(&bytes, Extension::Csv).unwrap());
+    }
+    check("a mark", &read(&format!("\u{feff}{text}"), Extension::Csv));
+    // Latin-1: a superscript in a unit.
+    let bytes: Vec<u8> = text.replace("^3", "\u{b3}").chars().map(|c| c as u32 as u8).collect();
+    check("Latin-1", &read_bytes(&bytes, Extension::Csv).unwrap());
+}
+
+#[test]
+fn doubles_of_fortran() {
+    let p = read("  1.5D+00   2.5d-01  -3.0D0\n", Extension::Text);
+    assert_eq!(p.positions, [[1.5, 0.25, -3.0]]);
+}
+
+#[test]
+fn two_dimensions_are_told() {
+    for (text, expected) in [
+        ("x,y,vx,vy\n1,2,3,4\n", ([1.0, 2.0, 0.0], [3.0, 4.0, 0.0])),
+        ("x,z,vx,vz\n1,2,3,4\n", ([1.0, 0.0, 2.0], [3.0, 0.0, 4.0])),
+    ] {
+        let p = read(text, Extension::Csv);
+        assert_eq!((p.positions[0], p.velocities.unwrap()[0]), expected);
+        assert!(p.warnings[0].contains("two components"), "{:?}", p.warnings);
+    }
+    let p = read("{\"position\":[[1,2]],\"velocity\":[[3,4]]}", Extension::Json);
+    assert_eq!(p.positions, [[1.0, 2.0, 0.0]]);
+    assert_eq!(p.velocities, Some(vec![[3.0, 4.0, 0.0]]));
+}
+
+#[test]
+fn elements_of_counted_xyz() {
+    let expected = [[1.0, 2.5, 3.0], [4.0, 5.0, 6.0]];
+    for text in [
+        "2\nframe 8\nO 1 2.5 3\nH 4 5 6\n",
+        "2\n\n1 1 2.5 3\n1 4 5 6\n",
+        "2\nAtoms. Timestep: 0\n12 1 2.5 3\n7 4 5 6\n",
+        "2\n1 2.5 3\n4 5 6\n",
+        "2\n\n1 2.5 3\n4 5 6\n",
+        "O 1 2.5 3\nH 4 5 6\n",
+        // A comment that is numbers: the sides of a box.
+        "2\n10 10 10\nO 1 2.5 3\nH 4 5 6\n",
+        "# made by hand\n  2\nx y z\n1 2.5 3\n4 5 6\n",
+    ] {
+        let p = read(text, Extension::Xyz);
+        assert_eq!(p.positions, expected, "{text}");
+        assert!(p.warnings.is_empty(), "{text}: {:?}", p.warnings);
+        assert_eq!(p.format, Format::Xyz);
+    }
+    let p = read("2\n\nO 1 2.5 3 0.1 0.2 0.3\nH 4 5 6 0.1 0.2 0.3\n", Extension::Xyz);
+    assert_eq!(p.positions, expected);
+    assert!(p.warnings[0].contains("element"), "{:?}", p.warnings);
+}
+
+#[test]
+fn extended_xyz() {
+    let text = "2\nLattice=\"2 0 0 0 1 0 0 0 1\" Properties=species:S:1:id:I:1:pos:R:3:velo:R:3:rho:R:1 \
+                Time=0.32\nH 7 1.5 2.5 -3 0.25 -0.5 4 998.5\nO 8 10 0.125 2 1 2 3 1001\n";
+    check("extended", &read(text, Extension::Xyz));
+    check("extended", &read(&text.replace("species:S", "flag:L"), Extension::Text));
+}
+
+#[test]
+fn several_frames_of_xyz_are_refused() {
+    let frame = "2\nframe\nO 1 2 3\nO 4 5 6\n";
+    error(&frame.repeat(3), Extension::Xyz, &["several frames", "line 5", "a file for each frame"]);
+    let error =
+        error("2\n\nO 1 2 3\nO 4 5 6\nO 7 8 9\n", Extension::Xyz, &["expected 2", "found 3"]);
+    assert!(!error.contains("damaged"), "{error}");
+}
