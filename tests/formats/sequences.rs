@@ -12,6 +12,8 @@ impl Folder {
         let path = std::env::temp_dir().join(format!("whitewater-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&path).unwrap();
         for file in files {
+            let folder = path.join(file);
+            std::fs::create_dir_all(folder.parent().unwrap()).unwrap();
             std::fs::write(path.join(file), b"").unwrap();
         }
         Self(path)
@@ -80,6 +82,108 @@ fn the_number_is_the_run_that_differs() {
     let folder = Folder::new("single", &["dam27.npz", "still.ply", "a.ply"]);
     assert_eq!(folder.frames(&["dam27.npz"], None), named(&[(27, "dam27.npz")]));
     assert_eq!(folder.frames(&["*.ply"], None), named(&[(0, "a.ply"), (1, "still.ply")]));
+}
+
+/// Files in an order that is not theirs, and their times.
+fn times(name: &str, files: &[&str], pattern: &str) -> Vec<(u64, Option<f64>, String)> {
+    let folder = Folder::new(name, files);
+    let root = format!("{}/", folder.0.display());
+    let found = expand(&[folder.input(pattern)], None).unwrap();
+    let short = |path: &std::path::Path| path.display().to_string().replace(&root, "");
+    found.into_iter().map(|f| (f.number, f.time, short(&f.path))).collect()
+}
+
+/// Names of times, in their order.
+#[test]
+fn times_order_the_frames() {
+    for (name, pattern, files) in [
+        ("shortest", "t*.npz", &[("t0.32.npz", 0.32), ("t0.4.npz", 0.4), ("t0.44.npz", 0.44)][..]),
+        (
+            "fixed",
+            "*.vtk",
+            &[("fluid_0.90.vtk", 0.9), ("fluid_1.05.vtk", 1.05), ("fluid_10.00.vtk", 10.0)],
+        ),
+        (
+            "mixed",
+            "*.vtk",
+            &[("t0.vtk", 0.0), ("t0.5.vtk", 0.5), ("t1.vtk", 1.0), ("t1.25.vtk", 1.25)],
+        ),
+        (
+            "folders",
+            "*/cloud.vtp",
+            &[("9.92/cloud.vtp", 9.92), ("10/cloud.vtp", 10.0), ("10.04/cloud.vtp", 10.04)],
+        ),
+        (
+            "deep",
+            "*/lagrangian/c1/p.vtp",
+            &[("0.5/lagrangian/c1/p.vtp", 0.5), ("1e-05/lagrangian/c1/p.vtp", 1e-5)],
+        ),
+        (
+            "exponents",
+            "*.npz",
+            &[("e_3.600e-04.npz", 3.6e-4), ("e_4.000e-04.npz", 4e-4), ("e_4.000e-03.npz", 4e-3)],
+        ),
+        ("signs", "*.npz", &[("t_-0.5.npz", -0.5), ("t_0.npz", 0.0), ("t_0.25.npz", 0.25)]),
+        ("packed", "*.vtk.gz", &[("a.0.32.vtk.gz", 0.32), ("a.0.4.vtk.gz", 0.4)]),
+    ] {
+        let mut expected: Vec<(u64, Option<f64>, String)> =
+            files.iter().map(|(file, time)| (0, Some(*time), (*file).to_string())).collect();
+        expected.sort_by(|a, b| a.1.unwrap().total_cmp(&b.1.unwrap()));
+        (0..).zip(&mut expected).for_each(|(i, frame)| frame.0 = i);
+        let names: Vec<_> = files.iter().rev().map(|(file, _)| *file).collect();
+        assert_eq!(times(name, &names, pattern), expected, "{name}");
+    }
+}
+
+#[test]
+fn numbers_that_are_no_times() {
+    let frame = |number, path: &str| (number, None, path.to_string());
+    for (name, pattern, files) in [
+        ("letters", "*.vtu", &[(9, "fluid.0009.vtu"), (10, "fluid.0010.vtu")][..]),
+        ("no extension", "dump.*", &[(900, "dump.liggghts.900"), (1000, "dump.liggghts.1000")]),
+        ("dots", "*.vtk", &[(8, "Particle.Data_8.vtk"), (12, "Particle.Data_12.vtk")]),
+        ("whole folders", "*/p.vtk", &[(2, "2/p.vtk"), (10, "10/p.vtk")]),
+        ("hashes", "*.ply", &[(3, "2e4_3.ply"), (4, "2e4_4.ply")]),
+        (
+            "many digits",
+            "*.ply",
+            &[(3_000_000_000, "p_3000000000_of_4.ply"), (3_000_001_000, "p_3000001000_of_4.ply")],
+        ),
+        ("ranks", "*.vtu", &[(0, "p-00008.0000.vtu"), (1, "p-00008.0001.vtu")]),
+        // No program writes 1.10 for 1.1 among times of fewer decimals.
+        ("steps of runs", "*.vtk", &[(0, "run1.9.vtk"), (1, "run1.10.vtk")]),
+        // A minus behind another sign is that of the number.
+        (
+            "negative",
+            "*.npz",
+            &[(0, "step--1.npz"), (1, "step-0.npz"), (2, "step-1.npz"), (3, "step-2.npz")],
+        ),
+    ] {
+        let expected: Vec<_> = files.iter().map(|(number, file)| frame(*number, file)).collect();
+        let names: Vec<_> = files.iter().rev().map(|(_, file)| *file).collect();
+        assert_eq!(times(name, &names, pattern), expected, "{name}");
+    }
+    // A pattern says which number is that of the frame.
+    let files = ["f.1.0004.vtu", "f.1.0010.vtu"];
+    assert_eq!(times("said", &files, "f.1.%04d.vtu"), [frame(4, files[0]), frame(10, files[1])]);
+}
+
+#[test]
+fn two_files_of_a_frame_are_told_what_to_do() {
+    let fails = |name: &str, files: &[&str], pattern: &str| {
+        let folder = Folder::new(name, files);
+        expand(&[folder.input(pattern)], None).unwrap_err().to_string()
+    };
+    let phases = ["D_Fluid_8.vtk", "D_Fluid_9.vtk", "D_Oil_8.vtk", "D_Oil_9.vtk"];
+    let error = fails("phases", &phases, "D_*.vtk");
+    assert!(error.contains("both frame 8") && error.contains("D_Fluid_*.vtk'"), "{error}");
+    let ranks = ["0.1/p_0.vtk", "0.1/p_1.vtk", "0.2/p_0.vtk", "0.2/p_1.vtk"];
+    let error = fails("ranks of times", &ranks, "*/p_*.vtk");
+    assert!(error.contains("pieces of one frame") && error.contains(".pvtu"), "{error}");
+    let error = fails("times", &["a0.5.vtk", "b0.5.vtk"], "*.vtk");
+    assert!(error.contains("both frame 0"), "{error}");
+    let error = fails("width of numbers", &["f_8.vtk", "f_12.vtk"], "f_%04d.vtk");
+    assert!(error.contains("another width: try 'f_*.vtk'"), "{error}");
 }
 
 #[test]

@@ -5,10 +5,13 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 /// One file of a sequence.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// The number in its name; where names have none, its place in the order, from 0.
+    /// The number in its name; where names have none, or a time, its place in the order, from 0.
     pub number: u64,
+    /// The time in its name or in that of its folder, in the unit of who wrote it: of names whose numbers have a point or
+    /// an exponent (`t0.32`, `0.32/cloud`, `4.0e-04`).
+    pub time: Option<f64>,
     /// The file.
     pub path: PathBuf,
 }
@@ -65,7 +68,7 @@ pub enum SequenceError {
         highest: u64,
     },
     /// Two files of one number.
-    #[error("{} and {} are both frame {number}; narrow the pattern to one sequence", first.display(), second.display())]
+    #[error("{} and {} are both frame {number}: a sequence has one file for each; {advice}", first.display(), second.display())]
     Twice {
         /// The number.
         number: u64,
@@ -73,6 +76,8 @@ pub enum SequenceError {
         first: PathBuf,
         /// The other.
         second: PathBuf,
+        /// What to do.
+        advice: String,
     },
     /// The folder or a file could not be looked at.
     #[error("cannot list {}: {reason}; check the name and the permissions", path.display())]
@@ -110,7 +115,10 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
 /// An input is a file, a pattern with `*`, `?` or `[...]`, or one with `%d` or `%04d` in the file's name. A name
 /// that is a file is taken as that file, whatever is in it. All inputs together are one sequence, so that a
 /// pattern the shell has expanded gives the same as one it has not. The number of a frame is the run of digits
-/// in its name that differs from file to file (the last such), so `run2_frame_10` is frame 10.
+/// in its name that differs from file to file (the last such), so `run2_frame_10` is frame 10; of a pattern with `%d` it is
+/// the number there. Where the names of all files are alike it is in that of their folders (`10/cloud.vtp`). A number with
+/// a point or an exponent is a time, and a minus that stands behind another sign belongs to it (`step--1`): these order
+/// the frames, which are counted from 0.
 ///
 /// # Errors
 /// Says which input gave nothing, and what is there instead. Every input must give a file.
@@ -121,13 +129,14 @@ pub fn expand<S: AsRef<str>>(
     if inputs.is_empty() {
         return Err(SequenceError::NoInput);
     }
-    let mut paths = Vec::new();
+    let mut paths: Vec<(PathBuf, Option<u64>)> = Vec::new();
     for input in inputs {
         paths.extend(expand_one(input.as_ref())?);
     }
-    let mut named: Vec<(Vec<Part>, PathBuf)> = paths.into_iter().map(|p| (parts(&p), p)).collect();
-    named.sort_by(|a, b| compare(&a.0, &b.0).then_with(|| a.1.cmp(&b.1)));
-    named.dedup_by(|a, b| a.1 == b.1);
+    let mut named: Vec<Named> =
+        paths.into_iter().map(|(path, said)| Named::new(path, said)).collect();
+    named.sort_by(|a, b| a.cmp(b).then_with(|| a.path.cmp(&b.path)));
+    named.dedup_by(|a, b| a.path == b.path);
 
     let mut found = number(named);
     found.sort_by_key(|f| f.number);
@@ -139,6 +148,7 @@ pub fn expand<S: AsRef<str>>(
                 number: a.number,
                 first: a.path.clone(),
                 second: b.path.clone(),
+                advice: advice(&a.path, &b.path),
             });
         }
     }
@@ -160,20 +170,21 @@ pub fn expand<S: AsRef<str>>(
     Ok(found)
 }
 
-fn expand_one(input: &str) -> Result<Vec<PathBuf>, SequenceError> {
+/// Files, with their number where the input says it.
+fn expand_one(input: &str) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError> {
     let path = Path::new(input);
     if path.is_dir() {
         return Err(SequenceError::Directory { input: input.trim_end_matches('/').into() });
     }
     if path.exists() {
-        return Ok(vec![path.to_path_buf()]);
+        return Ok(vec![(path.to_path_buf(), None)]);
     }
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     if name.contains('%') {
         return expand_printf(input, path, &name);
     }
     if input.contains(['*', '?', '[']) {
-        return expand_glob(input);
+        return Ok(expand_glob(input)?.into_iter().map(|path| (path, None)).collect());
     }
     Err(SequenceError::NotFound { input: input.into() })
 }
@@ -202,7 +213,11 @@ fn expand_glob(input: &str) -> Result<Vec<PathBuf>, SequenceError> {
     Ok(paths)
 }
 
-fn expand_printf(input: &str, path: &Path, name: &str) -> Result<Vec<PathBuf>, SequenceError> {
+fn expand_printf(
+    input: &str,
+    path: &Path,
+    name: &str,
+) -> Result<Vec<(PathBuf, Option<u64>)>, SequenceError> {
     let bad = || SequenceError::Pattern {
         pattern: input.into(),
         expected: "one number such as %d or %04d in the file's name".into(),
@@ -222,23 +237,28 @@ fn expand_printf(input: &str, path: &Path, name: &str) -> Result<Vec<PathBuf>, S
     };
     let io = |reason| SequenceError::Io { path: folder.to_path_buf(), reason };
     let mut paths = Vec::new();
+    let mut padded_otherwise = false;
     for entry in std::fs::read_dir(folder).map_err(io)? {
         let entry = entry.map_err(io)?;
         let file = entry.file_name();
         let digits = file.to_str().and_then(|f| f.strip_prefix(prefix)?.strip_suffix(suffix));
         // As printf would write the number: padded to the width, and no further.
-        let fits = digits.is_some_and(|d| {
-            !d.is_empty()
-                && d.bytes().all(|b| b.is_ascii_digit())
-                && (d.len() == width || (d.len() > width && !d.starts_with('0')))
-        });
+        let all = |d: &&str| !d.is_empty() && d.bytes().all(|b| b.is_ascii_digit());
+        let Some(digits) = digits.filter(all).map(str::to_string) else { continue };
+        let wide = digits.len() > width && !digits.starts_with('0');
+        let fits = digits.len() == width || wide;
+        padded_otherwise |= !fits;
         if fits && entry.path().is_file() {
             // Joined to what was given, so that messages show the user's spelling.
-            paths.push(path.with_file_name(file));
+            paths.push((path.with_file_name(file), digits.parse().ok()));
         }
     }
     if paths.is_empty() {
-        return Err(SequenceError::NoMatch { pattern: input.into(), near: near(Some(folder)) });
+        let mut near = near(Some(folder));
+        if padded_otherwise {
+            near += &format!("; there are numbers of another width: try '{prefix}*{suffix}'");
+        }
+        return Err(SequenceError::NoMatch { pattern: input.into(), near });
     }
     Ok(paths)
 }
@@ -263,49 +283,182 @@ fn near(folder: Option<&Path>) -> String {
     }
 }
 
-/// A run of a name.
-#[derive(Debug, Clone, PartialEq, Eq)]
-enum Part {
-    Text(String),
-    /// Value, and how many digits it was written with.
-    Number(u64, usize),
+/// What to do with two files of one number.
+fn advice(first: &Path, second: &Path) -> String {
+    let name = |path: &Path| path.file_name().map(|n| n.to_string_lossy().into_owned());
+    let (a, b) = (name(first).unwrap_or_default(), name(second).unwrap_or_default());
+    let text = |name: &str| name.chars().filter(|c| !c.is_ascii_digit()).collect::<String>();
+    if text(&a) == text(&b) {
+        let index = "name the file that lists them (.pvtu, .pvtp, .pvd), or narrow the pattern to one sequence";
+        return format!("if these are pieces of one frame, {index}");
+    }
+    // The number of a frame is mostly the last.
+    let end = a.rfind(|c: char| c.is_ascii_digit()).map_or(0, |i| i + 1);
+    let (head, tail) = a.split_at_checked(end).unwrap_or_default();
+    let pattern = format!("{}*{tail}", head.trim_end_matches(|c: char| c.is_ascii_digit()));
+    format!(
+        "narrow the pattern to one sequence, such as '{}'",
+        first.with_file_name(pattern).display()
+    )
 }
 
-/// The runs of the file's name without its extension, after its folder.
-fn parts(path: &Path) -> Vec<Part> {
-    let folder = path.parent().map(|p| p.to_string_lossy().into_owned());
-    let mut parts = vec![Part::Text(folder.unwrap_or_default())];
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    // Up to the first dot that letters follow: `frame_1.5.bgeo.gz` keeps `frame_1.5`.
-    let stem_end = name
-        .match_indices('.')
-        .find(|(i, _)| {
-            let next = name.get(i + 1..).and_then(|rest| rest.chars().next());
-            *i > 0 && next.is_some_and(|c| !c.is_ascii_digit())
-        })
-        .map_or(name.len(), |(i, _)| i);
-    let (stem, _) = name.split_at_checked(stem_end).unwrap_or((&name, ""));
-    let mut rest = stem;
-    while let Some(first) = rest.chars().next() {
-        let digit = first.is_ascii_digit();
-        let end = rest.find(|c: char| c.is_ascii_digit() != digit).unwrap_or(rest.len());
-        let (run, tail) = rest.split_at_checked(end).unwrap_or((rest, ""));
-        match run.parse() {
-            Ok(value) if digit => parts.push(Part::Number(value, run.len())),
-            _ => parts.push(Part::Text(run.to_string())),
+/// A number in a name.
+#[derive(Debug, Clone, PartialEq)]
+struct Number {
+    value: f64,
+    /// Where it has neither a sign, a point nor an exponent.
+    whole: Option<u64>,
+    /// Characters it was written with.
+    width: usize,
+    /// What is before and behind the point, where that is all there is, and the characters behind it.
+    pair: Option<(u64, u64, usize)>,
+    /// Whether it has a point or an exponent.
+    decimal: bool,
+}
+
+/// A run of a name.
+#[derive(Debug, Clone, PartialEq)]
+enum Part {
+    Text(String),
+    Number(Number),
+}
+
+/// A file, and the runs of its name without its extension, of its folder, of the folder of that ...
+struct Named {
+    levels: Vec<Vec<Part>>,
+    said: Option<u64>,
+    path: PathBuf,
+}
+
+impl Named {
+    fn new(path: PathBuf, said: Option<u64>) -> Self {
+        let mut names =
+            path.components().rev().map(|c| c.as_os_str().to_string_lossy().into_owned());
+        let mut levels = vec![parts(stem(&names.next().unwrap_or_default()))];
+        levels.extend(names.map(|name| parts(&name)));
+        Self { levels, said, path }
+    }
+
+    fn cmp(&self, other: &Self) -> Ordering {
+        let all = |named: &Self| named.levels.len();
+        let folders = self.levels.iter().skip(1).rev().zip(other.levels.iter().skip(1).rev());
+        let mut order = all(self).cmp(&all(other));
+        order = folders.fold(order, |order, (a, b)| order.then_with(|| compare(a, b)));
+        match (self.levels.first(), other.levels.first()) {
+            (Some(a), Some(b)) => order.then_with(|| compare(a, b)),
+            _ => order,
         }
-        rest = tail;
+    }
+
+    fn numbers(&self, level: usize) -> Vec<&Number> {
+        let parts = self.levels.get(level).into_iter().flatten();
+        let numbers = parts.filter_map(|part| match part {
+            Part::Number(number) => Some(number),
+            Part::Text(_) => None,
+        });
+        numbers.collect()
+    }
+}
+
+/// A file's name without its extension, of which `gz` and `sc` may be a second.
+fn stem(name: &str) -> &str {
+    let cut = |name: &str| {
+        let (stem, extension) = name.rsplit_once('.')?;
+        let letter = extension.starts_with(|c: char| c.is_ascii_alphabetic());
+        (letter && !stem.is_empty()).then_some((stem.len(), matches!(extension, "gz" | "sc")))
+    };
+    let Some((end, packed)) = cut(name) else { return name };
+    let stem = name.get(..end).unwrap_or(name);
+    match cut(stem).filter(|_| packed) {
+        Some((end, _)) => stem.get(..end).unwrap_or(stem),
+        None => stem,
+    }
+}
+
+/// How many characters are digits.
+fn digits(text: &str) -> usize {
+    text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len())
+}
+
+/// The runs of a name.
+fn parts(name: &str) -> Vec<Part> {
+    let mut parts = Vec::new();
+    let mut text = String::new();
+    let mut rest = name;
+    while let Some(first) = rest.chars().next() {
+        let sign = first == '-' && !text.ends_with(|c: char| c.is_alphanumeric()) && {
+            // The first minus of `step-1` separates, the second of `step--1` is a sign.
+            !text.is_empty() || parts.is_empty()
+        };
+        let unsigned = rest.get(usize::from(sign)..).unwrap_or_default();
+        let Some(mut number) = Number::parse(unsigned) else {
+            text.push(first);
+            rest = rest.get(first.len_utf8()..).unwrap_or_default();
+            continue;
+        };
+        if sign {
+            number = Number { value: -number.value, whole: None, pair: None, ..number };
+        }
+        rest = unsigned.get(number.width..).unwrap_or_default();
+        if !text.is_empty() {
+            parts.push(Part::Text(std::mem::take(&mut text)));
+        }
+        parts.push(Part::Number(number));
+    }
+    if !text.is_empty() {
+        parts.push(Part::Text(text));
     }
     parts
+}
+
+impl Number {
+    /// That which a text begins with. `00008.0000` are two, and so are `1.2.3`.
+    fn parse(text: &str) -> Option<Self> {
+        let integer = digits(text);
+        let whole = text.get(..integer)?;
+        let plain: u64 = whole.parse().ok()?;
+        let behind = |at: usize| text.get(at..).unwrap_or_default();
+        let mut end = integer;
+        let mut pair = None;
+        let fraction = behind(integer).strip_prefix('.').map_or(0, digits);
+        let padded = whole.len() > 1 && whole.starts_with('0');
+        let dotted =
+            behind(integer + 1 + fraction).strip_prefix('.').is_some_and(|t| digits(t) > 0);
+        if fraction > 0 && !padded && !dotted {
+            end = integer + 1 + fraction;
+            let digits = text.get(integer + 1..end)?;
+            pair = digits.parse().ok().map(|behind| (plain, behind, fraction));
+        }
+        // `2e4` is part of a name, `2e+04` and `2.0e4` are numbers.
+        if let Some(exponent) = behind(end).strip_prefix(['e', 'E']) {
+            let signed = exponent.starts_with(['+', '-']);
+            let count = exponent.get(usize::from(signed)..).map_or(0, digits);
+            let last = end + 1 + usize::from(signed) + count;
+            let ends = !behind(last).starts_with(|c: char| c.is_alphanumeric());
+            if count > 0 && ends && (signed || end > integer) {
+                end = last;
+                pair = None;
+            }
+        }
+        let decimal = end > integer;
+        let value = text.get(..end)?.parse().ok()?;
+        Some(Self { value, whole: Some(plain).filter(|_| !decimal), width: end, pair, decimal })
+    }
+
+    fn cmp(&self, other: &Self) -> Ordering {
+        let whole = || Some(self.whole?.cmp(&other.whole?));
+        let order = whole().unwrap_or_else(|| self.value.total_cmp(&other.value));
+        order.then(self.width.cmp(&other.width))
+    }
 }
 
 fn compare(a: &[Part], b: &[Part]) -> Ordering {
     for (a, b) in a.iter().zip(b) {
         let order = match (a, b) {
             (Part::Text(a), Part::Text(b)) => a.cmp(b),
-            (Part::Number(a, m), Part::Number(b, n)) => a.cmp(b).then(m.cmp(n)),
-            (Part::Number(..), Part::Text(_)) => Ordering::Less,
-            (Part::Text(_), Part::Number(..)) => Ordering::Greater,
+            (Part::Number(a), Part::Number(b)) => a.cmp(b),
+            (Part::Number(_), Part::Text(_)) => Ordering::Less,
+            (Part::Text(_), Part::Number(_)) => Ordering::Greater,
         };
         if order != Ordering::Equal {
             return order;
@@ -314,41 +467,89 @@ fn compare(a: &[Part], b: &[Part]) -> Ordering {
     a.len().cmp(&b.len())
 }
 
+/// The numbers that tell files apart, one of each; none where a file has none.
+fn telling(named: &[Named]) -> Option<Vec<Number>> {
+    let depth = named.iter().map(|named| named.levels.len()).min().unwrap_or(0);
+    for level in 0..depth {
+        let numbers: Vec<_> = named.iter().map(|named| named.numbers(level)).collect();
+        let runs = numbers.first().map_or(0, Vec::len);
+        let same = numbers.iter().all(|n| n.len() == runs);
+        let first = |run: usize| numbers.first().and_then(|first| first.get(run).copied());
+        let differs = |run: &usize| numbers.iter().any(|n| n.get(*run).copied() != first(*run));
+        // The last run that differs; the last run where names are built differently.
+        let run = (0..runs).rev().find(differs).filter(|_| same);
+        let own = |n: &Vec<&Number>| match run {
+            Some(run) => n.get(run).copied().cloned(),
+            None => n.last().copied().cloned(),
+        };
+        let alike = same && run.is_none();
+        if !alike || (level == 0 && named.len() == 1 && runs > 0) {
+            return numbers.iter().map(own).collect();
+        }
+        // Files of one name in many folders.
+        let names = named.iter().map(|named| named.levels.get(level));
+        let text = |parts: Option<&Vec<Part>>| parts.cloned();
+        let other = names.clone().any(|n| text(n) != text(names.clone().next().flatten()));
+        if other {
+            return if runs > 0 { numbers.iter().map(own).collect() } else { None };
+        }
+    }
+    None
+}
+
 /// Gives each file its number; files without one are counted in their order.
-fn number(named: Vec<(Vec<Part>, PathBuf)>) -> Vec<Frame> {
-    let numbers: Vec<Vec<u64>> = named
-        .iter()
-        .map(|(parts, _)| {
-            parts
-                .iter()
-                .filter_map(|p| match p {
-                    Part::Number(value, _) => Some(*value),
-                    Part::Text(_) => None,
-                })
-                .collect()
-        })
-        .collect();
-    let runs = numbers.first().map_or(0, Vec::len);
-    let same_runs = numbers.iter().all(|n| n.len() == runs);
-    // The last run that differs; the last run where none does (one file) or names are built differently.
-    let differing = (0..runs).rev().find(|i| {
-        same_runs && numbers.iter().any(|n| n.get(*i) != numbers.first().and_then(|f| f.get(*i)))
-    });
-    let counted = numbers.iter().any(Vec::is_empty);
-    named
-        .into_iter()
-        .zip(numbers)
-        .enumerate()
-        .map(|(i, ((_, path), numbers))| {
-            let own = match differing {
-                Some(run) => numbers.get(run),
-                None => numbers.last(),
-            };
-            let number = match own {
-                Some(number) if !counted => *number,
-                _ => i as u64,
-            };
-            Frame { number, path }
-        })
-        .collect()
+fn number(mut named: Vec<Named>) -> Vec<Frame> {
+    if named.iter().all(|named| named.said.is_some()) {
+        let frame = |named: Named| Frame {
+            number: named.said.unwrap_or_default(),
+            time: None,
+            path: named.path,
+        };
+        return named.into_iter().map(frame).collect();
+    }
+    let Some(numbers) = telling(&named) else {
+        let frame =
+            |(i, named): (usize, Named)| Frame { number: i as u64, time: None, path: named.path };
+        return named.into_iter().enumerate().map(frame).collect();
+    };
+    let whole: Option<Vec<u64>> = numbers.iter().map(|number| number.whole).collect();
+    if let Some(whole) = whole {
+        let frame = |(named, number): (Named, u64)| Frame { number, time: None, path: named.path };
+        return named.into_iter().zip(whole).map(frame).collect();
+    }
+    // Times as programs write them have all the same decimals, or none that is 0 at their end.
+    let pairs: Option<Vec<_>> = numbers.iter().map(|number| number.pair).collect();
+    let widths = |pairs: &[(u64, u64, usize)]| {
+        let first = pairs.first().map_or(0, |pair| pair.2);
+        let zero = pairs.iter().any(|(_, behind, _)| behind.is_multiple_of(10) && *behind > 0);
+        pairs.iter().any(|pair| pair.2 != first) && zero
+    };
+    let pairs = pairs.filter(|pairs| widths(pairs));
+    let decimal = numbers.iter().any(|number| number.decimal) && pairs.is_none();
+    let mut order: Vec<usize> = (0..numbers.len()).collect();
+    let key = |i: usize| -> (Option<(u64, u64)>, f64) {
+        let pair = pairs.as_ref().and_then(|pairs| pairs.get(i)).map(|pair| (pair.0, pair.1));
+        (pair, numbers.get(i).map_or(0.0, |number| number.value))
+    };
+    let by = |a: &usize, b: &usize| {
+        let (a, b) = (key(*a), key(*b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    };
+    order.sort_by(by);
+    let mut frames = Vec::new();
+    let mut last: Option<(usize, u64)> = None;
+    for i in order {
+        // Files of one time are of one number.
+        let number = match last {
+            Some((before, number)) if by(&before, &i) == Ordering::Equal => number,
+            Some((_, number)) => number + 1,
+            None => 0,
+        };
+        last = Some((i, number));
+        let time = numbers.get(i).map(|number| number.value).filter(|_| decimal);
+        if let Some(named) = named.get_mut(i) {
+            frames.push(Frame { number, time, path: std::mem::take(&mut named.path) });
+        }
+    }
+    frames
 }
