@@ -5,11 +5,14 @@ use libfuzzer_sys::fuzz_target;
 use whitewater::io::particles::{Extension, Particles, Parts, read_bytes};
 
 /// Beginnings and hints that lead to the formats which are read in parts.
-const STARTS: [(&[u8], Extension); 13] = [
+const STARTS: [(&[u8], Extension); 16] = [
     (b"", Extension::Unknown),
     (b"", Extension::Csv),
     (b"", Extension::Xyz),
     (b"x,y,z,id\n", Extension::Csv),
+    (b"Np\n3\nPos.x [m];Pos.y [m];Pos.z [m];Idp;\n", Extension::Csv),
+    (b"3\nProperties=pos:R:3:id:I:1\n", Extension::Xyz),
+    (b"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS id x y z\n", Extension::Unknown),
     (b"BgeoV\0\0\0\x05", Extension::Unknown),
     (b"PGEOMETRY V5\nNPoints 3 NPointAttrib 1\nid 1 int 0\n", Extension::Unknown),
     (b"ply\nformat ascii 1.0\nelement vertex 3\nproperty float ", Extension::Unknown),

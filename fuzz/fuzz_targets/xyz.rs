@@ -1,4 +1,4 @@
-//! Any bytes, with the hint that leads to this reader.
+//! Any bytes, with the hint that leads to this reader, and behind beginnings of its dialects.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -6,4 +6,9 @@ use whitewater::io::particles::{Extension, read_bytes};
 
 fuzz_target!(|data: &[u8]| {
     let _ = read_bytes(data, Extension::Xyz);
+    let _ = read_bytes(&[&b"3\nProperties=pos:R:3:id:I:1\n"[..], data].concat(), Extension::Xyz);
+    let _ = read_bytes(
+        &[&b"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS "[..], data].concat(),
+        Extension::Unknown,
+    );
 });

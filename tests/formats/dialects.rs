@@ -274,3 +274,35 @@ fn several_frames_of_xyz_are_refused() {
         error("2\n\nO 1 2 3\nO 4 5 6\nO 7 8 9\n", Extension::Xyz, &["expected 2", "found 3"]);
     assert!(!error.contains("damaged"), "{error}");
 }
+
+#[test]
+fn dumps_of_lammps() {
+    let dump = |step: u32, names: &str| {
+        format!(
+            "ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff mm\n0 2\n0 1\n0 1\n\
+             ITEM: ATOMS {names}\n{}",
+            rows(" ", " \n")
+        )
+    };
+    for names in ["x y z vx vy vz id rho", "xu yu zu vx vy vz id rho"] {
+        for hint in [Extension::Unknown, Extension::Text, Extension::Xyz] {
+            let p = read(&dump(800, names), hint);
+            check(names, &p);
+            assert_eq!(p.format, Format::Lammps);
+        }
+    }
+    let units = "ITEM: UNITS\nsi\nITEM: TIME\n0.32\n";
+    check(
+        "units",
+        &read(&(units.to_string() + &dump(1, "x y z vx vy vz id rho")), Extension::Unknown),
+    );
+    let two = dump(800, "x y z vx vy vz id rho") + &dump(900, "x y z vx vy vz id rho");
+    error(&two, Extension::Unknown, &["several frames", "line 12"]);
+    error(&dump(1, "xs ys zs vx vy vz id rho"), Extension::Unknown, &["scaled", "dump x y z"]);
+    let cut = dump(800, "x y z vx vy vz id rho");
+    error(
+        cut.trim_end().rsplit_once('\n').unwrap().0,
+        Extension::Unknown,
+        &["expected 2", "found 1"],
+    );
+}

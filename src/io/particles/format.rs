@@ -130,6 +130,8 @@ pub enum Format {
     Csv,
     /// Text, three numbers a line
     Xyz,
+    /// A dump of LAMMPS or LIGGGHTS, text
+    Lammps,
     /// Little-endian `f32` triples without a header
     RawF32,
     /// JSON arrays
@@ -171,6 +173,7 @@ impl std::fmt::Display for Format {
             Self::Npz => f.write_str("NPZ"),
             Self::Csv => f.write_str("CSV"),
             Self::Xyz => f.write_str("XYZ, text"),
+            Self::Lammps => f.write_str("LAMMPS dump, text"),
             Self::RawF32 => f.write_str("XYZ, raw little-endian f32"),
             Self::Json => f.write_str("JSON"),
         }
@@ -220,6 +223,7 @@ pub(super) enum Reader {
     Npz,
     Csv,
     XyzText,
+    Lammps,
     XyzRaw,
     Json,
 }
@@ -269,6 +273,9 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
         }
         if body.starts_with(b"[") || body.starts_with(b"{") {
             return Ok(Reader::Json);
+        }
+        if super::lammps::STARTS.iter().any(|start| body.starts_with(start)) {
+            return Ok(Reader::Lammps);
         }
         match hint {
             Extension::Csv => return Ok(Reader::Csv),

@@ -13,7 +13,8 @@
 //! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points and point data | VTU, appended raw, zlib |
 //! | PLY: ASCII, binary little and big endian | vertices | binary little endian |
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
-//! | CSV (ParaView's names, or `x,y,z`), XYZ text, XYZ raw `f32` triples, JSON | yes | |
+//! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), XYZ text, extended XYZ, XYZ raw `f32` triples, JSON | yes | |
+//! | dumps of LAMMPS and LIGGGHTS, text | yes | |
 //!
 //! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
 //! formats but JSON.
@@ -38,6 +39,7 @@ mod geo;
 mod head;
 mod heading;
 mod json;
+mod lammps;
 mod names;
 mod numpy;
 mod parts;
@@ -151,6 +153,7 @@ fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, Re
         format::Reader::Npz => numpy::read_npz(bytes),
         format::Reader::Csv => table::plan(&content()?, comma::open)?.read(),
         format::Reader::XyzText => table::plan(&content()?, xyz::open)?.read(),
+        format::Reader::Lammps => table::plan(&content()?, lammps::open)?.read(),
         format::Reader::XyzRaw => xyz::raw(bytes.len() as u64)?.read(bytes),
         format::Reader::Json => json::read(bytes),
     }

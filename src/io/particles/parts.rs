@@ -10,7 +10,7 @@ use super::plan::{About, Pass, Plan, Surveyed, changed};
 use super::rows::{self, Layout, Rows};
 use super::source::{self, Content, Input, Piece, Source};
 use super::{Format, Particles};
-use super::{bgeo, comma, geo, numpy, ply, table, vtk_legacy, vtk_xml, xyz};
+use super::{bgeo, comma, geo, lammps, numpy, ply, table, vtk_legacy, vtk_xml, xyz};
 
 /// Bytes that tell the format.
 const START: u64 = 1 << 16;
@@ -275,6 +275,7 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
     Ok(Some(match reader {
         format::Reader::Csv => table::plan(&content()?, comma::open)?,
         format::Reader::XyzText => table::plan(&content()?, xyz::open)?,
+        format::Reader::Lammps => table::plan(&content()?, lammps::open)?,
         format::Reader::XyzRaw => {
             let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length())?;
             of_rows(input, vec![(piece, rows)], Some(0), attributes, format)?

@@ -81,26 +81,32 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         }
         _ => {}
     }
-    let mut rows = Lines {
-        text: Text::new(content.open(heading.at, content.length())?),
-        number: heading.line,
-        rows: 0,
-        promised,
-        commas,
-        columns: Vec::new(),
-    };
     if names.is_empty() {
         names.extend((0..3).map(unnamed));
     }
+    let text = Text::new(content.open(heading.at, content.length())?);
+    Ok(rows(text, heading.line, promised, commas, &names, about))
+}
+
+/// Rows of columns of these names, behind so many lines.
+pub(super) fn rows<'a>(
+    text: Text<'a>,
+    number: u64,
+    promised: Option<u64>,
+    commas: bool,
+    names: &[String],
+    mut about: About,
+) -> Table<'a> {
+    let mut rows = Lines { text, number, rows: 0, promised, commas, columns: Vec::new() };
     let mut columns = Vec::new();
-    for name in &names {
+    for name in names {
         let keep = columns::list(&mut about.attributes, name, 1, AttributeType::Number);
         rows.columns.push(keep.then_some(columns.len()));
         if keep {
             columns.push(Column::new(name, 1, AttributeType::Number));
         }
     }
-    Ok(Table { columns, about, rows: Box::new(rows) })
+    Table { columns, about, rows: Box::new(rows) }
 }
 
 /// What is said of columns without names, of which so many are an element.
@@ -239,7 +245,8 @@ impl RowReader for Lines<'_> {
             if is_comment(line) {
                 continue;
             }
-            if self.promised == Some(self.rows) && line.iter().all(u8::is_ascii_digit) {
+            let next = || line.iter().all(u8::is_ascii_digit) || line.starts_with(b"ITEM:");
+            if self.promised == Some(self.rows) && next() {
                 return Err(several_frames(self.number));
             }
             row(line, self.number, self.commas, &self.columns, columns)?;

@@ -223,6 +223,49 @@ pub fn text_samples(list: &mut Vec<Sample>, of: &Particles) {
     }
     let table = csv(of, "vx vy vz rho id x y z", "  ", "");
     list.push(sample("xyz with names", Extension::Xyz, table, All, Format::Xyz));
+    let body = |separator| {
+        let text = csv(of, "a b c d e f g h", separator, "").replace('\r', "");
+        text.split_once('\n').unwrap().1.to_string()
+    };
+    let dialects = [
+        (
+            "csv of DualSPHysics",
+            Extension::Csv,
+            format!(
+                "Np;Time\n11;0.5\n\nVel.x [m/s];Vel.y [m/s];Vel.z [m/s];Rhop [kg/m^3];Idp;Pos.x [m];Pos.y [m];Pos.z [m];\n{}",
+                body(";").replace('.', ",").replace('\n', ";\n")
+            ),
+            Format::Csv,
+        ),
+        (
+            "xyz, extended",
+            Extension::Xyz,
+            format!(
+                "{count}\nProperties=velo:R:3:rho:R:1:id:I:1:pos:R:3:species:S:1 Time=0.5\n{}",
+                body(" ").replace('\n', " H\n")
+            ),
+            Format::Xyz,
+        ),
+        (
+            "text behind a hash",
+            Extension::Text,
+            format!("# vx vy vz rho id x y z\n{}", body("  ")),
+            Format::Xyz,
+        ),
+        (
+            "dump of LAMMPS",
+            Extension::Unknown,
+            format!(
+                "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n{count}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n\
+                 ITEM: ATOMS vx vy vz rho id x y z\n{}",
+                body(" ")
+            ),
+            Format::Lammps,
+        ),
+    ];
+    for (name, hint, text, format) in dialects {
+        list.push(sample(name, hint, text, All, format));
+    }
     let raw = floats(positions(of).as_flattened(), 4, false);
     list.push(sample("xyz raw", Extension::Xyz, raw, Positions, Format::RawF32));
     let array = |v: &[[f32; 3]]| {

@@ -1,0 +1,71 @@
+//! Dumps of LAMMPS and LIGGGHTS in text: `ITEM:` lines with what follows them, of which `ITEM: ATOMS` names the columns.
+
+use super::Format;
+use super::bytes::show;
+use super::error::{Place, ReadError};
+use super::names::have_positions;
+use super::plan::About;
+use super::source::Content;
+use super::table::Table;
+use super::text::Text;
+use super::xyz;
+
+/// What such a file begins with; a unit or a time may stand above the number of the step.
+pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM: TIME"];
+
+/// Lines above the atoms: more are there in no dump.
+const LINES: u64 = 64;
+
+pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+    let mut text = Text::of(content)?;
+    let mut number = 0;
+    let mut count = None;
+    let mut counts = false;
+    let bad = |line: &[u8], number| {
+        ReadError::malformed(
+            "the items of a dump, ATOMS after their number",
+            show(line),
+            Place::Line(number),
+        )
+    };
+    loop {
+        let line = text.line()?.filter(|_| number < LINES);
+        let line = line.ok_or_else(|| bad(b"none", number))?.trim_ascii().to_vec();
+        number += 1;
+        if std::mem::take(&mut counts) {
+            let found = std::str::from_utf8(&line).ok().and_then(|line| line.parse::<u64>().ok());
+            count = Some(found.ok_or_else(|| bad(&line, number))?);
+            continue;
+        }
+        counts = line == b"ITEM: NUMBER OF ATOMS";
+        let Some(names) = line.strip_prefix(b"ITEM: ATOMS") else { continue };
+        let count = count.ok_or_else(|| bad(&line, number))?;
+        let names = String::from_utf8_lossy(names);
+        let mut names: Vec<String> = names.split_whitespace().map(str::to_string).collect();
+        if !have_positions(&names) {
+            // Unwrapped positions are positions; scaled ones need the box.
+            for name in &mut names {
+                if let "xu" | "yu" | "zu" = name.as_str() {
+                    name.pop();
+                }
+            }
+            if names.iter().any(|name| matches!(name.as_str(), "xs" | "xsu"))
+                && !have_positions(&names)
+            {
+                return Err(ReadError::Unsupported {
+                    what: "a dump of scaled positions (xs ys zs)".into(),
+                    advice: "dump x y z, or xu yu zu",
+                });
+            }
+        }
+        let about = About {
+            placed: None,
+            attributes: Vec::new(),
+            warnings: Vec::new(),
+            format: Format::Lammps,
+        };
+        let start = text.at();
+        let text = Text::new(content.open(start, content.length())?);
+        return Ok(xyz::rows(text, number, Some(count), false, &names, about));
+    }
+}
