@@ -306,3 +306,99 @@ fn dumps_of_lammps() {
         &["expected 2", "found 1"],
     );
 }
+
+#[test]
+fn ids_that_repeat_are_dropped_and_told() {
+    let table = |id: &dyn Fn(usize) -> usize| {
+        let rows: String = (0..500).map(|i| format!("{i},0,0,{}\n", id(i))).collect();
+        read(&format!("x,y,z,Idp\n{rows}"), Extension::Csv)
+    };
+    for id in [&(|_: usize| 0_usize) as &dyn Fn(usize) -> usize, &|i| i % 250, &|i| i / 2] {
+        let p = table(id);
+        assert_eq!(p.ids, None);
+        assert!(p.warnings[0].contains("`Idp` is dropped"), "{:?}", p.warnings);
+    }
+    // One that is there twice is no reason to lose the others.
+    for id in [&(|i: usize| i + 7) as &dyn Fn(usize) -> usize, &|i| i.max(1)] {
+        let p = table(id);
+        assert!(p.ids.is_some() && p.warnings.is_empty(), "{:?}", p.warnings);
+    }
+}
+
+#[test]
+fn ids_that_repeat_are_found_among_many() {
+    let positions: String = (0..60_000).map(|i| format!("{i},0,0,{}\n", i % 40_000)).collect();
+    let p = read(&format!("x,y,z,id\n{positions}"), Extension::Csv);
+    assert_eq!(p.ids, None);
+    assert!(p.warnings[0].contains("33 %"), "{:?}", p.warnings);
+}
+
+#[test]
+fn positions_that_are_there_more_than_once_are_told() {
+    let rows = |times: usize| {
+        let block: String = (0..300).map(|i| format!("{i} {} 0\n", i % 7)).collect();
+        read(&block.repeat(times), Extension::Xyz)
+    };
+    assert!(rows(1).warnings.is_empty());
+    let p = rows(4);
+    assert_eq!(p.positions.len(), 1200);
+    assert!(
+        p.warnings[0].contains("75 %") && p.warnings[0].contains("up to 4"),
+        "{:?}",
+        p.warnings
+    );
+}
+
+#[test]
+fn doubles_far_from_the_origin_lose_nothing() {
+    let far = [403_000.25, 3_604_900.5, 120.125];
+    let at = |i: usize, moved: f64| {
+        let c = [i % 10, i / 10 % 10, i / 100].map(|c| 0.0625 * c as f64);
+        [0, 1, 2].map(|k| far[k] + c[k] + moved)
+    };
+    let frame = |moved: f64| {
+        let row = |i| at(i, moved).map(|c| c.to_string()).join(",");
+        let rows: Vec<_> = (0..1000).map(row).collect();
+        read(&format!("x,y,z\n{}\n", rows.join("\n")), Extension::Csv)
+    };
+    let (first, second) = (frame(0.0), frame(0.5));
+    for (p, moved) in [(&first, 0.0), (&second, 0.5)] {
+        assert_ne!(p.origin, [0.0; 3]);
+        for (i, found) in p.positions.iter().enumerate() {
+            let there = [0, 1, 2].map(|k| f64::from(found[k]) + p.origin[k]);
+            assert_eq!(there, at(i, moved), "the grid of 32-bit floats has all of these");
+        }
+        assert_eq!(p.warnings.len(), 1, "{:?}", p.warnings);
+        assert!(p.warnings[0].contains("taken off"), "{:?}", p.warnings);
+    }
+    assert_eq!(first.origin, second.origin, "one for a sequence");
+    let mut moved = first.clone();
+    moved.move_to([403_000.0, 3_604_900.0, 100.0]);
+    assert_eq!(moved.positions[0], [0.25, 0.5, 20.125]);
+    // What is near is as it is.
+    let near = read("x,y,z\n100,0,0\n101,1,1\n", Extension::Csv);
+    assert_eq!((near.origin, near.positions[0]), ([0.0; 3], [100.0, 0.0, 0.0]));
+}
+
+#[test]
+fn several_steps_in_one_table_are_refused() {
+    let table = |names: &str, row: &dyn Fn(usize, usize) -> String| {
+        let step = |t| (0..20).map(move |i| row(t, i)).collect::<String>();
+        format!("{names}\n{}", (0..3).map(step).collect::<String>())
+    };
+    // One after the other, and by particle.
+    let text = table("time,x,y,z", &|t, i| format!("{},{i},{t},0\n", 0.5 * t as f64));
+    error(&text, Extension::Csv, &["3 frames", "`time` goes from 0 to 1", "a file for each"]);
+    let text = table("id,TimeStep,x,y,z", &|t, i| format!("{i},{t},{i},0,0\n"));
+    error(&text, Extension::Csv, &["3 frames", "TimeStep"]);
+    let rows: String =
+        (0..20).flat_map(|i| (0..3).map(move |t| format!("{i} {t} {i} 0 0\n"))).collect();
+    error(&format!("# id frame x y z\n{rows}"), Extension::Xyz, &["3 frames", "frame"]);
+    // One time is that of the frame; of each particle another one is something else.
+    let text = table("time,x,y,z,id", &|t, i| format!("0.25,{i},{t},0,{}\n", 100 * t + i));
+    assert_eq!(read(&text, Extension::Csv).time, Some(0.25));
+    let text = table("time,x,y,z,id", &|t, i| format!("{t},{i},{t},0,{}\n", 100 * t + i));
+    assert_eq!(read(&text, Extension::Csv).time, None);
+    let text = table("time,x,y,z", &|t, i| format!("12:0{t}:00,{i},0,{t}\n"));
+    assert_eq!(read(&text, Extension::Csv).positions.len(), 60);
+}

@@ -92,3 +92,13 @@ fn densities_of_few_and_of_many() {
     }
     assert!(estimate_densities(&[], 1.0).is_empty());
 }
+
+/// Pieces that repeat each other: each particle is there four times.
+#[test]
+fn copies_are_no_neighbours() {
+    let block: Vec<_> =
+        (0..4096).map(|i| [i % 16, i / 16 % 16, i / 256].map(|c| 0.04 * c as f32)).collect();
+    let found = estimate_spacing(&block.repeat(4)).unwrap();
+    assert!((found / 0.04 - 1.0).abs() < 1e-3, "{found}");
+    assert_eq!(found, estimate_spacing(&block).unwrap());
+}

@@ -2,6 +2,7 @@
 
 use super::error::{Place, ReadError};
 use super::names::{self, Names};
+use super::survey::{Columns, Survey};
 use super::{Format, Particles, bytes};
 
 /// How an attribute is stored.
@@ -99,7 +100,7 @@ pub(super) enum Data {
 }
 
 impl Data {
-    const NONE: Self = Self::F32(Vec::new());
+    pub(super) const NONE: Self = Self::F32(Vec::new());
 
     pub(super) fn for_type(ty: AttributeType) -> Self {
         use AttributeType as T;
@@ -160,7 +161,7 @@ impl Data {
     }
 
     /// All of them, without a copy where they are stored so.
-    fn into_f32(self) -> Vec<f32> {
+    pub(super) fn into_f32(self) -> Vec<f32> {
         match self {
             Self::F32(v) => v,
             Self::F64(v) => v.into_iter().map(|x| x as f32).collect(),
@@ -169,13 +170,13 @@ impl Data {
     }
 
     /// All of them, or the index of the first that is no whole number or doesn't fit.
-    fn to_u32(&self) -> Result<Vec<u32>, usize> {
+    pub(super) fn to_u32(&self) -> Result<Vec<u32>, usize> {
         let mut values = Vec::with_capacity(self.len());
         values.extend((0..self.len()).map_while(|i| self.u32(i)));
         if values.len() < self.len() { Err(values.len()) } else { Ok(values) }
     }
 
-    fn f64(&self, i: usize) -> Option<f64> {
+    pub(super) fn f64(&self, i: usize) -> Option<f64> {
         match self {
             Self::F32(v) => v.get(i).map(|x| f64::from(*x)),
             Self::F64(v) => v.get(i).copied(),
@@ -289,6 +290,8 @@ pub(super) struct Table {
     pub(super) columns: Vec<Column>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
+    /// Where the file says it.
+    pub(super) time: Option<f64>,
 }
 
 /// Lists an attribute, and says whether its numbers are wanted.
@@ -322,10 +325,13 @@ impl Table {
         let roles = Roles::find(&shapes, placed, &self.attributes)?;
         roles.rows(&shapes)?;
         self.warnings.extend(roles.warnings());
-        let mut survey = Survey::default();
-        let particles = survey.part(&roles, self.columns, format);
-        self.warnings.extend(survey.warnings());
-        Ok(Particles { attributes: self.attributes, warnings: self.warnings, ..particles })
+        let columns = Columns::new(self.columns);
+        let mut survey = Survey::new(columns.origin(&roles));
+        let mut particles = survey.part(&roles, columns, format);
+        survey.drop_from(&mut particles);
+        self.warnings.extend(survey.finish()?);
+        let time = self.time.or(survey.time());
+        Ok(Particles { attributes: self.attributes, warnings: self.warnings, time, ..particles })
     }
 }
 
@@ -368,20 +374,20 @@ impl Shape<'_> {
 
 /// A column of three components or of two, or one column for each, by their indices. What is missing is 0.
 #[derive(Debug, Clone, Copy)]
-enum Vector {
+pub(super) enum Vector {
     Whole(usize, usize),
     Split([Option<usize>; 3]),
 }
 
 impl Vector {
-    fn is_flat(self) -> bool {
+    pub(super) fn is_flat(self) -> bool {
         match self {
             Self::Whole(_, components) => components < 3,
             Self::Split(columns) => columns.contains(&None),
         }
     }
 
-    fn columns(self) -> impl Iterator<Item = usize> {
+    pub(super) fn columns(self) -> impl Iterator<Item = usize> {
         let columns = match self {
             Self::Whole(column, _) => [Some(column), None, None],
             Self::Split(columns) => columns,
@@ -393,12 +399,16 @@ impl Vector {
 /// Which column is what, by its index. Of two of one name it is the first.
 #[derive(Debug)]
 pub(super) struct Roles {
-    positions: Vector,
-    velocities: Option<Vector>,
-    densities: Option<usize>,
-    lifetimes: Option<usize>,
-    ids: Option<usize>,
-    kinds: Option<usize>,
+    pub(super) positions: Vector,
+    pub(super) velocities: Option<Vector>,
+    pub(super) densities: Option<usize>,
+    pub(super) lifetimes: Option<usize>,
+    pub(super) ids: Option<usize>,
+    pub(super) kinds: Option<usize>,
+    /// What marks copies of particles that belong to another piece.
+    pub(super) ghosts: Option<usize>,
+    /// Times or numbers of steps, where each particle has one.
+    pub(super) steps: Option<usize>,
 }
 
 /// What is looked for among the columns of a file.
@@ -468,7 +478,18 @@ impl Roles {
                 },
             });
         };
+        // What has another length is no attribute: a list of times.
+        let values = |i: usize| shapes.get(i).map(|shape| shape.values);
+        let of_one = |vector: Vector| {
+            vector.columns().next().and_then(|i| {
+                let shape = shapes.get(i)?;
+                Some(shape.values / (shape.components.max(1) as u64))
+            })
+        };
+        let steps = search.scalar(names::STEP);
         Ok(Self {
+            ghosts: search.scalar(names::GHOST),
+            steps: steps.filter(|steps| values(*steps) == of_one(positions)),
             positions,
             velocities: search.vector(names::VELOCITY),
             densities: search.scalar(names::DENSITY),
@@ -516,199 +537,8 @@ impl Roles {
     pub(super) fn used(&self) -> impl Iterator<Item = usize> {
         let vectors = [Some(self.positions), self.velocities].into_iter().flatten();
         let vectors = vectors.flat_map(Vector::columns);
-        let scalars = [self.densities, self.lifetimes, self.ids, self.kinds];
+        let scalars =
+            [self.densities, self.lifetimes, self.ids, self.kinds, self.ghosts, self.steps];
         vectors.chain(scalars.into_iter().flatten())
     }
-}
-
-/// The columns of some particles.
-struct Columns(Vec<Column>);
-
-impl Columns {
-    fn f64(&self, column: usize, i: usize) -> f64 {
-        self.0.get(column).and_then(|c| c.data.f64(i)).unwrap_or(f64::NAN)
-    }
-
-    fn vector(&self, vector: Vector, i: usize) -> [f64; 3] {
-        match vector {
-            Vector::Whole(column, 3) => [0, 1, 2].map(|k| self.f64(column, 3 * i + k)),
-            Vector::Whole(column, _) => [self.f64(column, 2 * i), self.f64(column, 2 * i + 1), 0.0],
-            Vector::Split(columns) => columns.map(|c| c.map_or(0.0, |column| self.f64(column, i))),
-        }
-    }
-
-    fn rows(&self, vector: Vector) -> usize {
-        let values = |column: usize| self.0.get(column).map_or(0, |c| c.data.len());
-        match vector {
-            Vector::Whole(column, components) => values(column) / components.max(1),
-            Vector::Split([x, ..]) => x.map_or(0, values),
-        }
-    }
-
-    /// Numbers that are not needed any more are freed.
-    fn take(&mut self, column: usize) -> Data {
-        let taken = self.0.get_mut(column).map(|c| std::mem::replace(&mut c.data, Data::NONE));
-        taken.unwrap_or(Data::NONE)
-    }
-
-    fn take_vectors(&mut self, vector: Vector) -> Vec<[f32; 3]> {
-        let all = match vector {
-            Vector::Whole(column, 3) => match self.0.get(column) {
-                Some(Column { data: Data::F32(v), .. }) => Some(v.as_chunks::<3>().0.to_vec()),
-                _ => None,
-            },
-            _ => None,
-        };
-        let all = all.unwrap_or_else(|| {
-            (0..self.rows(vector)).map(|i| self.vector(vector, i).map(|c| c as f32)).collect()
-        });
-        vector.columns().for_each(|column| drop(self.take(column)));
-        all
-    }
-}
-
-/// Whole numbers that are none: an attribute that is dropped.
-#[derive(Debug)]
-struct Dropped {
-    attribute: String,
-    value: f64,
-    particle: usize,
-}
-
-/// The most positions by which their reach is judged.
-const SAMPLES: usize = 8192;
-
-/// What is known of particles only when all were seen, whether they come at once or in parts.
-#[derive(Debug)]
-pub(super) struct Survey {
-    seen: usize,
-    /// Positions of a few thousand, evenly through the file, the first of each `step` particles.
-    samples: Vec<[f64; 3]>,
-    step: usize,
-    not_finite: usize,
-    ids: Option<Dropped>,
-    kinds: Option<Dropped>,
-}
-
-impl Default for Survey {
-    fn default() -> Self {
-        Self { seen: 0, samples: Vec::new(), step: 1, not_finite: 0, ids: None, kinds: None }
-    }
-}
-
-impl Survey {
-    /// Particles until now.
-    pub(super) fn seen(&self) -> usize {
-        self.seen
-    }
-
-    /// Which they are is told by their number in the file alone: nobody knows yet how many will come.
-    fn sample(&mut self, rows: usize, position: impl Fn(usize) -> [f64; 3]) {
-        loop {
-            let next = self.samples.len().saturating_mul(self.step);
-            let Some(i) = next.checked_sub(self.seen).filter(|i| *i < rows) else { return };
-            self.samples.push(position(i));
-            if self.samples.len() == SAMPLES {
-                let mut kept = false;
-                self.samples.retain(|_| {
-                    kept = !kept;
-                    kept
-                });
-                self.step = self.step.saturating_mul(2);
-            }
-        }
-    }
-
-    /// Gives the columns of the particles that come next their meaning.
-    pub(super) fn part(
-        &mut self,
-        roles: &Roles,
-        columns: Vec<Column>,
-        format: Format,
-    ) -> Particles {
-        let mut columns = Columns(columns);
-        let rows = columns.rows(roles.positions);
-        self.sample(rows, |i| columns.vector(roles.positions, i));
-        let positions = columns.take_vectors(roles.positions);
-        self.not_finite += super::count_non_finite(&positions);
-        let velocities = roles.velocities.map(|v| columns.take_vectors(v));
-        let mut scalar = |column: Option<usize>| column.map(|c| columns.take(c).into_f32());
-        let (densities, lifetimes) = (scalar(roles.densities), scalar(roles.lifetimes));
-        let mut whole = |column: Option<usize>, dropped: &mut Option<Dropped>| {
-            let column = column?;
-            let data = columns.take(column);
-            let values = data.to_u32().map_err(|i| Dropped {
-                attribute: columns.0.get(column).map_or(String::new(), |c| c.name.clone()),
-                value: data.f64(i).unwrap_or(f64::NAN),
-                particle: self.seen + i,
-            });
-            values.map_err(|first| dropped.get_or_insert(first)).ok()
-        };
-        let ids = whole(roles.ids, &mut self.ids);
-        let kinds = whole(roles.kinds, &mut self.kinds);
-        self.seen += rows;
-        Particles {
-            velocities,
-            densities,
-            ids,
-            lifetimes,
-            kinds,
-            format,
-            ..Particles::from_positions(positions)
-        }
-    }
-
-    /// Takes out of a part, or of all of them, what the particles as a whole have not.
-    pub(super) fn drop_from(&self, particles: &mut Particles) {
-        if self.ids.is_some() {
-            particles.ids = None;
-        }
-        if self.kinds.is_some() {
-            particles.kinds = None;
-        }
-    }
-
-    /// What a user should know, after the last part.
-    pub(super) fn warnings(&self) -> Vec<String> {
-        let not_finite = (self.not_finite > 0).then(|| {
-            format!(
-                "{} of {} positions are not finite (NaN or infinite, or too large for 32 bits); they are not drawn",
-                self.not_finite, self.seen
-            )
-        });
-        let dropped = [&self.ids, &self.kinds].into_iter().flatten().map(|dropped| {
-            format!(
-                "attribute `{}` is dropped: value {} of particle {} is no whole number from 0 to {}",
-                dropped.attribute,
-                dropped.value,
-                dropped.particle,
-                u32::MAX
-            )
-        });
-        resolution_warning(&self.samples).into_iter().chain(not_finite).chain(dropped).collect()
-    }
-}
-
-/// Says where the bulk lies so far out that 32-bit floats cannot tell particles apart.
-fn resolution_warning(samples: &[[f64; 3]]) -> Option<String> {
-    let mut extent = 0.0_f64;
-    let mut reach = 0.0_f64;
-    for axis in 0..3 {
-        let mut sorted: Vec<f64> =
-            samples.iter().filter_map(|p| p.get(axis).copied()).filter(|c| c.is_finite()).collect();
-        sorted.sort_unstable_by(f64::total_cmp);
-        // From the 5th to the 95th percentile: a few strays say nothing about the bulk.
-        let cut = sorted.len() / 20;
-        let low = sorted.get(cut)?;
-        let high = sorted.get(sorted.len() - 1 - cut)?;
-        extent = extent.max(high - low);
-        reach = reach.max(low.abs()).max(high.abs());
-    }
-    let resolution = reach * f64::from(f32::EPSILON);
-    (extent > 0.0 && resolution > 1e-3 * extent).then(|| {
-        format!(
-            "the particles lie {reach:.3e} from the origin but span only {extent:.3e}: 32-bit positions are no finer \
-             than {resolution:.1e} there; move them to the origin before writing the file"
-        )
-    })
 }

@@ -10,6 +10,7 @@ use super::bytes::show;
 use super::columns::{self, AttributeType, Column};
 use super::error::{Place, ReadError};
 use super::heading::{Heading, number_with_comma};
+use super::names::is_step;
 use super::plan::About;
 use super::source::{Content, Source, inner_error};
 use super::table::{RowReader, Table};
@@ -40,8 +41,13 @@ pub(super) fn open_at<'a>(
         record: csv::ByteRecord::new(),
         unread: false,
     };
-    let mut about =
-        About { placed: None, attributes: Vec::new(), warnings: Vec::new(), format: Format::Csv };
+    let mut about = About {
+        placed: None,
+        attributes: Vec::new(),
+        warnings: Vec::new(),
+        time: None,
+        format: Format::Csv,
+    };
     let mut columns = Vec::new();
     let header = !heading.names.is_empty();
     let mut names = heading.names;
@@ -135,6 +141,7 @@ impl RowReader for Records<'_> {
                 continue;
             }
             let number = number_with_comma(field).filter(|_| self.decimal_comma);
+            let number = number.or_else(|| is_step(name).then_some(f64::NAN));
             if !number.is_some_and(|number| column.data.push_number(number)) {
                 return Err(ReadError::malformed(
                     format!("a number in column `{name}`"),

@@ -48,6 +48,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         placed: Some(0),
         attributes: Vec::new(),
         warnings: Vec::new(),
+        time: None,
         format: Format::Geo,
     };
     columns::list(&mut about.attributes, "position", 3, AttributeType::F32);

@@ -62,6 +62,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
             placed: None,
             attributes: Vec::new(),
             warnings: Vec::new(),
+            time: None,
             format: Format::Lammps,
         };
         let start = text.at();

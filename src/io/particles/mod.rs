@@ -49,6 +49,7 @@ mod rows;
 pub mod sequence;
 mod source;
 mod spacing;
+mod survey;
 mod table;
 mod text;
 mod vtk_legacy;
@@ -85,6 +86,11 @@ pub struct Particles {
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, read or not, positions included.
     pub attributes: Vec<Attribute>,
+    /// The time of the frame, where the file says it, in its unit.
+    pub time: Option<f64>,
+    /// What was taken off the positions of the file, in double precision, so that 32-bit floats tell particles apart that lie
+    /// far from the origin; else 0. Frames of a sequence may differ in it: see [`move_to`](Self::move_to).
+    pub origin: [f64; 3],
     /// What the file was.
     pub format: Format,
     /// What a user should know: values dropped, parts not read, positions that are no numbers.
@@ -102,8 +108,23 @@ impl Particles {
             lifetimes: None,
             kinds: None,
             attributes: Vec::new(),
+            time: None,
+            origin: [0.0; 3],
             format: Format::RawF32,
             warnings: Vec::new(),
+        }
+    }
+
+    /// Gives the particles another [`origin`](Self::origin), such as that of the first frame of a sequence.
+    pub fn move_to(&mut self, origin: [f64; 3]) {
+        if self.origin != origin {
+            let ([x, y, z], [a, b, c]) = (self.origin, origin);
+            for [px, py, pz] in &mut self.positions {
+                *px = (f64::from(*px) + (x - a)) as f32;
+                *py = (f64::from(*py) + (y - b)) as f32;
+                *pz = (f64::from(*pz) + (z - c)) as f32;
+            }
+            self.origin = origin;
         }
     }
 }

@@ -46,6 +46,10 @@ pub(super) const ID: Names = &[
 ];
 pub(super) const LIFETIME: Names = &["lifetime", "life"];
 pub(super) const KIND: Names = &["type"];
+/// What marks a copy of a particle of another piece.
+pub(super) const GHOST: Names = &["vtkghosttype", "vtkghostlevels"];
+/// When a particle was there, in files of several frames.
+pub(super) const STEP: Names = &["timestep", "time", "timevalue", "step", "frame"];
 
 /// What names are looked for where there are no positions.
 pub(super) const POSITION_NAMES: &str = "`position`, `positions`, `pos`, `points` or `x` with 3 components, or `x` `y` `z`, `Points:0` `Points:1` `Points:2`";
@@ -107,7 +111,9 @@ pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
 
 /// Whether a plain name has a meaning.
 fn known(name: &str) -> bool {
-    [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND].iter().any(|names| names.contains(&name))
+    [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND, GHOST, STEP]
+        .iter()
+        .any(|names| names.contains(&name))
         || [POSITION, VELOCITY]
             .iter()
             .any(|names| triples(names).any(|t| t.iter().any(|n| n == name)))
@@ -116,6 +122,11 @@ fn known(name: &str) -> bool {
 /// Whether an attribute of this name may be used, so that a reader need not unpack the others.
 pub(super) fn wanted(name: &str) -> bool {
     known(&plain(name))
+}
+
+/// Whether an attribute of this name may be a time, which may be no number.
+pub(super) fn is_step(name: &str) -> bool {
+    STEP.contains(&plain(name).as_str())
 }
 
 /// Whether columns of these names have positions among them, of two dimensions at least: tells a line of names from others.

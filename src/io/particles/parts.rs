@@ -43,7 +43,7 @@ enum Rest<'a> {
     /// The second time, from its start on.
     File(Box<(Plan<'a>, Option<Pass<'a>>)>),
     /// All particles, and how many were given.
-    Memory(Particles, usize),
+    Memory(Box<Particles>, usize),
     /// Nothing comes after an error.
     Failed,
 }
@@ -117,10 +117,10 @@ impl<'a> Parts<'a> {
             Ok(Some((plan, first)))
         });
         match surveyed {
-            Ok(Some((mut plan, Surveyed { about, total, only }))) => {
-                plan.expect(total);
+            Ok(Some((mut plan, Surveyed { about, rows, total, only }))) => {
+                plan.expect(rows);
                 let rest = match only {
-                    Some(only) => Rest::Memory(only, 0),
+                    Some(only) => Rest::Memory(Box::new(only), 0),
                     None => Rest::File(Box::new((plan, None))),
                 };
                 Ok(Self { about, total, most, rest, path: None })
@@ -137,7 +137,7 @@ impl<'a> Parts<'a> {
                     ..slice(&all, 0..0)
                 };
                 let total = all.positions.len();
-                Ok(Self { about, total, most, rest: Rest::Memory(all, 0), path: None })
+                Ok(Self { about, total, most, rest: Rest::Memory(Box::new(all), 0), path: None })
             }
             Err(error) => {
                 // Where the packing is at fault it is no use to look for faults in what comes out.
@@ -185,6 +185,7 @@ impl<'a> Parts<'a> {
                 {
                     return Err(changed());
                 }
+                part.time = self.about.time;
                 part.ids = part.ids.filter(|_| self.about.ids.is_some());
                 part.kinds = part.kinds.filter(|_| self.about.kinds.is_some());
                 Ok(Some(part))
@@ -231,6 +232,8 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
         ids: some(all.ids.as_ref(), &range),
         lifetimes: some(all.lifetimes.as_ref(), &range),
         kinds: some(all.kinds.as_ref(), &range),
+        time: all.time,
+        origin: all.origin,
         format: all.format,
         ..Particles::from_positions(some(Some(&all.positions), &range).unwrap_or_default())
     }
@@ -307,6 +310,6 @@ fn of_rows<'a>(
             Ok(source)
         })
     });
-    let about = About { placed, attributes, warnings: Vec::new(), format };
+    let about = About { placed, attributes, warnings: Vec::new(), time: None, format };
     Plan::new(tracks.collect(), about, input.unpack_limit())
 }

@@ -1,7 +1,8 @@
 //! How the particles of a file are read from the first on, as often as needed: all at once, or a part after the other.
 
-use super::columns::{Attribute, Column, Roles, Shape, Survey};
+use super::columns::{Attribute, Column, Data, Roles, Shape};
 use super::error::{Place, ReadError};
+use super::survey::{Columns, FIRST, Survey};
 use super::{Format, Particles};
 
 /// Bytes that are read at a time.
@@ -52,6 +53,7 @@ pub(super) struct Plan<'a> {
     rows: Option<usize>,
     attributes: Vec<Attribute>,
     warnings: Vec<String>,
+    time: Option<f64>,
     format: Format,
     /// The most that all tracks together may unpack.
     limit: u64,
@@ -63,6 +65,8 @@ pub(super) struct About {
     pub(super) placed: Option<usize>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
+    /// Of the frame.
+    pub(super) time: Option<f64>,
     pub(super) format: Format,
 }
 
@@ -70,6 +74,8 @@ pub(super) struct About {
 pub(super) struct Surveyed {
     /// What all have in common, without any.
     pub(super) about: Particles,
+    /// Particles in the file, and those that are no ghosts.
+    pub(super) rows: usize,
     pub(super) total: usize,
     /// All particles, where they are one part.
     pub(super) only: Option<Particles>,
@@ -77,7 +83,7 @@ pub(super) struct Surveyed {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(tracks: Vec<Track<'a>>, about: About, limit: u64) -> Result<Self, ReadError> {
-        let About { placed, attributes, mut warnings, format } = about;
+        let About { placed, attributes, mut warnings, time, format } = about;
         let shapes: Vec<_> = tracks.iter().flat_map(shapes).collect();
         let roles = Roles::find(&shapes, placed, &attributes)?;
         warnings.extend(roles.warnings());
@@ -87,7 +93,7 @@ impl<'a> Plan<'a> {
         for i in roles.used() {
             used.get_mut(i).into_iter().for_each(|used| *used = true);
         }
-        Ok(Self { tracks, used, roles, rows, attributes, warnings, format, limit })
+        Ok(Self { tracks, used, roles, rows, attributes, warnings, time, format, limit })
     }
 
     /// Each track, with the columns of it that are used.
@@ -100,13 +106,42 @@ impl<'a> Plan<'a> {
         })
     }
 
+    /// What is taken off all positions: told by the first of them, so that parts have one with the whole.
+    fn origin(&self) -> [f64; 3] {
+        let positions: Vec<usize> = self.roles.positions.columns().collect();
+        let all = || self.tracks.iter().flat_map(|track| &track.columns);
+        let exact = |(i, column): (usize, &Column)| {
+            positions.contains(&i) && !matches!(column.data, Data::F32(_))
+        };
+        if !all().enumerate().any(exact) {
+            return [0.0; 3];
+        }
+        let (mut columns, mut room) = (Vec::new(), Vec::new());
+        let count = self.rows.unwrap_or(usize::MAX).min(FIRST);
+        for (track, used) in self.tracks() {
+            let first = columns.len();
+            let some: Vec<bool> =
+                used.iter().enumerate().map(|(i, _)| positions.contains(&(first + i))).collect();
+            let mut own = track.columns.clone();
+            if some.contains(&true) {
+                // A fault is found when all is read.
+                let read = (track.open)(&some).and_then(|mut s| s.read(count, &mut own, &mut room));
+                if read.is_err() {
+                    return [0.0; 3];
+                }
+            }
+            columns.append(&mut own);
+        }
+        Columns::new(columns).origin(&self.roles)
+    }
+
     /// From the first particle on.
     pub(super) fn start(&self) -> Result<Pass<'a>, ReadError> {
         let streams = self.tracks().map(|(track, used)| (track.open)(used));
         Ok(Pass {
             streams: streams.collect::<Result<_, _>>()?,
             left: self.rows.unwrap_or(usize::MAX),
-            survey: Survey::default(),
+            survey: Survey::new(self.origin()),
             room: Vec::new(),
         })
     }
@@ -123,11 +158,14 @@ impl<'a> Plan<'a> {
             stream.finish()?;
             columns.append(&mut own);
         }
-        let mut survey = Survey::default();
-        let particles = survey.part(&self.roles, columns, self.format);
+        let columns = Columns::new(columns);
+        let mut survey = Survey::new(columns.origin(&self.roles));
+        let mut particles = survey.part(&self.roles, columns, self.format);
+        survey.drop_from(&mut particles);
         let mut warnings = self.warnings;
-        warnings.extend(survey.warnings());
-        Ok(Particles { attributes: self.attributes, warnings, ..particles })
+        warnings.extend(survey.finish()?);
+        let time = self.time.or(survey.time());
+        Ok(Particles { attributes: self.attributes, warnings, time, ..particles })
     }
 
     /// Finds all there is to find fault with, and what only all particles tell.
@@ -148,8 +186,9 @@ impl<'a> Plan<'a> {
         show: &mut dyn FnMut(&Particles),
     ) -> Result<Surveyed, ReadError> {
         let columns = self.tracks.iter().flat_map(|track| track.columns.clone()).collect();
-        let mut about = Survey::default().part(&self.roles, columns, self.format);
+        let columns = Columns::new(columns);
         let mut pass = self.start()?;
+        let mut about = Survey::new(pass.survey.origin()).part(&self.roles, columns, self.format);
         let mut only = Some(about.clone());
         let mut first = true;
         while let Some(part) = pass.part(self, most)? {
@@ -161,13 +200,19 @@ impl<'a> Plan<'a> {
         pass.survey.drop_from(&mut about);
         about.attributes.clone_from(&self.attributes);
         about.warnings.clone_from(&self.warnings);
-        about.warnings.extend(pass.survey.warnings());
-        Ok(Surveyed { about, total: pass.survey.seen(), only })
+        about.warnings.extend(pass.survey.finish()?);
+        about.time = self.time.or(pass.survey.time());
+        let (rows, total) = (pass.survey.seen(), pass.survey.kept());
+        only.iter_mut().for_each(|only| {
+            pass.survey.drop_from(only);
+            only.time = about.time;
+        });
+        Ok(Surveyed { about, rows, total, only })
     }
 
     /// From now on there have to be as many.
-    pub(super) fn expect(&mut self, total: usize) {
-        self.rows = Some(total);
+    pub(super) fn expect(&mut self, rows: usize) {
+        self.rows = Some(rows);
     }
 
     /// Reads and drops all, track after track.
@@ -240,7 +285,7 @@ impl Pass<'_> {
             return Err(changed());
         }
         self.left = if count < wanted { 0 } else { self.left - count };
-        Ok((count > 0).then(|| self.survey.part(&plan.roles, columns, plan.format)))
+        Ok((count > 0).then(|| self.survey.part(&plan.roles, Columns::new(columns), plan.format)))
     }
 
     fn finish(&mut self, plan: &Plan<'_>) -> Result<(), ReadError> {

@@ -203,7 +203,8 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         Encoding::Ascii => Format::PlyAscii,
         encoding => Format::PlyBinary { big_endian: encoding == Encoding::Big },
     };
-    let mut about = About { placed: None, attributes: Vec::new(), warnings: Vec::new(), format };
+    let mut about =
+        About { placed: None, attributes: Vec::new(), warnings: Vec::new(), time: None, format };
     let (mut columns, mut taken) = (Vec::new(), Vec::new());
     for property in &vertex.properties {
         let ty = property.list.map_or(property.ty, |_| AttributeType::List);

@@ -181,6 +181,6 @@ impl Layout {
         rows.decode(raw, rows.count as usize, &used, &mut columns);
         let positions = self.placed.then(|| columns.remove(0).data);
         let Self { attributes, format, .. } = self;
-        Table { positions, columns, attributes, warnings: Vec::new() }.assemble(format)
+        Table { positions, columns, attributes, ..Table::default() }.assemble(format)
     }
 }

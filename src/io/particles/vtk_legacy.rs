@@ -32,7 +32,7 @@ pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
     let tracks = found.into_iter().map(|found| found.track(content, binary));
     let tracks = tracks.collect::<Result<_, _>>()?;
     let format = Format::VtkLegacy { version, binary };
-    let about = About { placed: Some(0), attributes, warnings, format };
+    let about = About { placed: Some(0), attributes, warnings, time: None, format };
     Plan::new(tracks, about, content.unpack_limit())
 }
 

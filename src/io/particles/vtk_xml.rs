@@ -159,7 +159,7 @@ fn plan_of<'a>(content: &Content<'a>, head: &Head) -> Result<Option<Plan<'a>>, R
     let storage = storage.unwrap_or(Storage::Ascii);
     let format =
         if vtp { Format::Vtp(storage, compression) } else { Format::Vtu(storage, compression) };
-    let about = About { placed: Some(0), attributes, warnings: Vec::new(), format };
+    let about = About { placed: Some(0), attributes, warnings: Vec::new(), time: None, format };
     let tracks = found.into_iter().map(|(column, array)| arrays::track(column, array));
     Plan::new(tracks.collect(), about, content.unpack_limit()).map(Some)
 }

@@ -49,8 +49,13 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
 }
 
 pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
-    let mut about =
-        About { placed: None, attributes: Vec::new(), warnings: Vec::new(), format: Format::Xyz };
+    let mut about = About {
+        placed: None,
+        attributes: Vec::new(),
+        warnings: Vec::new(),
+        time: None,
+        format: Format::Xyz,
+    };
     let lines = heading::lines(content)?;
     let counted = Counted::of(&lines);
     let (heading, promised) = match counted {
@@ -278,8 +283,12 @@ fn row(
     for column in taken {
         let word = words.next().ok_or_else(|| bad_line(line, number))?;
         let Some(column) = column.and_then(|i| columns.get_mut(i)) else { continue };
-        let decimal = || number_with_comma(word).filter(|_| !commas);
-        if !column.data.push_text(word) && !decimal().is_some_and(|x| column.data.push_number(x)) {
+        if column.data.push_text(word) {
+            continue;
+        }
+        let value = number_with_comma(word).filter(|_| !commas);
+        let value = value.or_else(|| names::is_step(&column.name).then_some(f64::NAN));
+        if !value.is_some_and(|x| column.data.push_number(x)) {
             return Err(bad_line(line, number));
         }
     }

@@ -1,0 +1,467 @@
+//! What is known of particles only when all were seen, whether they come at once or in parts: what a user should know,
+//! and what has to be dropped.
+
+use std::collections::{HashMap, HashSet};
+
+use super::columns::{Column, Data, Roles, Vector};
+use super::error::ReadError;
+use super::{Format, Particles};
+
+/// The columns of some particles.
+pub(super) struct Columns(Vec<Column>);
+
+impl Columns {
+    pub(super) fn new(columns: Vec<Column>) -> Self {
+        Self(columns)
+    }
+
+    fn f64(&self, column: usize, i: usize) -> f64 {
+        self.0.get(column).and_then(|c| c.data.f64(i)).unwrap_or(f64::NAN)
+    }
+
+    fn vector(&self, vector: Vector, i: usize) -> [f64; 3] {
+        match vector {
+            Vector::Whole(column, 3) => [0, 1, 2].map(|k| self.f64(column, 3 * i + k)),
+            Vector::Whole(column, _) => [self.f64(column, 2 * i), self.f64(column, 2 * i + 1), 0.0],
+            Vector::Split(columns) => columns.map(|c| c.map_or(0.0, |column| self.f64(column, i))),
+        }
+    }
+
+    pub(super) fn rows(&self, vector: Vector) -> usize {
+        let values = |column: usize| self.0.get(column).map_or(0, |c| c.data.len());
+        match vector {
+            Vector::Whole(column, components) => values(column) / components.max(1),
+            Vector::Split([x, ..]) => x.map_or(0, values),
+        }
+    }
+
+    /// What has to be taken off the positions so that 32-bit floats tell particles apart, by the first of them.
+    pub(super) fn origin(&self, roles: &Roles) -> [f64; 3] {
+        let exact =
+            |column: usize| !matches!(self.0.get(column), Some(Column { data: Data::F32(_), .. }));
+        if !roles.positions.columns().any(exact) {
+            return [0.0; 3];
+        }
+        let rows = self.rows(roles.positions).min(FIRST);
+        let first: Vec<_> = (0..rows).map(|i| self.vector(roles.positions, i)).collect();
+        origin(&first)
+    }
+
+    /// Numbers that are not needed any more are freed.
+    fn take(&mut self, column: usize) -> Data {
+        let taken = self.0.get_mut(column).map(|c| std::mem::replace(&mut c.data, Data::NONE));
+        taken.unwrap_or(Data::NONE)
+    }
+
+    /// Vectors less an origin, which is taken off before they are rounded.
+    fn take_vectors(&mut self, vector: Vector, origin: [f64; 3]) -> Vec<[f32; 3]> {
+        let all = match vector {
+            Vector::Whole(column, 3) => match self.0.get(column) {
+                Some(Column { data: Data::F32(v), .. }) => Some(v.as_chunks::<3>().0.to_vec()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let all = all.filter(|_| origin == [0.0; 3]);
+        let less = |p: [f64; 3]| {
+            let ([x, y, z], [a, b, c]) = (p, origin);
+            [(x - a) as f32, (y - b) as f32, (z - c) as f32]
+        };
+        let all = all.unwrap_or_else(|| {
+            (0..self.rows(vector)).map(|i| less(self.vector(vector, i))).collect()
+        });
+        vector.columns().for_each(|column| drop(self.take(column)));
+        all
+    }
+}
+
+/// Whole numbers that are none: an attribute that is dropped.
+#[derive(Debug)]
+struct Dropped {
+    attribute: String,
+    value: f64,
+    particle: usize,
+}
+
+/// The most positions by which their reach is judged.
+const SAMPLES: usize = 8192;
+
+/// Particles by which it is judged whether an origin is taken off.
+pub(super) const FIRST: usize = 1024;
+
+/// So many times farther out than they span particles have an origin taken off: 32-bit floats then have steps of a
+/// four-thousandth of what they span.
+const FAR: f64 = 2000.0;
+
+/// The most values of which it is known how often they are there.
+const COUNTED: usize = 1 << 12;
+
+/// Of more ids than this part another particle has the same: they are none.
+const REPEATED_IDS: f64 = 0.01;
+
+/// A larger part of the positions where another particle is already is told.
+pub(super) const DOUBLED: f64 = 0.05;
+
+/// The most times that are told apart.
+const STEPS: usize = 1 << 12;
+
+/// How often values repeat, by those of them whose hash ends in zeros: all, or of many a part.
+#[derive(Debug, Default)]
+pub(super) struct Repeats {
+    mask: u64,
+    counts: HashMap<u64, usize>,
+}
+
+impl Repeats {
+    fn add(&mut self, value: u64) {
+        // A mix of all bits (the finalizer of SplitMix64).
+        let mut hash = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        hash ^= hash >> 31;
+        if hash & self.mask != 0 {
+            return;
+        }
+        *self.counts.entry(hash).or_default() += 1;
+        while self.counts.len() > COUNTED {
+            self.mask = self.mask << 1 | 1;
+            let mask = self.mask;
+            self.counts.retain(|hash, _| hash & mask == 0);
+        }
+    }
+
+    /// A position; none that is no place.
+    pub(super) fn add_place(&mut self, [x, y, z]: [f32; 3]) {
+        if x.is_finite() && y.is_finite() && z.is_finite() {
+            // The sign of zero is no place either.
+            let bits = |c: f32| u64::from((c + 0.0).to_bits());
+            let place = bits(x) | bits(y) << 32;
+            self.add(place ^ bits(z).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        }
+    }
+
+    /// The part of the values that were there before.
+    pub(super) fn share(&self) -> f64 {
+        let all: usize = self.counts.values().sum();
+        if all == 0 { 0.0 } else { 1.0 - self.counts.len() as f64 / all as f64 }
+    }
+
+    fn most(&self) -> usize {
+        self.counts.values().copied().max().unwrap_or(0)
+    }
+}
+
+/// Times that particles have, in their order.
+#[derive(Debug, Default)]
+struct Steps {
+    name: String,
+    first: Option<f64>,
+    last: Option<f64>,
+    /// Changes from one particle to the next.
+    changes: usize,
+    different: HashSet<u64>,
+}
+
+impl Steps {
+    fn add(&mut self, time: f64) {
+        if self.last.is_some_and(|last| last.to_bits() == time.to_bits()) {
+            return;
+        }
+        self.changes += usize::from(self.last.is_some());
+        self.first.get_or_insert(time);
+        self.last = Some(time);
+        if self.different.len() <= STEPS {
+            self.different.insert(time.to_bits());
+        }
+    }
+}
+
+/// What was seen until now.
+#[derive(Debug)]
+pub(super) struct Survey {
+    origin: [f64; 3],
+    seen: usize,
+    ghosts: usize,
+    /// Positions of a few thousand, evenly through the file, the first of each `step` particles.
+    samples: Vec<[f64; 3]>,
+    step: usize,
+    not_finite: usize,
+    ids: Option<Dropped>,
+    kinds: Option<Dropped>,
+    places: Repeats,
+    numbers: Repeats,
+    /// What the ids are called.
+    numbered: Option<String>,
+    steps: Steps,
+}
+
+impl Survey {
+    /// `origin`: what is taken off the positions.
+    pub(super) fn new(origin: [f64; 3]) -> Self {
+        Self {
+            origin,
+            seen: 0,
+            ghosts: 0,
+            samples: Vec::new(),
+            step: 1,
+            not_finite: 0,
+            ids: None,
+            kinds: None,
+            places: Repeats::default(),
+            numbers: Repeats::default(),
+            numbered: None,
+            steps: Steps::default(),
+        }
+    }
+
+    pub(super) fn origin(&self) -> [f64; 3] {
+        self.origin
+    }
+
+    /// Particles in the file until now.
+    pub(super) fn seen(&self) -> usize {
+        self.seen
+    }
+
+    /// Those of them that are no ghosts.
+    pub(super) fn kept(&self) -> usize {
+        self.seen - self.ghosts
+    }
+
+    /// The time of all of them, where they have one.
+    pub(super) fn time(&self) -> Option<f64> {
+        self.steps.first.filter(|time| self.steps.different.len() == 1 && time.is_finite())
+    }
+
+    /// Which they are is told by their number in the file alone: nobody knows yet how many will come.
+    fn sample(&mut self, rows: usize, position: impl Fn(usize) -> [f64; 3]) {
+        loop {
+            let next = self.samples.len().saturating_mul(self.step);
+            let Some(i) = next.checked_sub(self.seen).filter(|i| *i < rows) else { return };
+            self.samples.push(position(i));
+            if self.samples.len() == SAMPLES {
+                let mut kept = false;
+                self.samples.retain(|_| {
+                    kept = !kept;
+                    kept
+                });
+                self.step = self.step.saturating_mul(2);
+            }
+        }
+    }
+
+    /// Gives the columns of the particles that come next their meaning.
+    pub(super) fn part(
+        &mut self,
+        roles: &Roles,
+        mut columns: Columns,
+        format: Format,
+    ) -> Particles {
+        let rows = columns.rows(roles.positions);
+        let [a, b, c] = self.origin;
+        self.sample(rows, |i| {
+            let [x, y, z] = columns.vector(roles.positions, i);
+            [x - a, y - b, z - c]
+        });
+        // Of ghosts each bit says why; the older levels count from 1.
+        let kept: Option<Vec<bool>> = roles.ghosts.map(|column| {
+            let bits = |i: usize| columns.f64(column, i) as i64;
+            let levels = columns.0.get(column).is_some_and(|c| c.name.ends_with("Levels"));
+            let copy = |bits: i64| if levels { bits > 0 } else { bits & 3 != 0 };
+            (0..rows).map(|i| !copy(bits(i))).collect()
+        });
+        if let Some(column) = roles.steps {
+            if self.steps.name.is_empty() {
+                self.steps.name = columns.0.get(column).map_or(String::new(), |c| c.name.clone());
+            }
+            (0..rows).for_each(|i| self.steps.add(columns.f64(column, i)));
+        }
+        let positions = columns.take_vectors(roles.positions, self.origin);
+        let velocities = roles.velocities.map(|v| columns.take_vectors(v, [0.0; 3]));
+        let mut scalar = |column: Option<usize>| column.map(|c| columns.take(c).into_f32());
+        let (densities, lifetimes) = (scalar(roles.densities), scalar(roles.lifetimes));
+        let mut whole = |column: Option<usize>, dropped: &mut Option<Dropped>| {
+            let column = column?;
+            let data = columns.take(column);
+            let values = data.to_u32().map_err(|i| Dropped {
+                attribute: columns.0.get(column).map_or(String::new(), |c| c.name.clone()),
+                value: data.f64(i).unwrap_or(f64::NAN),
+                particle: self.seen + i,
+            });
+            values.map_err(|first| dropped.get_or_insert(first)).ok()
+        };
+        let ids = whole(roles.ids, &mut self.ids);
+        let kinds = whole(roles.kinds, &mut self.kinds);
+        if let (Some(column), None) = (roles.ids, &self.numbered) {
+            self.numbered = columns.0.get(column).map(|column| column.name.clone());
+        }
+        self.seen += rows;
+        let mut particles = Particles {
+            velocities,
+            densities,
+            ids,
+            lifetimes,
+            kinds,
+            format,
+            origin: self.origin,
+            ..Particles::from_positions(positions)
+        };
+        if let Some(kept) = kept.filter(|kept| kept.contains(&false)) {
+            self.ghosts += kept.iter().filter(|kept| !**kept).count();
+            retain(&mut particles, &kept);
+        }
+        self.not_finite += super::count_non_finite(&particles.positions);
+        particles.positions.iter().for_each(|p| self.places.add_place(*p));
+        particles.ids.iter().flatten().for_each(|id| self.numbers.add(u64::from(*id)));
+        particles
+    }
+
+    /// Whether ids repeat, so that they follow no particle.
+    fn repeated_ids(&self) -> bool {
+        self.numbers.share() > REPEATED_IDS
+    }
+
+    /// Takes out of a part, or of all of them, what the particles as a whole have not.
+    pub(super) fn drop_from(&self, particles: &mut Particles) {
+        if self.ids.is_some() || self.repeated_ids() {
+            particles.ids = None;
+        }
+        if self.kinds.is_some() {
+            particles.kinds = None;
+        }
+    }
+
+    /// What a user should know, after the last part.
+    ///
+    /// # Errors
+    /// Where these are the particles of several frames.
+    pub(super) fn finish(&self) -> Result<Vec<String>, ReadError> {
+        self.one_frame()?;
+        let origin = (self.origin != [0.0; 3]).then(|| {
+            let [x, y, z] = self.origin;
+            format!(
+                "the particles lie far from the origin: {x} {y} {z} is taken off their positions, which 32-bit floats \
+                 would not tell apart there"
+            )
+        });
+        let ghosts = (self.ghosts > 0).then(|| {
+            format!(
+                "{} of {} particles are ghosts, copies of those of other pieces; they are left out",
+                self.ghosts, self.seen
+            )
+        });
+        let not_finite = (self.not_finite > 0).then(|| {
+            format!(
+                "{} of {} positions are not finite (NaN or infinite, or too large for 32 bits); they are not drawn",
+                self.not_finite,
+                self.kept()
+            )
+        });
+        let dropped = [&self.ids, &self.kinds].into_iter().flatten().map(|dropped| {
+            format!(
+                "attribute `{}` is dropped: value {} of particle {} is no whole number from 0 to {}",
+                dropped.attribute,
+                dropped.value,
+                dropped.particle,
+                u32::MAX
+            )
+        });
+        let repeated = (self.ids.is_none() && self.repeated_ids()).then(|| {
+            format!(
+                "attribute `{}` is dropped: {:.0} % of its values are those of other particles as well, so it tells no \
+                 particle from another",
+                self.numbered.as_deref().unwrap_or("id"),
+                100.0 * self.numbers.share()
+            )
+        });
+        let share = self.places.share();
+        let doubled = (share > DOUBLED).then(|| {
+            format!(
+                "{:.0} % of the positions are those of other particles as well, up to {} at one place: pieces that \
+                 repeat each other, or particles that are not in use",
+                100.0 * share,
+                self.places.most()
+            )
+        });
+        let told = origin.into_iter().chain(resolution_warning(&self.samples)).chain(ghosts);
+        Ok(told.chain(not_finite).chain(dropped).chain(repeated).chain(doubled).collect())
+    }
+
+    fn one_frame(&self) -> Result<(), ReadError> {
+        let steps = &self.steps;
+        let count = steps.different.len();
+        let blocks = steps.changes + 1 == count && self.seen >= 2 * count;
+        let several = match self.numbers.counts.is_empty() {
+            // A particle that comes again is there at another time.
+            false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
+            true => blocks,
+        };
+        if !(2..=STEPS).contains(&count) || !several {
+            return Ok(());
+        }
+        let (first, last) = (steps.first.unwrap_or_default(), steps.last.unwrap_or_default());
+        Err(ReadError::Unsupported {
+            what: format!(
+                "a file of {count} frames (`{}` goes from {first} to {last})",
+                steps.name
+            ),
+            advice: "write a file for each frame, numbered by it, as \
+                     `for i, (t, rows) in enumerate(data.groupby('time')): rows.to_csv(f'frame_{i:04d}.csv')` of pandas does",
+        })
+    }
+}
+
+/// Takes particles out.
+fn retain(particles: &mut Particles, kept: &[bool]) {
+    fn some<T>(list: &mut Vec<T>, kept: &[bool]) {
+        let mut kept = kept.iter();
+        list.retain(|_| *kept.next().unwrap_or(&true));
+    }
+    some(&mut particles.positions, kept);
+    particles.velocities.iter_mut().for_each(|list| some(list, kept));
+    particles.densities.iter_mut().for_each(|list| some(list, kept));
+    particles.ids.iter_mut().for_each(|list| some(list, kept));
+    particles.lifetimes.iter_mut().for_each(|list| some(list, kept));
+    particles.kinds.iter_mut().for_each(|list| some(list, kept));
+}
+
+/// How far positions reach and span along the axis where they do so most, and their middle.
+fn reach_of(samples: &[[f64; 3]]) -> Option<(f64, f64, [f64; 3])> {
+    let (mut extent, mut reach, mut middle) = (0.0_f64, 0.0_f64, [0.0; 3]);
+    for (axis, middle) in middle.iter_mut().enumerate() {
+        let mut sorted: Vec<f64> =
+            samples.iter().filter_map(|p| p.get(axis).copied()).filter(|c| c.is_finite()).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        // From the 5th to the 95th percentile: a few strays say nothing about the bulk.
+        let cut = sorted.len() / 20;
+        let low = sorted.get(cut)?;
+        let high = sorted.get(sorted.len() - 1 - cut)?;
+        *middle = *sorted.get(sorted.len() / 2)?;
+        extent = extent.max(high - low);
+        reach = reach.max(low.abs()).max(high.abs());
+    }
+    Some((reach, extent, middle))
+}
+
+/// What is taken off positions that are far out; nothing of others. It is rounded to a few leading digits, so that the frames of a
+/// sequence mostly have one.
+fn origin(first: &[[f64; 3]]) -> [f64; 3] {
+    let Some((reach, extent, middle)) = reach_of(first) else { return [0.0; 3] };
+    if extent <= 0.0 || reach <= FAR * extent || !reach.is_finite() {
+        return [0.0; 3];
+    }
+    let step = (reach.log2().floor() - 13.0).exp2();
+    middle.map(|c| (c / step).round() * step)
+}
+
+/// Says where the bulk lies so far out that 32-bit floats cannot tell particles apart.
+fn resolution_warning(samples: &[[f64; 3]]) -> Option<String> {
+    let (reach, extent, _) = reach_of(samples)?;
+    let resolution = reach * f64::from(f32::EPSILON);
+    (extent > 0.0 && resolution > 1e-3 * extent).then(|| {
+        format!(
+            "the particles lie {reach:.3e} from the origin but span only {extent:.3e}: 32-bit positions are no finer \
+             than {resolution:.1e} there; move them to the origin before writing the file"
+        )
+    })
+}
