@@ -11,6 +11,8 @@ mod bad;
 mod data;
 #[path = "formats/dialects.rs"]
 mod dialects;
+#[path = "formats/indices.rs"]
+mod indices;
 #[path = "formats/parts.rs"]
 mod parts;
 #[path = "formats/samples/mod.rs"]

@@ -11,6 +11,7 @@ use super::source::{Content, Source};
 use super::text::Text;
 
 /// The numbers of an attribute in one piece.
+#[derive(Clone)]
 pub(super) struct Segment<'a> {
     /// What they are in, and from where to where they or others of it may be.
     pub(super) content: Content<'a>,
@@ -23,6 +24,7 @@ pub(super) struct Segment<'a> {
 }
 
 /// How numbers are stored.
+#[derive(Clone, Copy)]
 pub(super) enum Stored {
     /// As words, behind which others come.
     Words,
@@ -33,6 +35,7 @@ pub(super) enum Stored {
 }
 
 /// An attribute.
+#[derive(Clone)]
 pub(super) struct Array<'a> {
     /// What it is called in errors.
     pub(super) name: String,
@@ -51,6 +54,23 @@ pub(super) fn track<'a>(column: Column, array: Array<'a>) -> Track<'a> {
         Ok(Box::new(stream) as Box<dyn Stream + 'a>)
     };
     Track { columns: vec![column], lengths: Some(vec![length]), what, open: Box::new(open) }
+}
+
+/// Numbers of which the first are asked for.
+const ASKED: usize = 1 << 10;
+
+/// The first numbers of a segment, where they are sound.
+pub(super) fn first(segment: Segment<'_>, ty: AttributeType) -> Option<Vec<f64>> {
+    ty.size()?;
+    let count = usize::try_from(segment.count).unwrap_or(usize::MAX).min(ASKED);
+    let mut columns = [Column::new("", 1, ty)];
+    let array = Array { name: String::new(), components: 1, segments: vec![segment] };
+    let [column] = &columns;
+    let track = track(column.clone(), array);
+    let mut stream = (track.open)(&[true]).ok()?;
+    stream.read(count, &mut columns, &mut Vec::new()).ok()?;
+    let [column] = &columns;
+    (0..column.data.len()).map(|i| column.data.f64(i)).collect()
 }
 
 /// Sources of an earlier segment, which lead on to the next: of the file, where that is packed.

@@ -92,6 +92,7 @@ pub(super) fn layout(bytes: &[u8], gzip: bool) -> Result<Layout, ReadError> {
         },
         placed: true,
         attributes: table.attributes,
+        warnings: Vec::new(),
         format: Format::Bgeo { gzip },
     })
 }

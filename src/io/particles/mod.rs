@@ -10,6 +10,7 @@
 //! | classic Houdini GEO v5 (ASCII) | yes | |
 //! | Houdini 12+ BGEO / GEO (JSON), `.bgeo.sc` | refused, says what to do | |
 //! | legacy VTK 1.0 to 5.1, ASCII and binary: POLYDATA, UNSTRUCTURED_GRID | points and point data | |
+//! | PVTU, PVTP, VTM: their pieces, as one frame; PVD, `.series`: see [`sequence`] | yes | |
 //! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points and point data | VTU, appended raw, zlib |
 //! | PLY: ASCII, binary little and big endian | vertices | binary little endian |
 //! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
@@ -38,6 +39,7 @@ mod format;
 mod geo;
 mod head;
 mod heading;
+mod index;
 mod json;
 mod lammps;
 mod names;
@@ -138,6 +140,9 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
     let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
     if std::fs::metadata(path).map_err(io)?.is_dir() {
         return Err(ReadError::Directory { path: path.to_path_buf() });
+    }
+    if let Some(pieces) = index::Pieces::of(path)? {
+        return pieces.plan().and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
     }
     let bytes = std::fs::read(path).map_err(io)?;
     read_bytes(&bytes, Extension::from_path(path))

@@ -94,6 +94,7 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
         rows,
         placed: true,
         attributes: table.attributes,
+        warnings: Vec::new(),
         format: Format::Npy,
     });
     Ok((layout, length))

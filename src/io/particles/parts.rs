@@ -75,6 +75,12 @@ impl Parts<'static> {
         if std::fs::metadata(path).map_err(io)?.is_dir() {
             return Err(ReadError::Directory { path: path.to_path_buf() });
         }
+        if let Some(pieces) = super::index::Pieces::of(path)? {
+            let mut show = show;
+            let parts = pieces.plan().and_then(|plan| Self::of_plan(plan, most, &mut show));
+            let parts = parts.map_err(|error| pieces.fault(error))?;
+            return Ok(Self { path: Some(path.to_path_buf()), ..parts });
+        }
         let file = std::fs::File::open(path).map_err(io)?;
         let hint = Extension::from_path(path);
         let parts = Input::new(file).and_then(|input| Self::new(&input, hint, most, show));
@@ -111,20 +117,11 @@ impl<'a> Parts<'a> {
         let mut start = Vec::new();
         Source::new(input, &input.whole(false)).fill(2, &mut start)?;
         let gzip = super::bytes::is_gzip(&start);
-        let surveyed = plan(input, hint, gzip).and_then(|plan| {
-            let Some(plan) = plan else { return Ok(None) };
-            let first = plan.survey(most, &mut show)?;
-            Ok(Some((plan, first)))
-        });
-        match surveyed {
-            Ok(Some((mut plan, Surveyed { about, rows, total, only }))) => {
-                plan.expect(rows);
-                let rest = match only {
-                    Some(only) => Rest::Memory(Box::new(only), 0),
-                    None => Rest::File(Box::new((plan, None))),
-                };
-                Ok(Self { about, total, most, rest, path: None })
-            }
+        let planned = plan(input, hint, gzip);
+        let planned = planned
+            .and_then(|plan| plan.map(|plan| Self::of_plan(plan, most, &mut show)).transpose());
+        match planned {
+            Ok(Some(parts)) => Ok(parts),
             Ok(None) => {
                 let mut bytes = Vec::new();
                 Source::new(input, &input.whole(false)).fill(u64::MAX, &mut bytes)?;
@@ -147,6 +144,21 @@ impl<'a> Parts<'a> {
                 Err(error)
             }
         }
+    }
+
+    fn of_plan(
+        mut plan: Plan<'a>,
+        most: usize,
+        show: &mut dyn FnMut(&Particles),
+    ) -> Result<Self, ReadError> {
+        let most = most.max(1);
+        let Surveyed { about, rows, total, only } = plan.survey(most, show)?;
+        plan.expect(rows);
+        let rest = match only {
+            Some(only) => Rest::Memory(Box::new(only), 0),
+            None => Rest::File(Box::new((plan, None))),
+        };
+        Ok(Self { about, total, most, rest, path: None })
     }
 
     /// Particles of all parts together.
@@ -266,13 +278,14 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
         format::Reader::Npz if !gzip => {
             let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
             let numpy::Arrays { rows, attributes } = arrays;
-            return of_rows(input, rows, None, attributes, Format::Npz).map(Some);
+            return of_rows(input, rows, about(None, attributes, Format::Npz)).map(Some);
         }
         _ => None,
     };
-    if let Some(Layout { rows, placed, attributes, format }) = layout {
+    if let Some(Layout { rows, placed, attributes, warnings, format }) = layout {
         let placed = placed.then_some(0);
-        return of_rows(input, vec![(piece, rows)], placed, attributes, format).map(Some);
+        let about = About { placed, attributes, warnings, time: None, format };
+        return of_rows(input, vec![(piece, rows)], about).map(Some);
     }
     let content = || Content::new(input, gzip);
     Ok(Some(match reader {
@@ -281,7 +294,7 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
         format::Reader::Lammps => table::plan(&content()?, lammps::open)?,
         format::Reader::XyzRaw => {
             let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length())?;
-            of_rows(input, vec![(piece, rows)], Some(0), attributes, format)?
+            of_rows(input, vec![(piece, rows)], about(Some(0), attributes, format))?
         }
         format::Reader::Geo => table::plan(&content()?, geo::open)?,
         format::Reader::Ply => table::plan(&content()?, ply::open)?,
@@ -295,9 +308,7 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
 fn of_rows<'a>(
     input: &Input<'a>,
     rows: Vec<(Piece, Rows)>,
-    placed: Option<usize>,
-    attributes: Vec<Attribute>,
-    format: Format,
+    about: About,
 ) -> Result<Plan<'a>, ReadError> {
     let tracks = rows.into_iter().map(|(piece, rows)| {
         let input = input.clone();
@@ -310,6 +321,9 @@ fn of_rows<'a>(
             Ok(source)
         })
     });
-    let about = About { placed, attributes, warnings: Vec::new(), time: None, format };
     Plan::new(tracks.collect(), about, input.unpack_limit())
+}
+
+fn about(placed: Option<usize>, attributes: Vec<Attribute>, format: Format) -> About {
+    About { placed, attributes, warnings: Vec::new(), time: None, format }
 }

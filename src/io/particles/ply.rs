@@ -16,6 +16,7 @@ use super::rows::{Field, Layout, Rows};
 use super::source::{self, Content, truncated};
 use super::table::{RowReader, Table};
 use super::text::Text;
+use super::vtk_xml::mesh_warning;
 
 /// One property: a number, or a list with the type of its length.
 #[derive(Clone)]
@@ -85,9 +86,17 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
         },
         placed: false,
         attributes,
+        warnings: faces(&elements),
         format: Format::PlyBinary { big_endian },
     };
     Ok((Some(layout), header))
+}
+
+/// What is said of a mesh.
+fn faces(elements: &[Element]) -> Vec<String> {
+    let of_faces = |e: &&Element| e.count > 0 && matches!(e.name.as_str(), "face" | "tristrips");
+    let faces = elements.iter().find(of_faces);
+    faces.map(|faces| mesh_warning(faces.count, "polygons")).into_iter().collect()
 }
 
 /// The elements before the vertices, and those.
@@ -203,8 +212,13 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         Encoding::Ascii => Format::PlyAscii,
         encoding => Format::PlyBinary { big_endian: encoding == Encoding::Big },
     };
-    let mut about =
-        About { placed: None, attributes: Vec::new(), warnings: Vec::new(), time: None, format };
+    let mut about = About {
+        placed: None,
+        attributes: Vec::new(),
+        warnings: faces(&elements),
+        time: None,
+        format,
+    };
     let (mut columns, mut taken) = (Vec::new(), Vec::new());
     for property in &vertex.properties {
         let ty = property.list.map_or(property.ty, |_| AttributeType::List);

@@ -163,6 +163,7 @@ pub(super) struct Layout {
     /// The first field is the positions, whatever its name.
     pub(super) placed: bool,
     pub(super) attributes: Vec<Attribute>,
+    pub(super) warnings: Vec<String>,
     pub(super) format: Format,
 }
 
@@ -180,7 +181,7 @@ impl Layout {
         let used = vec![true; columns.len()];
         rows.decode(raw, rows.count as usize, &used, &mut columns);
         let positions = self.placed.then(|| columns.remove(0).data);
-        let Self { attributes, format, .. } = self;
-        Table { positions, columns, attributes, ..Table::default() }.assemble(format)
+        let Self { attributes, warnings, format, .. } = self;
+        Table { positions, columns, attributes, warnings, time: None }.assemble(format)
     }
 }

@@ -4,6 +4,8 @@ use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
+use super::index;
+
 /// One file of a sequence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -79,6 +81,14 @@ pub enum SequenceError {
         /// What to do.
         advice: String,
     },
+    /// A piece of a frame among several files, which would be taken for a frame.
+    #[error("{} is a piece of the frame {}: give that one, or a pattern of its kind", file.display(), index.display())]
+    Piece {
+        /// The piece.
+        file: PathBuf,
+        /// What lists it.
+        index: PathBuf,
+    },
     /// The folder or a file could not be looked at.
     #[error("cannot list {}: {reason}; check the name and the permissions", path.display())]
     Io {
@@ -112,7 +122,7 @@ pub fn parse_range(text: &str) -> Result<RangeInclusive<u64>, SequenceError> {
 
 /// Expands inputs to the frames of one sequence, in the order of their numbers.
 ///
-/// An input is a file, a pattern with `*`, `?` or `[...]`, or one with `%d` or `%04d` in the file's name. A name
+/// An input is a file, a list of files with times (`.pvd`, `.series` of ParaView), a pattern with `*`, `?` or `[...]`, or one with `%d` or `%04d` in the file's name. A name
 /// that is a file is taken as that file, whatever is in it. All inputs together are one sequence, so that a
 /// pattern the shell has expanded gives the same as one it has not. The number of a frame is the run of digits
 /// in its name that differs from file to file (the last such), so `run2_frame_10` is frame 10; of a pattern with `%d` it is
@@ -129,14 +139,29 @@ pub fn expand<S: AsRef<str>>(
     if inputs.is_empty() {
         return Err(SequenceError::NoInput);
     }
-    let mut paths: Vec<(PathBuf, Option<u64>)> = Vec::new();
+    let mut paths = Vec::new();
     for input in inputs {
         paths.extend(expand_one(input.as_ref())?);
     }
-    let mut named: Vec<Named> =
-        paths.into_iter().map(|(path, said)| Named::new(path, said)).collect();
+    let mut named = Vec::new();
+    for (path, said) in paths {
+        let listed = index::frames(&path).map_err(|found| SequenceError::Pattern {
+            pattern: path.display().to_string(),
+            expected: format!("a list of files: {found}"),
+        })?;
+        match listed {
+            Some(files) => named.extend(listed_frames(files)),
+            None => named.push(Named::new(path, said.map(|number| (number, None)))),
+        }
+    }
     named.sort_by(|a, b| a.cmp(b).then_with(|| a.path.cmp(&b.path)));
     named.dedup_by(|a, b| a.path == b.path);
+    if named.len() > 1
+        && let Some((file, index)) =
+            named.iter().take(2).find_map(|named| Some((&named.path, index::lists(&named.path)?)))
+    {
+        return Err(SequenceError::Piece { file: file.clone(), index });
+    }
 
     let mut found = number(named);
     found.sort_by_key(|f| f.number);
@@ -326,12 +351,32 @@ enum Part {
 /// A file, and the runs of its name without its extension, of its folder, of the folder of that ...
 struct Named {
     levels: Vec<Vec<Part>>,
-    said: Option<u64>,
+    /// Number and time, where they are said elsewhere.
+    said: Option<(u64, Option<f64>)>,
     path: PathBuf,
 }
 
+/// Files that a list names, numbered from 0 by their times.
+fn listed_frames(mut files: Vec<(PathBuf, Option<f64>)>) -> Vec<Named> {
+    let timed = files.iter().all(|(_, time)| time.is_some());
+    if timed {
+        files.sort_by(|a, b| a.1.unwrap_or_default().total_cmp(&b.1.unwrap_or_default()));
+    }
+    let mut frames: Vec<Named> = Vec::new();
+    for (path, time) in files {
+        let last = frames.last().and_then(|frame| frame.said);
+        let number = match last {
+            Some((number, before)) if timed && before == time => number,
+            Some((number, _)) => number + 1,
+            None => 0,
+        };
+        frames.push(Named::new(path, Some((number, time))));
+    }
+    frames
+}
+
 impl Named {
-    fn new(path: PathBuf, said: Option<u64>) -> Self {
+    fn new(path: PathBuf, said: Option<(u64, Option<f64>)>) -> Self {
         let mut names =
             path.components().rev().map(|c| c.as_os_str().to_string_lossy().into_owned());
         let mut levels = vec![parts(stem(&names.next().unwrap_or_default()))];
@@ -500,10 +545,9 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
 /// Gives each file its number; files without one are counted in their order.
 fn number(mut named: Vec<Named>) -> Vec<Frame> {
     if named.iter().all(|named| named.said.is_some()) {
-        let frame = |named: Named| Frame {
-            number: named.said.unwrap_or_default(),
-            time: None,
-            path: named.path,
+        let frame = |named: Named| {
+            let (number, time) = named.said.unwrap_or_default();
+            Frame { number, time, path: named.path }
         };
         return named.into_iter().map(frame).collect();
     }

@@ -12,27 +12,32 @@
 use super::Format;
 use super::arrays::{self, Array, Segment, Stored};
 use super::bytes::show;
-use super::columns::{self, Attribute, AttributeType, Column, PLACED};
+use super::columns::{self, Attribute, AttributeType, Column, Data, PLACED};
 use super::error::{Place, ReadError};
 use super::plan::{About, Plan, Track};
 use super::rows::{self, Field, Rows};
 use super::source::{Content, truncated};
 use super::text::Text;
+use super::vtk_xml::{is_point, mesh_warning};
 
 pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
     let found = Reader::read(content, false).map_err(|error| {
         // Where a number is missing, lines are taken for what they are not: that number is at fault.
         Reader::read(content, true).err().unwrap_or(error)
     })?;
-    let Reader { binary, version, attributes, warnings, mut found, points, .. } = found;
+    let found_cells = (found.cells, found.cell, found.vertices);
+    let Reader { binary, version, attributes, mut warnings, mut found, points, time, .. } = found;
     let Some(points) = points else {
         return Err(ReadError::malformed("a POINTS section", "none", Place::Unknown));
     };
+    if found_cells.0 > 0 && found_cells.2 == 0 {
+        warnings.push(mesh_warning(found_cells.0, found_cells.1));
+    }
     found.insert(0, points);
     let tracks = found.into_iter().map(|found| found.track(content, binary));
     let tracks = tracks.collect::<Result<_, _>>()?;
     let format = Format::VtkLegacy { version, binary };
-    let about = About { placed: Some(0), attributes, warnings, time: None, format };
+    let about = About { placed: Some(0), attributes, warnings, time, format };
     Plan::new(tracks, about, content.unpack_limit())
 }
 
@@ -73,6 +78,9 @@ impl Found {
     }
 }
 
+/// Cells whose types are looked at.
+const CELLS: usize = 1 << 10;
+
 /// Bytes in which a line for the colours of numbers is looked for, behind the line of these.
 const LOOKUP: usize = 1 << 12;
 
@@ -92,6 +100,11 @@ struct Reader<'a> {
     warnings: Vec<String>,
     found: Vec<Found>,
     points: Option<Found>,
+    time: Option<f64>,
+    /// Cells that are more than points, what they are, and cells that are points.
+    cells: u64,
+    cell: &'static str,
+    vertices: u64,
     /// Of the current POINT_DATA or CELL_DATA.
     rows: Option<u64>,
     /// Whether the current attributes are those of the points.
@@ -173,6 +186,10 @@ impl<'a> Reader<'a> {
             warnings: Vec::new(),
             found: Vec::new(),
             points: None,
+            time: None,
+            cells: 0,
+            cell: "",
+            vertices: 0,
             rows: None,
             wanted: false,
         };
@@ -231,6 +248,15 @@ impl<'a> Reader<'a> {
             }
             "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" | "CELLS" => {
                 let (first, second) = (w.count(1, "a number of cells")?, w.count(2, "a size")?);
+                // From 5.0 on the number is that of the offsets, one more.
+                let cells = first.saturating_sub(u64::from(self.version.0 >= 5));
+                match keyword.as_str() {
+                    "VERTICES" => self.vertices = self.vertices.saturating_add(cells),
+                    "POLYGONS" | "TRIANGLE_STRIPS" => {
+                        (self.cells, self.cell) = (self.cells.saturating_add(cells), "polygons");
+                    }
+                    _ => {}
+                }
                 if self.version.0 >= 5 {
                     for (part, count) in [("OFFSETS", first), ("CONNECTIVITY", second)] {
                         let Some(line) = self.keyword_line()? else {
@@ -248,6 +274,10 @@ impl<'a> Reader<'a> {
             }
             "CELL_TYPES" => {
                 let n = w.count(1, "a number of cells")?;
+                let types = self.cell_types(n)?;
+                if 2 * types.iter().filter(|ty| !is_point(**ty)).count() > types.len() {
+                    (self.cells, self.cell) = (n, "cells");
+                }
                 self.values(AttributeType::I32, n, &keyword, false)?;
             }
             "POINT_DATA" | "CELL_DATA" => {
@@ -308,6 +338,20 @@ impl<'a> Reader<'a> {
         Ok(true)
     }
 
+    /// The first of so many types of cells, without passing them.
+    fn cell_types(&mut self, count: u64) -> Result<Vec<f64>, ReadError> {
+        let most = usize::try_from(count).unwrap_or(usize::MAX).min(CELLS);
+        let ahead = self.text.ahead(4 * most)?;
+        Ok(if self.binary {
+            ahead.as_chunks::<4>().0.iter().map(|ty| f64::from(i32::from_be_bytes(*ty))).collect()
+        } else {
+            let words = ahead.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+            // The last may be cut off.
+            let words = words.take(most.saturating_sub(1).max(1));
+            words.filter_map(super::bytes::parse_number).collect()
+        })
+    }
+
     fn field_array(&mut self) -> Result<(), ReadError> {
         loop {
             let Some(line) = self.keyword_line()? else {
@@ -321,7 +365,18 @@ impl<'a> Reader<'a> {
             let name = w.text(0, "an array: name, components, tuples, type")?;
             let components = w.count(1, "an array: name, components, tuples, type")?;
             let rows = w.count(2, "an array: name, components, tuples, type")?;
-            return self.attribute(name, w.ty(3)?, rows, components);
+            let ty = w.ty(3)?;
+            if let ("TIME" | "TimeValue", 1, 1, Some(size)) = (name, components, rows, ty.size()) {
+                let mut data = Data::for_type(ty);
+                if self.binary {
+                    data.push_bytes(ty, self.text.take(size, name)?, true);
+                } else {
+                    self.text.numbers(1, 1, name, &mut data)?;
+                }
+                self.time = data.f64(0);
+                return Ok(());
+            }
+            return self.attribute(name, ty, rows, components);
         }
     }
 

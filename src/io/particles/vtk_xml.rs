@@ -7,11 +7,13 @@
 //! Own, since the crate for it (vtkio 0.6) reads ASCII, but none of these: raw appended data ends its XML parser,
 //! compressed data that is appended as base64 comes out short, and inline it is not decoded.
 
+use std::path::Path;
+
 use roxmltree::Node;
 
 use super::arrays::{self, Array, Segment, Stored};
 use super::bytes::show;
-use super::columns::{self, AttributeType, Column, PLACED};
+use super::columns::{self, Attribute, AttributeType, Column, PLACED};
 use super::encoded::Encoding;
 use super::error::{Place, ReadError};
 use super::head::{Head, Words};
@@ -22,146 +24,223 @@ use super::text::Text;
 use super::{Compression, Format, Storage};
 
 pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
-    let plan = plan_of(content, &Head::read(content, true)?)?;
-    plan.map_or_else(
-        || match plan_of(content, &Head::read(content, false)?)? {
-            Some(plan) => Ok(plan),
-            None => Err(ReadError::malformed("texts in elements", "others", Place::Unknown)),
-        },
-        Ok,
-    )
+    plan_files(&[(Path::new(""), content.clone())], Vec::new())
 }
 
-/// None where the head lacks texts that can't be read where they are.
-fn plan_of<'a>(content: &Content<'a>, head: &Head) -> Result<Option<Plan<'a>>, ReadError> {
-    let document = head.parse()?;
-    let root = document.root_element();
-    let kind = root.attribute("type").unwrap_or_default();
-    let vtp = match (root.tag_name().name(), kind) {
-        ("VTKFile", "UnstructuredGrid") => false,
-        ("VTKFile", "PolyData") => true,
-        ("VTKFile", "PUnstructuredGrid" | "PPolyData" | "Collection") => {
-            return Err(ReadError::Unsupported {
-                what: format!("the VTK index file of type {kind}"),
-                advice: "it only names other files: give those",
-            });
-        }
-        ("VTKFile", _) => {
-            return Err(ReadError::Unsupported {
-                what: format!("VTK XML of type \"{kind}\""),
-                advice: "particles are UnstructuredGrid or PolyData: save one of these",
-            });
-        }
-        (name, _) => {
-            return Err(ReadError::malformed(
-                "a VTKFile element",
-                format!("`{name}`"),
-                Place::Line(1),
-            ));
-        }
-    };
-    let compression = match root.attribute("compressor").unwrap_or_default() {
-        "" => Compression::None,
-        "vtkZLibDataCompressor" => Compression::Zlib,
-        "vtkLZ4DataCompressor" => Compression::Lz4,
-        "vtkLZMADataCompressor" => Compression::Lzma,
-        other => {
-            return Err(ReadError::Unsupported {
-                what: format!("VTK XML packed by {other}"),
-                advice: "save with zlib, LZ4, LZMA or no compression",
-            });
-        }
-    };
-    let mut reader = Reader {
-        content,
-        head,
-        big_endian: match root.attribute("byte_order") {
-            Some("BigEndian") => true,
-            Some("LittleEndian") | None => false,
-            Some(other) => return Err(attribute_error("byte_order", other)),
-        },
-        wide: match root.attribute("header_type") {
-            Some("UInt64") => true,
-            Some("UInt32") | None => false,
-            Some(other) => return Err(attribute_error("header_type", other)),
-        },
-        compression,
-        appended: head.appended.map(|at| Appended::parse(content, at)).transpose()?,
-        budget: content.unpack_limit(),
-    };
+/// Pieces in several files, those of one frame. Errors tell the file, where it has a name.
+pub(super) fn plan_files<'a>(
+    files: &[(&Path, Content<'a>)],
+    warnings: Vec<String>,
+) -> Result<Plan<'a>, ReadError> {
+    let mut grid = Grid { warnings, ..Grid::default() };
+    for (path, content) in files {
+        let mut read = || {
+            let mut cut = grid.clone();
+            if cut.read(content, &Head::read(content, true)?)? {
+                grid = cut;
+                return Ok(());
+            }
+            match grid.read(content, &Head::read(content, false)?)? {
+                true => Ok(()),
+                false => Err(ReadError::malformed("texts in elements", "others", Place::Unknown)),
+            }
+        };
+        read().map_err(|error| match path.as_os_str().is_empty() {
+            true => error,
+            false => ReadError::File { path: path.to_path_buf(), reason: Box::new(error) },
+        })?;
+    }
+    grid.plan(files.len() > 1)
+}
 
-    let mut attributes = Vec::new();
-    let mut found: Vec<(Column, Array<'a>)> = Vec::new();
-    let mut storage = None;
-    let pieces = root.descendants().filter(|node| node.has_tag_name("Piece"));
-    for piece in pieces {
-        let points: u64 = reader.parsed(&piece, "NumberOfPoints", None)?;
-        if points == 0 {
-            continue;
+/// What all pieces have, in one file or in several.
+#[derive(Clone, Default)]
+struct Grid<'a> {
+    attributes: Vec<Attribute>,
+    found: Vec<(Column, Array<'a>)>,
+    format: Option<Format>,
+    warnings: Vec<String>,
+    time: Option<f64>,
+    limit: u64,
+    /// Those of a mesh, and what they are.
+    cells: u64,
+    cell: &'static str,
+}
+
+impl<'a> Grid<'a> {
+    fn plan(self, several: bool) -> Result<Plan<'a>, ReadError> {
+        let Self { mut attributes, mut found, mut warnings, time, limit, .. } = self;
+        // A grid without points has no particles, which is no fault.
+        if found.is_empty() {
+            let none = Array { name: PLACED.into(), components: 3, segments: Vec::new() };
+            found.push((Column::new(PLACED, 3, AttributeType::F32), none));
         }
-        let Some(array) = child(&piece, "Points").and_then(|p| child(&p, "DataArray")) else {
-            return Err(ReadError::malformed(
-                "Points with a DataArray in each Piece",
-                "none",
-                head.place(&piece),
-            ));
-        };
-        let (name, components, ty) = reader.described(&array)?;
-        let first_piece = found.is_empty();
-        if components != 3 || ty.size().is_none() {
-            return Err(ReadError::malformed(
-                "Points with three numbers each",
-                format!("{components} x {ty}"),
-                head.place(&array),
-            ));
-        }
-        if first_piece {
-            columns::list(&mut attributes, &name, components, ty);
-            storage = Some(reader.storage(&array)?);
-        }
-        let segment = reader.segment(&array, &name, ty, points.saturating_mul(3))?;
-        let Some(segment) = segment else { return Ok(None) };
-        let points_column = Column::new(PLACED, 3, ty);
-        if first_piece {
-            found.push((points_column, Array { name, components, segments: Vec::new() }));
-        }
-        reader.add(found.first_mut(), segment, &array)?;
-        let Some(point_data) = child(&piece, "PointData") else {
-            continue;
-        };
-        for array in point_data.children().filter(|n| n.has_tag_name("DataArray")) {
-            let (name, components, ty) = reader.described(&array)?;
-            let wanted = if first_piece {
-                columns::list(&mut attributes, &name, components, ty)
-            } else {
-                names::wanted(&name)
+        if several {
+            let length = |array: &Array<'_>| {
+                let values =
+                    array.segments.iter().fold(0_u64, |sum, s| sum.saturating_add(s.count));
+                values / (array.components.max(1) as u64)
             };
-            if !wanted || ty.size().is_none() {
+            let points = found.first().map_or(0, |(_, array)| length(array));
+            found.retain(|(_, array)| {
+                let all = length(array) == points;
+                if !all {
+                    let name = &array.name;
+                    attributes.retain(|a| a.name != *name);
+                    warnings.push(format!("attribute `{name}` is dropped: not all pieces have it"));
+                }
+                all
+            });
+        }
+        if self.cells > 0 {
+            warnings.push(mesh_warning(self.cells, self.cell));
+        }
+        let format = self.format.unwrap_or(Format::Vtu(Storage::Ascii, Compression::None));
+        let about = About { placed: Some(0), attributes, warnings, time, format };
+        let tracks = found.into_iter().map(|(column, array)| arrays::track(column, array));
+        Plan::new(tracks.collect(), about, limit)
+    }
+
+    /// Adds the pieces of a file. False where the head lacks texts that can't be read where they are.
+    fn read(&mut self, content: &Content<'a>, head: &Head) -> Result<bool, ReadError> {
+        let document = head.parse()?;
+        let root = document.root_element();
+        let kind = root.attribute("type").unwrap_or_default();
+        let vtp = match (root.tag_name().name(), kind) {
+            ("VTKFile", "UnstructuredGrid") => false,
+            ("VTKFile", "PolyData") => true,
+            ("VTKFile", "PUnstructuredGrid" | "PPolyData" | "Collection") => {
+                return Err(ReadError::Unsupported {
+                    what: format!("the VTK index file of type {kind}"),
+                    advice: "it only names other files: give it by its path, with them beside it",
+                });
+            }
+            ("VTKFile", _) => {
+                return Err(ReadError::Unsupported {
+                    what: format!("VTK XML of type \"{kind}\""),
+                    advice: "particles are UnstructuredGrid or PolyData: save one of these",
+                });
+            }
+            (name, _) => {
+                return Err(ReadError::malformed(
+                    "a VTKFile element",
+                    format!("`{name}`"),
+                    Place::Line(1),
+                ));
+            }
+        };
+        let compression = match root.attribute("compressor").unwrap_or_default() {
+            "" => Compression::None,
+            "vtkZLibDataCompressor" => Compression::Zlib,
+            "vtkLZ4DataCompressor" => Compression::Lz4,
+            "vtkLZMADataCompressor" => Compression::Lzma,
+            other => {
+                return Err(ReadError::Unsupported {
+                    what: format!("VTK XML packed by {other}"),
+                    advice: "save with zlib, LZ4, LZMA or no compression",
+                });
+            }
+        };
+        let mut reader = Reader {
+            content,
+            head,
+            big_endian: match root.attribute("byte_order") {
+                Some("BigEndian") => true,
+                Some("LittleEndian") | None => false,
+                Some(other) => return Err(attribute_error("byte_order", other)),
+            },
+            wide: match root.attribute("header_type") {
+                Some("UInt64") => true,
+                Some("UInt32") | None => false,
+                Some(other) => return Err(attribute_error("header_type", other)),
+            },
+            compression,
+            appended: head.appended.map(|at| Appended::parse(content, at)).transpose()?,
+            budget: content.unpack_limit(),
+        };
+        self.limit = self.limit.saturating_add(content.unpack_limit());
+        for piece in root.descendants().filter(|node| node.has_tag_name("Piece")) {
+            let points: u64 = reader.parsed(&piece, "NumberOfPoints", None)?;
+            if points == 0 {
                 continue;
             }
-            let count = points.saturating_mul(components as u64);
-            let Some(segment) = reader.segment(&array, &name, ty, count)? else { return Ok(None) };
-            let same = found.iter().skip(1).position(|(column, _)| column.name == name);
-            // A second array of the same name in a piece makes it too long, which is found when all are there.
-            let at = same.map_or(found.len(), |at| at + 1);
-            if same.is_none() {
-                let column = Column::new(&name, components, ty);
-                found.push((column, Array { name, components, segments: Vec::new() }));
+            let Some(array) = child(&piece, "Points").and_then(|p| child(&p, "DataArray")) else {
+                return Err(ReadError::malformed(
+                    "Points with a DataArray in each Piece",
+                    "none",
+                    head.place(&piece),
+                ));
+            };
+            let (name, components, ty) = reader.described(&array)?;
+            let first_piece = self.found.is_empty();
+            if components != 3 || ty.size().is_none() {
+                return Err(ReadError::malformed(
+                    "Points with three numbers each",
+                    format!("{components} x {ty}"),
+                    head.place(&array),
+                ));
             }
-            reader.add(found.get_mut(at), segment, &array)?;
+            if first_piece {
+                columns::list(&mut self.attributes, &name, components, ty);
+                let storage = reader.storage(&array)?;
+                self.format = Some(match vtp {
+                    true => Format::Vtp(storage, compression),
+                    false => Format::Vtu(storage, compression),
+                });
+            }
+            let segment = reader.segment(&array, &name, ty, points.saturating_mul(3))?;
+            let Some(segment) = segment else { return Ok(false) };
+            let points_column = Column::new(PLACED, 3, ty);
+            if first_piece {
+                self.found.push((points_column, Array { name, components, segments: Vec::new() }));
+            }
+            reader.add(self.found.first_mut(), segment, &array)?;
+            let (cells, cell) = reader.mesh(&piece);
+            if cells > 0 {
+                self.cells = self.cells.saturating_add(cells);
+                self.cell = cell;
+            }
+            let Some(point_data) = child(&piece, "PointData") else { continue };
+            for array in point_data.children().filter(|n| n.has_tag_name("DataArray")) {
+                let (name, components, ty) = reader.described(&array)?;
+                let wanted = if first_piece {
+                    columns::list(&mut self.attributes, &name, components, ty)
+                } else {
+                    names::wanted(&name)
+                };
+                if !wanted || ty.size().is_none() {
+                    continue;
+                }
+                let count = points.saturating_mul(components as u64);
+                let Some(segment) = reader.segment(&array, &name, ty, count)? else {
+                    return Ok(false);
+                };
+                let same = self.found.iter().skip(1).position(|(column, _)| column.name == name);
+                // A second array of the same name in a piece makes it too long, which is found when all are there.
+                let at = same.map_or(self.found.len(), |at| at + 1);
+                if same.is_none() {
+                    let column = Column::new(&name, components, ty);
+                    self.found.push((column, Array { name, components, segments: Vec::new() }));
+                }
+                reader.add(self.found.get_mut(at), segment, &array)?;
+            }
         }
+        let data = root.descendants().find(|node| node.has_tag_name("FieldData"));
+        let mut arrays = data.iter().flat_map(|data| data.children());
+        let time = arrays.find(|a| matches!(a.attribute("Name"), Some("TimeValue" | "TIME")));
+        if let (Some(array), None) = (time, self.time) {
+            self.time = reader.peek(&array, 1).and_then(|found| found.first().copied());
+        }
+        Ok(true)
     }
-    // A grid without points has no particles, which is no fault.
-    if found.is_empty() {
-        let none = Array { name: PLACED.into(), components: 3, segments: Vec::new() };
-        found.push((Column::new(PLACED, 3, AttributeType::F32), none));
-    }
-    let storage = storage.unwrap_or(Storage::Ascii);
-    let format =
-        if vtp { Format::Vtp(storage, compression) } else { Format::Vtu(storage, compression) };
-    let about = About { placed: Some(0), attributes, warnings: Vec::new(), time: None, format };
-    let tracks = found.into_iter().map(|(column, array)| arrays::track(column, array));
-    Plan::new(tracks.collect(), about, content.unpack_limit()).map(Some)
+}
+
+/// What is said of the vertices of a mesh.
+pub(super) fn mesh_warning(cells: u64, cell: &str) -> String {
+    format!(
+        "this is a mesh of {cells} {cell}: its vertices are taken as particles; particles fill the water, vertices only lie \
+         on it: give the particles that the mesh was made of"
+    )
 }
 
 fn child<'a, 'i>(node: &Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
@@ -207,6 +286,11 @@ impl Appended {
             ))
         }
     }
+}
+
+/// Whether a cell of this type is a point, some, or nothing.
+pub(super) fn is_point(cell: f64) -> bool {
+    cell <= 2.0
 }
 
 /// Finds where arrays are.
@@ -263,6 +347,34 @@ impl<'a> Reader<'_, 'a> {
         let name = array.attribute("Name").unwrap_or("unnamed").to_string();
         let components = self.parsed(array, "NumberOfComponents", Some(1))?;
         Ok((name, usize::try_from(components).unwrap_or(usize::MAX), ty))
+    }
+
+    /// The cells of a piece, where most of them are more than points, and what they are.
+    fn mesh(&mut self, piece: &Node<'_, '_>) -> (u64, &'static str) {
+        let number = |name: &str| piece.attribute(name).and_then(|n| n.trim().parse().ok());
+        let polygons =
+            ["NumberOfPolys", "NumberOfStrips"].map(|name| number(name).unwrap_or(0_u64));
+        let polygons = polygons.into_iter().fold(0, u64::saturating_add);
+        if polygons > 0 && number("NumberOfVerts").unwrap_or(0) == 0 {
+            return (polygons, "polygons");
+        }
+        let cells = number("NumberOfCells").unwrap_or(0);
+        let types = child(piece, "Cells").and_then(|cells| {
+            cells.children().find(|array| array.attribute("Name") == Some("types"))
+        });
+        let types = types.filter(|_| cells > 0).and_then(|types| self.peek(&types, cells));
+        let types = types.unwrap_or_default();
+        let more = types.iter().filter(|ty| !is_point(**ty)).count();
+        if 2 * more > types.len() { (cells, "cells") } else { (0, "") }
+    }
+
+    /// The first of so many numbers of an array; a fault in them is none of the particles.
+    fn peek(&mut self, array: &Node<'_, '_>, count: u64) -> Option<Vec<f64>> {
+        let budget = self.budget;
+        let (name, _, ty) = self.described(array).ok()?;
+        let segment = self.segment(array, &name, ty, count);
+        self.budget = budget;
+        arrays::first(segment.ok()??, ty)
     }
 
     fn storage(&self, array: &Node<'_, '_>) -> Result<Storage, ReadError> {

@@ -44,6 +44,7 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
         },
         placed: true,
         attributes,
+        warnings: Vec::new(),
         format: Format::RawF32,
     })
 }

@@ -1,0 +1,151 @@
+//! Files that only name others: the pieces of a frame (PVTU, PVTP, VTM) and the frames of a sequence (PVD, `.series`).
+
+use std::path::{Path, PathBuf};
+
+use roxmltree::Document;
+
+use super::error::{Place, ReadError};
+use super::plan::Plan;
+use super::source::{Content, Input};
+use super::vtk_xml;
+
+/// A list that is longer is none.
+const LONGEST: u64 = 64 << 20;
+
+/// The pieces of one frame.
+pub(super) struct Pieces {
+    files: Vec<PathBuf>,
+    /// Names of the blocks, where they are several.
+    blocks: Vec<String>,
+}
+
+/// The text of a list of files; none of another file.
+fn text(path: &Path, extensions: &[&str]) -> Option<String> {
+    let extension = path.extension()?.to_string_lossy().to_lowercase();
+    let short = std::fs::metadata(path).is_ok_and(|meta| meta.len() <= LONGEST);
+    if !extensions.contains(&extension.as_str()) || !short {
+        return None;
+    }
+    std::fs::read_to_string(path).ok()
+}
+
+impl Pieces {
+    /// Those that a file lists; none of one that holds particles itself.
+    pub(super) fn of(path: &Path) -> Result<Option<Self>, ReadError> {
+        const EXTENSIONS: [&str; 6] = ["pvtu", "pvtp", "vtm", "vtmb", "vtpc", "xml"];
+        let Some(text) = text(path, &EXTENSIONS) else { return Ok(None) };
+        let Ok(document) = Document::parse(&text) else { return Ok(None) };
+        let root = document.root_element();
+        let (element, attribute) = match root.attribute("type").unwrap_or_default() {
+            "PUnstructuredGrid" | "PPolyData" => ("Piece", "Source"),
+            "vtkMultiBlockDataSet"
+            | "vtkPartitionedDataSet"
+            | "vtkPartitionedDataSetCollection" => ("DataSet", "file"),
+            _ => return Ok(None),
+        };
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let (mut files, mut blocks) = (Vec::new(), Vec::new());
+        for node in root.descendants().filter(|node| node.has_tag_name(element)) {
+            let Some(file) = node.attribute(attribute).filter(|file| !file.is_empty()) else {
+                continue;
+            };
+            files.push(folder.join(file));
+            if element == "DataSet" {
+                let above = node.parent().and_then(|parent| parent.attribute("name"));
+                let name = node.attribute("name").or(above).unwrap_or(file);
+                blocks.push(name.to_string());
+            }
+        }
+        if files.is_empty() {
+            return Err(ReadError::malformed("files in the list", "none", Place::Unknown));
+        }
+        Ok(Some(Self { files, blocks }))
+    }
+
+    /// The particles of all pieces, one after the other.
+    pub(super) fn plan(&self) -> Result<Plan<'static>, ReadError> {
+        let mut contents = Vec::new();
+        for file in &self.files {
+            let named = |error| match error {
+                ReadError::Io { reason, .. } => ReadError::Io { path: file.clone(), reason },
+                error => ReadError::File { path: file.clone(), reason: Box::new(error) },
+            };
+            let io = |reason| ReadError::Io { path: file.clone(), reason };
+            let input = Input::new(std::fs::File::open(file).map_err(io)?).map_err(named)?;
+            contents.push((file.as_path(), Content::new(&input, false).map_err(named)?));
+        }
+        let mut warnings = Vec::new();
+        if self.blocks.len() > 1 {
+            warnings.push(format!(
+                "{} blocks are put together: {}; where some of them are walls, name the file of the water alone",
+                self.blocks.len(),
+                self.blocks.join(", ")
+            ));
+        }
+        vtk_xml::plan_files(&contents, warnings)
+    }
+
+    /// What is at fault, by the piece where that is alone at fault.
+    pub(super) fn fault(&self, error: ReadError) -> ReadError {
+        if matches!(error, ReadError::File { .. } | ReadError::Io { .. }) {
+            return error;
+        }
+        let faults = self.files.iter().find_map(|file| super::read(file).err());
+        faults.unwrap_or(error)
+    }
+}
+
+/// The index in its folder that lists a file as a piece of its frame, where there is one.
+pub(super) fn lists(file: &Path) -> Option<PathBuf> {
+    let extension = file.extension()?.to_string_lossy().to_lowercase();
+    if !matches!(extension.as_str(), "vtu" | "vtp") {
+        return None;
+    }
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    let name = file.file_name()?.to_str()?;
+    let mut indices: Vec<PathBuf> = std::fs::read_dir(folder)
+        .ok()?
+        .flatten()
+        .map(|entry| file.with_file_name(entry.file_name()))
+        .filter(|path| path.extension().is_some_and(|e| e == "pvtu" || e == "pvtp"))
+        .collect();
+    indices.sort();
+    // A name in the text is enough: these are short, and nothing else stands in them.
+    let named = format!("\"{name}\"");
+    indices.into_iter().find(|path| {
+        text(path, &["pvtu", "pvtp"])
+            .is_some_and(|t| t.contains(&named) || t.contains(&format!("/{name}\"")))
+    })
+}
+
+/// A file, and its time where that is said.
+pub(super) type Timed = (PathBuf, Option<f64>);
+
+/// The frames that a file lists, with their times; none of another file.
+///
+/// # Errors
+/// What it should be.
+pub(super) fn frames(path: &Path) -> Result<Option<Vec<Timed>>, String> {
+    let Some(text) = text(path, &["pvd", "series"]) else { return Ok(None) };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut frames: Vec<Timed> = Vec::new();
+    if text.trim_start().starts_with('{') {
+        let list: serde_json::Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
+        for file in list.get("files").and_then(|files| files.as_array()).into_iter().flatten() {
+            let name = file.get("name").and_then(|name| name.as_str());
+            let time = file.get("time").and_then(serde_json::Value::as_f64);
+            frames.extend(name.map(|name| (folder.join(name), time)));
+        }
+    } else {
+        let document = Document::parse(&text).map_err(|e| e.to_string())?;
+        for node in document.root_element().descendants().filter(|n| n.has_tag_name("DataSet")) {
+            let time = node.attribute("timestep").and_then(|time| time.trim().parse().ok());
+            frames.extend(node.attribute("file").map(|file| (folder.join(file), time)));
+        }
+    }
+    if frames.is_empty() {
+        return Err("files in it, found none".into());
+    }
+    Ok(Some(frames))
+}
