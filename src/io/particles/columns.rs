@@ -1,6 +1,7 @@
 //! From named columns of numbers to [`Particles`]: which names mean what, and checks that hold for all formats.
 
 use super::error::{Place, ReadError};
+use super::meaning::Meaning;
 use super::names::{self, Names};
 use super::survey::{Columns, Survey};
 use super::{Format, Particles, bytes};
@@ -324,6 +325,7 @@ impl Table {
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
         let roles = Roles::find(&shapes, placed, &self.attributes)?;
         roles.rows(&shapes)?;
+        let meanings = roles.meanings(&shapes, &self.attributes);
         self.warnings.extend(roles.warnings());
         let columns = Columns::new(self.columns);
         let mut survey = Survey::new(columns.origin(&roles));
@@ -331,12 +333,20 @@ impl Table {
         survey.drop_from(&mut particles);
         self.warnings.extend(survey.finish()?);
         let time = self.time.or(survey.time());
-        Ok(Particles { attributes: self.attributes, warnings: self.warnings, time, ..particles })
+        Ok(Particles {
+            attributes: self.attributes,
+            meanings,
+            warnings: self.warnings,
+            time,
+            ..particles
+        })
     }
 }
 
 /// The name of positions that have none, but a place of their own.
 pub(super) const PLACED: &str = "positions";
+/// As what formats list them.
+const OWN: [&str; 3] = ["Points", "position", "array"];
 
 impl Column {
     /// Without numbers yet.
@@ -531,6 +541,41 @@ impl Roles {
             what: "the list of particles".into(),
             limit: usize::MAX as u64,
         })
+    }
+
+    /// Which attributes became what.
+    pub(super) fn meanings(
+        &self,
+        shapes: &[Shape<'_>],
+        attributes: &[Attribute],
+    ) -> Vec<(Meaning, Vec<String>)> {
+        let vectors =
+            [(Meaning::Position, Some(self.positions)), (Meaning::Velocity, self.velocities)];
+        let scalars = [
+            (Meaning::Density, self.densities),
+            (Meaning::Lifetime, self.lifetimes),
+            (Meaning::Id, self.ids),
+            (Meaning::Kind, self.kinds),
+        ];
+        let vectors = vectors.into_iter().filter_map(|(meaning, vector)| {
+            let columns: Vec<_> = vector?.columns().collect();
+            Some((meaning, columns))
+        });
+        let scalars = scalars.into_iter().filter_map(|(meaning, i)| Some((meaning, vec![i?])));
+        let name = |i: usize| shapes.get(i).map(|shape| shape.name.to_string());
+        let all = vectors.chain(scalars);
+        let all =
+            all.map(|(meaning, columns)| (meaning, columns.into_iter().filter_map(name).collect()));
+        let mut all: Vec<(Meaning, Vec<String>)> = all.collect();
+        // Positions that have a place of their own are listed by the name that the format gives them.
+        let unlisted = |name: &String| !attributes.iter().any(|a| a.name == *name);
+        if let Some((_, names)) = all.first_mut()
+            && names.iter().any(unlisted)
+            && let Some(own) = attributes.iter().find(|a| OWN.contains(&a.name.as_str()))
+        {
+            *names = vec![own.name.clone()];
+        }
+        all
     }
 
     /// The columns that have a meaning, in the order in which they are checked.

@@ -42,6 +42,7 @@ mod heading;
 mod index;
 mod json;
 mod lammps;
+mod meaning;
 mod names;
 mod numpy;
 mod parts;
@@ -64,6 +65,7 @@ use std::path::Path;
 pub use columns::{Attribute, AttributeType};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
+pub use meaning::Meaning;
 pub use parts::Parts;
 pub use spacing::{estimate_densities, estimate_spacing};
 pub use write::{write, write_to};
@@ -88,6 +90,8 @@ pub struct Particles {
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, read or not, positions included.
     pub attributes: Vec<Attribute>,
+    /// Which of them became what, by their names: positions first. What is in no list here was passed over.
+    pub meanings: Vec<(Meaning, Vec<String>)>,
     /// The time of the frame, where the file says it, in its unit.
     pub time: Option<f64>,
     /// What was taken off the positions of the file, in double precision, so that 32-bit floats tell particles apart that lie
@@ -110,6 +114,7 @@ impl Particles {
             lifetimes: None,
             kinds: None,
             attributes: Vec::new(),
+            meanings: Vec::new(),
             time: None,
             origin: [0.0; 3],
             format: Format::RawF32,

@@ -130,6 +130,7 @@ impl<'a> Parts<'a> {
                 show(&all);
                 let about = Particles {
                     attributes: all.attributes.clone(),
+                    meanings: all.meanings.clone(),
                     warnings: all.warnings.clone(),
                     ..slice(&all, 0..0)
                 };

@@ -2,6 +2,7 @@
 
 use super::columns::{Attribute, Column, Data, Roles, Shape};
 use super::error::{Place, ReadError};
+use super::meaning::Meaning;
 use super::survey::{Columns, FIRST, Survey};
 use super::{Format, Particles};
 
@@ -52,6 +53,7 @@ pub(super) struct Plan<'a> {
     /// Particles; none where only reading them tells.
     rows: Option<usize>,
     attributes: Vec<Attribute>,
+    meanings: Vec<(Meaning, Vec<String>)>,
     warnings: Vec<String>,
     time: Option<f64>,
     format: Format,
@@ -86,6 +88,7 @@ impl<'a> Plan<'a> {
         let About { placed, attributes, mut warnings, time, format } = about;
         let shapes: Vec<_> = tracks.iter().flat_map(shapes).collect();
         let roles = Roles::find(&shapes, placed, &attributes)?;
+        let meanings = roles.meanings(&shapes, &attributes);
         warnings.extend(roles.warnings());
         let known = tracks.iter().all(|track| track.lengths.is_some());
         let rows = if known { Some(roles.rows(&shapes)?) } else { None };
@@ -93,7 +96,7 @@ impl<'a> Plan<'a> {
         for i in roles.used() {
             used.get_mut(i).into_iter().for_each(|used| *used = true);
         }
-        Ok(Self { tracks, used, roles, rows, attributes, warnings, time, format, limit })
+        Ok(Self { tracks, used, roles, rows, attributes, meanings, warnings, time, format, limit })
     }
 
     /// Each track, with the columns of it that are used.
@@ -165,7 +168,8 @@ impl<'a> Plan<'a> {
         let mut warnings = self.warnings;
         warnings.extend(survey.finish()?);
         let time = self.time.or(survey.time());
-        Ok(Particles { attributes: self.attributes, warnings, time, ..particles })
+        let (attributes, meanings) = (self.attributes, self.meanings);
+        Ok(Particles { attributes, meanings, warnings, time, ..particles })
     }
 
     /// Finds all there is to find fault with, and what only all particles tell.
@@ -199,6 +203,7 @@ impl<'a> Plan<'a> {
         pass.finish(self)?;
         pass.survey.drop_from(&mut about);
         about.attributes.clone_from(&self.attributes);
+        about.meanings.clone_from(&self.meanings);
         about.warnings.clone_from(&self.warnings);
         about.warnings.extend(pass.survey.finish()?);
         about.time = self.time.or(pass.survey.time());

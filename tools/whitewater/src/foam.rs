@@ -20,6 +20,15 @@ const MOST: f64 = 0.3;
 const FALL: f32 = 0.125;
 /// Acceleration of a fall, m/s².
 const GRAVITY: f32 = 9.81;
+/// Speed relative to its surroundings from which on water draws in air, m/s: a plunging jet does from 0.8 (rough) to 2.5 m/s
+/// (smooth) on, about 1 m/s where it is as turbulent as most are (Ervine et al. 1980, "Effect of turbulence intensity on the
+/// rate of air entrainment by plunging water jets"; Chanson 1996, "Air bubble entrainment in free-surface turbulent shear
+/// flows").
+pub const ONSET: f32 = 1.0;
+/// Share of a frame's water that is so fast, below which all of it is calm.
+const STIRRED: f64 = 0.001;
+/// Water flows as a whole where its speed is so many times what half of it deviates by.
+const UNIFORM: f32 = 2.0;
 
 /// The settings for frames of a sequence and their seconds, where they have velocities. A threshold does not
 /// transfer from one simulation to another: where neither `wanted` nor the table says one it is taken from the frames.
@@ -33,6 +42,18 @@ pub fn settings(
     let spacing = settings.water.spacing;
     let mut foam = table.formation(&settings.water);
     let (driven, floor): (Vec<Particles>, _) = match by {
+        FoamBy::Speed if wanted == Foaming::Auto && table.threshold.is_none() => {
+            let flows: Vec<_> = frames.iter().filter_map(Flow::of).collect();
+            if flows.iter().all(|flow| flow.fast < ONSET) {
+                return None;
+            }
+            // What goes with the water round it does not foam, however fast that is.
+            let flow = Flow::together(&flows);
+            if table.air.is_none() && flow.mean.length() > UNIFORM * flow.deviation {
+                foam.air = flow.mean.to_array();
+            }
+            (Vec::new(), foam.scale * foam.rest_density * ONSET * ONSET)
+        }
         FoamBy::Speed => (Vec::new(), 0.0),
         FoamBy::Air => {
             // Of neighbours: the wind does not matter.
@@ -58,7 +79,7 @@ pub fn settings(
             // Nothing will come: a frame by itself foams from half of it on, and between frames at rest nothing does.
             let least = if frames.len() == 1 { 0.5 * floor } else { 0.0 };
             let some = |frame| numbers(frame, &foam, spray).iter().any(|(_, n)| *n > least);
-            if floor > 0.0 && !frames.iter().any(some) {
+            if by == FoamBy::Air && !frames.iter().any(some) {
                 return None;
             }
             calm.max(floor)
@@ -66,6 +87,37 @@ pub fn settings(
     };
     // Water at rest does not foam.
     (threshold > 0.0).then_some(FoamSettings { threshold, ..foam })
+}
+
+/// How the water of a frame moves.
+#[derive(Clone, Copy, Debug)]
+struct Flow {
+    mean: Vec3,
+    /// From the mean: of half of the water, and of what is faster than nearly all.
+    deviation: f32,
+    fast: f32,
+}
+
+impl Flow {
+    fn of(frame: &Particles) -> Option<Self> {
+        let velocities = frame.velocities.iter().flatten().map(|v| Vec3::from(*v));
+        let velocities: Vec<Vec3> = velocities.filter(|v| v.is_finite()).collect();
+        // The middle one, which a few that fly off do not move.
+        let middle = |axis: usize| quantile(velocities.iter().map(|v| v[axis]).collect(), 0.5);
+        let mean = Vec3::new(middle(0)?, middle(1)?, middle(2)?);
+        let off: Vec<f32> = velocities.iter().map(|v| v.distance(mean)).collect();
+        let fast = quantile(off.clone(), 1.0 - STIRRED)?;
+        Some(Self { mean, deviation: quantile(off, 0.5)?, fast })
+    }
+
+    /// Of several frames, of which each may flow another way.
+    fn together(flows: &[Self]) -> Self {
+        let share = (flows.len().max(1) as f32).recip();
+        let mean = flows.iter().map(|flow| flow.mean * share).sum();
+        let off = |flow: &Self| flow.deviation.max(flow.mean.distance(mean));
+        let deviation = flows.iter().map(off).fold(0.0, f32::max);
+        Self { mean, deviation, fast: flows.iter().map(|flow| flow.fast).fold(0.0, f32::max) }
+    }
 }
 
 /// What water foams by in the place of its velocities, as fast as neighbours run into it.
@@ -289,6 +341,39 @@ mod tests {
         assert_eq!(settings(Foaming::Auto, by, frames, &[0.0], &Settings::default()), None);
     }
 
+    /// Water that trembles, that flows as a whole and that is slow does not foam in a sequence; what is faster than the flow by
+    /// as much as draws in air does, and nothing else.
+    #[test]
+    fn air_is_not_drawn_in_by_calm_water() {
+        let noise = |i: usize, seed: usize| ((i * 7919 + seed * 104_729) as f32).sin();
+        let of = |velocity: &dyn Fn(usize) -> [f32; 3]| {
+            let mut frame = Particles::from_positions(vec![[0.0; 3]; 2000]);
+            frame.velocities = Some((0..2000).map(velocity).collect());
+            let by = (&FoamTable::default(), FoamBy::Speed);
+            let frames = [frame.clone(), frame];
+            settings(Foaming::Auto, by, &frames, &[0.0, 0.1], &Settings::default())
+        };
+        let trembles = |size: f32| move |i| [1, 2, 3].map(|seed| size * noise(i, seed));
+        assert_eq!(of(&trembles(0.003)), None, "millimetres a second");
+        assert_eq!(of(&trembles(0.5)), None, "less than a metre a second");
+        assert_eq!(of(&|_| [3.0, 0.0, 0.0]), None, "uniform");
+        assert_eq!(of(&|i| [3.0 + 0.01 * noise(i, 1), 0.0, 0.01 * noise(i, 2)]), None, "a river");
+        assert!(of(&trembles(3.0)).is_some());
+        // A jet into a pool at rest, of one in a hundred: slower water does not foam though that is a twentieth.
+        let jet = of(&|i| [0.0, if i % 100 == 0 { -4.0 } else { 0.2 * noise(i, 1) }, 0.0]).unwrap();
+        assert!((jet.threshold / (jet.scale * 1000.0) - ONSET * ONSET).abs() < 1.0e-4, "{jet:?}");
+        assert_eq!(jet.air, [0.0; 3]);
+        // Behind a stone in a river.
+        let wake = of(&|i| [if i % 50 == 0 { -1.0 } else { 3.0 }, 0.0, 0.0]).unwrap();
+        assert_eq!(wake.air, [3.0, 0.0, 0.0], "the water's own speed does not count");
+        // A number that is said is taken as it is.
+        let mut frame = Particles::from_positions(vec![[0.0; 3]; 10]);
+        frame.velocities = Some(vec![[0.001; 3]; 10]);
+        let by = (&FoamTable::default(), FoamBy::Speed);
+        let said = Foaming::From(1.0e-6);
+        assert!(settings(said, by, &[frame], &[0.0], &Settings::default()).is_some());
+    }
+
     #[test]
     fn numbers_that_are_said_are_of_the_own_speed() {
         let of = |table: FoamTable, wanted| table.by(wanted, false);
@@ -311,7 +396,7 @@ mod tests {
     fn no_more_than_three_tenths_foam_at_a_time() {
         let mut frames: Vec<Particles> = (0..10)
             .map(|frame| {
-                let speed = |i: usize| if i / 4 == frame { 9.0 } else { 0.01 * i as f32 };
+                let speed = |i: usize| if i / 4 == frame { 9.0 } else { 0.04 * i as f32 };
                 let mut particles = csv();
                 particles.velocities = Some((0..100).map(|i| [speed(i), 0.0, 0.0]).collect());
                 particles.ids = Some((0..100).collect());
@@ -327,8 +412,8 @@ mod tests {
             (found.threshold / (found.scale * 1000.0)).sqrt()
         };
         assert!((of(&frames, 0.1) - 9.0).abs() < 1.0e-3, "{}", of(&frames, 0.1));
-        assert!(of(&frames, 0.2) < 1.0, "five frames to a lifetime: two tenths");
+        assert!(of(&frames, 0.2) < 4.0, "five frames to a lifetime: two tenths");
         frames.iter_mut().for_each(|frame| frame.ids = None);
-        assert!(of(&frames, 0.1) < 1.0, "nobody knows who they are");
+        assert!(of(&frames, 0.1) < 4.0, "nobody knows who they are");
     }
 }

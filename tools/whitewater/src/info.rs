@@ -4,11 +4,12 @@ use std::collections::HashSet;
 
 use serde_json::{Value, json};
 use whitewater::io::particles::sequence::{self, Frame, SequenceError};
-use whitewater::io::particles::{self, Particles};
+use whitewater::io::particles::{self, Meaning, Particles};
 
 use crate::args::InfoArgs;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::out;
+use crate::reader::Has;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
     let frames = expand(&args.inputs)?;
@@ -77,7 +78,10 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
     let attributes: Vec<Value> = particles
         .attributes
         .iter()
-        .map(|a| json!({"name": a.name, "type": a.ty.to_string(), "components": a.components}))
+        .map(|a| {
+            let meaning = meaning(particles, &a.name).map(|meaning| meaning.to_string());
+            json!({"name": a.name, "type": a.ty.to_string(), "components": a.components, "meaning": meaning})
+        })
         .collect();
     let spacing = particles::estimate_spacing(&particles.positions);
     json!({
@@ -91,8 +95,36 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "radius": spacing.map(|s| 0.5 * s),
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
+        "missing": missing(Has::of(particles)),
         "warnings": particles.warnings,
     })
+}
+
+/// What an attribute is taken as; none where it is passed over.
+fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
+    let of_name = |(_, names): &&(Meaning, Vec<String>)| names.iter().any(|n| n == name);
+    let (meaning, _) = particles.meanings.iter().find(of_name)?;
+    // Those that are no whole numbers are dropped.
+    let there = match meaning {
+        Meaning::Id => particles.ids.is_some(),
+        Meaning::Kind => particles.kinds.is_some(),
+        _ => true,
+    };
+    there.then_some(*meaning)
+}
+
+/// What is not there, and what that costs.
+fn missing(has: Has) -> Option<&'static str> {
+    match (has.velocities, has.ids) {
+        (true, true) => None,
+        (true, false) => Some("no ids: foam of a sequence is found anew in each frame"),
+        (false, true) => Some(
+            "no velocities: of this file alone no foam; of a sequence they are found by its ids",
+        ),
+        (false, false) => Some(
+            "no velocities and no ids: of this file alone no foam; of a sequence only where its order stays",
+        ),
+    }
 }
 
 fn statistics(values: &[f32]) -> Option<Value> {
@@ -134,7 +166,11 @@ fn text(value: &Value) -> String {
     }
     for a in value["attributes"].as_array().map(Vec::as_slice).unwrap_or_default() {
         let [name, ty] = ["name", "type"].map(|key| a[key].as_str().unwrap_or_default());
-        lines.push(format!("  attribute   {name} ({ty} x {})", a["components"]));
+        let meaning = a["meaning"].as_str().unwrap_or("passed over");
+        lines.push(format!("  attribute   {name} ({ty} x {}): {meaning}", a["components"]));
+    }
+    if let Some(missing) = value["missing"].as_str() {
+        lines.push(format!("  missing     {missing}"));
     }
     for warning in value["warnings"].as_array().map(Vec::as_slice).unwrap_or_default() {
         lines.push(format!("  warning     {}", warning.as_str().unwrap_or_default()));

@@ -38,11 +38,23 @@ pub struct Reader<'a> {
     last: Option<Known>,
     /// Some were found.
     pub found_velocities: bool,
+    /// What frames of the sequence have; one that has not is told of.
+    pub expected: Has,
+    /// What those have that were read.
+    pub seen: Has,
 }
 
 impl<'a> Reader<'a> {
     pub fn new(all: &'a [Frame], up: Up, fps: Option<f32>) -> Self {
-        Self { all, up, fps, last: None, found_velocities: false }
+        Self {
+            all,
+            up,
+            fps,
+            last: None,
+            found_velocities: false,
+            expected: Has::default(),
+            seen: Has::default(),
+        }
     }
 
     pub fn read(&mut self, frame: &Frame) -> Outcome<Particles> {
@@ -55,24 +67,48 @@ impl<'a> Reader<'a> {
                 particles.positions.len()
             ));
         }
-        if let (None, Some(fps)) = (&particles.velocities, self.fps) {
+        let own = Has::of(&particles);
+        self.seen = self.seen.or(own);
+        let lacks = self.expected.without(own);
+        if let Some(fps) = self.fps
+            && (!own.velocities || lacks.ids)
+        {
             self.neighbour(frame.number);
             let known = self.last.take();
-            particles.velocities = known.and_then(|known| {
-                let seconds = (frame.number as f32 - known.number as f32) / fps;
-                velocities(&particles, &known, seconds)
-            });
-            self.found_velocities |= particles.velocities.is_some();
+            // As the file has it, so that the frames after are the same however a sequence is cut into jobs.
             self.last = Some(Known {
                 number: frame.number,
                 positions: particles.positions.clone(),
                 ids: particles.ids.clone(),
             });
+            if let Some(known) = known {
+                if lacks.ids {
+                    particles.ids = ids_by_place(&particles, &known);
+                }
+                if !own.velocities {
+                    let seconds = (frame.number as f32 - known.number as f32) / fps;
+                    particles.velocities = velocities(&particles, &known, seconds);
+                    self.found_velocities |= particles.velocities.is_some();
+                }
+            }
+        }
+        if let Some(names) = lacks.names() {
+            let found = Has::of(&particles).without(own).and(lacks).names();
+            let found = found.map_or(String::new(), |found| {
+                format!("; {found} are found by where particles are in the frame beside it")
+            });
+            particles.warnings.push(format!("no {names}, which other frames have{found}"));
         }
         Ok(particles)
     }
 
-    fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
+    /// Has velocities found by another rate, where they are found.
+    pub fn set_rate(&mut self, fps: f32) {
+        self.fps = self.fps.map(|_| fps);
+    }
+
+    /// A frame without what is found or told of it.
+    pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
         let mut particles = particles::read(&frame.path)?;
         if self.up == Up::Z {
             let Particles { positions, velocities, .. } = &mut particles;
@@ -99,6 +135,66 @@ impl<'a> Reader<'a> {
             self.last = self.as_it_is(neighbour).ok().map(known);
         }
     }
+}
+
+/// What particles have that makes a difference to the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Has {
+    pub velocities: bool,
+    pub ids: bool,
+    pub densities: bool,
+}
+
+impl Has {
+    pub fn of(particles: &Particles) -> Self {
+        Self {
+            velocities: particles.velocities.is_some(),
+            ids: particles.ids.is_some(),
+            densities: particles.densities.is_some(),
+        }
+    }
+
+    fn zip(self, other: Self, with: fn(bool, bool) -> bool) -> Self {
+        Self {
+            velocities: with(self.velocities, other.velocities),
+            ids: with(self.ids, other.ids),
+            densities: with(self.densities, other.densities),
+        }
+    }
+
+    pub fn or(self, other: Self) -> Self {
+        self.zip(other, |a, b| a | b)
+    }
+
+    fn and(self, other: Self) -> Self {
+        self.zip(other, |a, b| a & b)
+    }
+
+    fn without(self, other: Self) -> Self {
+        self.zip(other, |a, b| a & !b)
+    }
+
+    /// In words; none where there is nothing.
+    pub fn names(self) -> Option<String> {
+        let all =
+            [(self.velocities, "velocities"), (self.ids, "ids"), (self.densities, "densities")];
+        let names: Vec<_> = all.into_iter().filter(|(has, _)| *has).map(|(_, name)| name).collect();
+        let (last, rest) = names.split_last()?;
+        Some(if rest.is_empty() {
+            (*last).to_string()
+        } else {
+            format!("{} and {last}", rest.join(", "))
+        })
+    }
+}
+
+/// Ids of another frame, where particles are in the same order there: nearly all are nearly where they were.
+fn ids_by_place(now: &Particles, known: &Known) -> Option<Vec<u32>> {
+    let ids = known.ids.as_ref().filter(|ids| ids.len() == now.positions.len())?;
+    let most = FAR * size(&now.positions)?;
+    let near = now.positions.iter().zip(&known.positions);
+    let near = near.filter(|(a, b)| Vec3::from(**a).distance(Vec3::from(**b)) <= most).count();
+    (10 * near > 9 * ids.len()).then(|| ids.clone())
 }
 
 /// How fast particles go, by where they are and were so many seconds ago. Told by their ids or, where neither frame has

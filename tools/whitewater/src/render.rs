@@ -19,7 +19,7 @@ use crate::foam;
 use crate::generate::Generate;
 use crate::output;
 use crate::progress::Progress;
-use crate::reader::{DEFAULT_FPS, Reader};
+use crate::reader::{DEFAULT_FPS, Has, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 use crate::shore::{self, Shores};
@@ -125,10 +125,17 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let fps = moving.then(|| args.fps.unwrap_or(DEFAULT_FPS));
     let mut reader = Reader::new(&all, args.up_axis, fps);
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
-    if reader.found_velocities {
+    if reader.found_velocities && !probes.own.velocities {
         progress.say(
             "velocities are not in the files: found by where particles are from frame to frame",
         );
+    }
+    if made || foams {
+        probes.missing(all.len()).into_iter().for_each(|line| progress.say(&line));
+    }
+    reader.expected = probes.own;
+    if let (None, Some(found)) = (args.fps, probes.fps) {
+        reader.set_rate(found);
     }
     let settings_of_bubbles = settings.bubbles.config();
     let shores = Shores::of_particles(&settings)?;
@@ -159,8 +166,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     session.keep = keep;
     session.up = args.up_axis;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
+    let mut warnings = Warnings::default();
     for frame in &left {
-        match draw(&mut reader, &mut session, &all, frame, &progress) {
+        match draw(&mut reader, &mut session, &all, frame, (&progress, &mut warnings)) {
             Ok(line) => progress.advance(&line),
             Err(failure) if failure.kind == Kind::Input => {
                 progress.advance(&format!("frame {}: {}", frame.number, failure.message));
@@ -175,6 +183,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         }
     }
     progress.finish();
+    warnings.again(left.len()).iter().for_each(|line| progress.say(line));
     session.finish()?;
     report(left.len(), failed)
 }
@@ -190,13 +199,15 @@ fn draw(
     session: &mut Session<'_>,
     all: &[Frame],
     frame: &Frame,
-    progress: &Progress,
+    (progress, warnings): (&Progress, &mut Warnings),
 ) -> Outcome<String> {
     let began = std::time::Instant::now();
     let number = frame.number;
     let particles = session.times.step("read", number, || reader.read(frame))?;
     for warning in &particles.warnings {
-        progress.say(&format!("{}: {warning}", frame.path.display()));
+        if let Some(line) = warnings.new(&frame.path.display().to_string(), warning) {
+            progress.say(&line);
+        }
     }
     if session.remembers() {
         remember(reader, session, all, frame, particles.positions.len())?;
@@ -212,6 +223,41 @@ fn draw(
         began.elapsed().as_secs_f32(),
         paths.join(" and ")
     ))
+}
+
+/// What was said of frames: once where it is the same but for its numbers.
+#[derive(Default)]
+struct Warnings(Vec<Warning>);
+
+struct Warning {
+    /// Without numbers.
+    kind: String,
+    file: String,
+    text: String,
+    frames: usize,
+}
+
+impl Warnings {
+    /// The line to say; none where it was said of another frame.
+    fn new(&mut self, file: &str, text: &str) -> Option<String> {
+        let kind: String = text.chars().filter(|c| !c.is_ascii_digit()).collect();
+        if let Some(known) = self.0.iter_mut().find(|known| known.kind == kind) {
+            known.frames += 1;
+            return None;
+        }
+        self.0.push(Warning { kind, file: file.into(), text: text.into(), frames: 1 });
+        Some(format!("{file}: {text}"))
+    }
+
+    /// What was not said again, of how many frames.
+    fn again(&self, total: usize) -> Vec<String> {
+        let repeated = self.0.iter().filter(|warning| warning.frames > 1);
+        let line = |Warning { file, text, frames, .. }: &Warning| {
+            let start: Vec<_> = text.split(' ').take(8).collect();
+            format!("{frames} of {total} frames as {file}: {} ...", start.join(" "))
+        };
+        repeated.map(line).collect()
+    }
 }
 
 /// Lets foam come and go by the frames before one, from the first of the sequence on: how it is cut into
@@ -270,7 +316,12 @@ struct Probes {
     fps: Option<f32>,
     /// The number of the first of the sequence.
     first: u64,
+    /// What any of the files has of its own.
+    own: Has,
 }
+
+/// Pairs of frames that are asked how far they are apart: some may lack what tells it.
+const PAIRS: usize = 6;
 
 impl Probes {
     fn read(reader: &mut Reader<'_>, all: &[Frame], left: &[Frame]) -> Outcome<Self> {
@@ -300,18 +351,44 @@ impl Probes {
                 (None, None) => {}
             }
         }
-        let middle = (all.len() - 1) / 2;
-        let fps = match &all[middle..] {
-            // Of velocities that are found by it the rate is what they say.
-            [a, b, ..] if !reader.found_velocities => match [reader.read(a), reader.read(b)] {
-                [Ok(first), Ok(second)] => foam::seconds(&first, &second)
-                    .map(|seconds| (b.number - a.number) as f32 / seconds),
-                _ => None,
-            },
-            _ => None,
+        let own = reader.seen;
+        // Of velocities that are found by it the rate is what they say: as the files have them.
+        let apart = |pair: &[Frame]| {
+            let [a, b] = pair else { return None };
+            let (first, second) = (reader.as_it_is(a).ok()?, reader.as_it_is(b).ok()?);
+            let seconds = foam::seconds(&first, &second)?;
+            Some((b.number - a.number) as f32 / seconds)
         };
+        let middle = (all.len() - 1) / 2;
+        let fps = all.windows(2).skip(middle).chain(all.windows(2).take(middle)).take(PAIRS);
+        let fps = if own.velocities && own.ids { fps.filter_map(apart).next() } else { None };
         let first = all.first().map_or(0, |f| f.number);
-        Ok(Self { frames, numbers, fps, first })
+        Ok(Self { frames, numbers, fps, first, own })
+    }
+
+    /// What to say of what none of the files of a sequence has, where foam is wanted.
+    fn missing(&self, files: usize) -> Option<String> {
+        let velocities = self.frames.iter().any(|frame| frame.velocities.is_some());
+        let Has { velocities: own, ids, .. } = self.own;
+        Some(match files {
+            1 if !velocities => {
+                let ids = if ids { "" } else { " and no ids" };
+                format!(
+                    "no velocities{ids}: no foam (of a sequence velocities are found, where particles have ids or keep \
+                     their order)"
+                )
+            }
+            _ if !velocities && !ids => {
+                "no velocities and no ids, and particles do not keep their order: no foam".into()
+            }
+            _ if !velocities => {
+                "no velocities, and ids that tell no particle from frame to frame: no foam".into()
+            }
+            2.. if own && !ids => {
+                "no ids: foam is found anew in each frame (with ids it comes and goes with the particles)".into()
+            }
+            _ => return None,
+        })
     }
 
     fn spacing(&self) -> Option<f32> {
@@ -613,12 +690,12 @@ fn look(
     };
     let seconds: Vec<f32> =
         probes.numbers.iter().map(|n| n.saturating_sub(probes.first) as f32 / fps).collect();
-    let foam = args.draw.foam.unwrap_or(foaming(args));
+    let wanted = args.draw.foam.unwrap_or(foaming(args));
     // In a sequence by speed: where air is trapped changes from frame to frame, three times as much as foam by speed does.
     let steady = sequence.is.then_some(FoamBy::Speed);
-    let by = file.foam.by.or(steady).unwrap_or_else(|| file.foam.by(foam, file.is_thesis()));
+    let by = file.foam.by.or(steady).unwrap_or_else(|| file.foam.by(wanted, file.is_thesis()));
     file.foam.by = Some(by);
-    let foam = foam::settings(foam, (&file.foam, by), &probes.frames, &seconds, &settings);
+    let foam = foam::settings(wanted, (&file.foam, by), &probes.frames, &seconds, &settings);
     if let Some(foam) = &foam {
         let of = match by {
             FoamBy::Air => "of trapped air ",
@@ -626,6 +703,12 @@ fn look(
         };
         let number = round(foam.threshold);
         progress.say(&format!("foam from Weber number {of}{number} on (--foam sets it; none)"));
+    } else if wanted == Foaming::Auto && probes.frames.iter().any(|f| f.velocities.is_some()) {
+        let onset = foam::ONSET;
+        progress.say(&format!(
+            "no foam: the water is calm, or moves as a whole; it draws in air from {onset} metre a second on, by which it \
+             moves past its surroundings (--foam N sets a Weber number; --unit, where lengths are no metres)"
+        ));
     }
     let moving = |f: &Particles| f.velocities.is_some() && f.ids.is_some();
     let made = args.whitewater == [Whitewater::Generate];

@@ -31,6 +31,43 @@ fn info_tells_what_a_file_holds() {
     }
 }
 
+/// Which attribute became what, what was passed over, and what is not there.
+#[test]
+fn info_tells_what_became_of_attributes() {
+    let folder = Folder::new();
+    let mut rows = String::from("x,y,z,vx,vy,vz,rho,id,shear\n");
+    for (i, [x, y, z]) in block(3).into_iter().enumerate() {
+        rows += &format!("{x},{y},{z},1,0,0,1000,{i},0.5\n");
+    }
+    folder.text("a.csv", &rows);
+    let text = folder.run("info a.csv").ok().stdout();
+    for part in [
+        "x (number x 1): position",
+        "vz (number x 1): velocity",
+        "rho (number x 1): density",
+        "id (number x 1): id",
+        "shear (number x 1): passed over",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    assert!(!text.contains("missing"), "{text}");
+    // Ids that are no whole numbers are dropped.
+    folder.text("b.csv", &rows.replace("1000,", "1000,-"));
+    let text = folder.run("info b.csv").ok().stdout();
+    assert!(text.contains("id (number x 1): passed over"), "{text}");
+    assert!(text.contains("no ids: foam of a sequence is found anew in each frame"), "{text}");
+    folder.particles("c.ply", block(3));
+    folder.write("c.vtu", &Particles::from_positions(block(3)));
+    for file in ["c.ply", "c.vtu"] {
+        let run = folder.run(&format!("info {file} --json")).ok();
+        let value: Value = serde_json::from_str(&run.stdout()).unwrap();
+        let of = |a: &Value| a["meaning"] == "position";
+        assert!(value[0]["attributes"].as_array().unwrap().iter().all(of), "{value}");
+        let missing = value[0]["missing"].as_str().unwrap();
+        assert!(missing.starts_with("no velocities and no ids"), "{missing}");
+    }
+}
+
 #[test]
 fn info_goes_on_after_a_bad_file() {
     let folder = Folder::new();

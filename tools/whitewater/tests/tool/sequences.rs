@@ -294,3 +294,71 @@ fn a_turntable_goes_round_a_sequence() {
     folder.run("render f_0.ply -o c.png --turntable=1").fails_at_once();
     folder.run("render f_0.ply -o c.png --turntable=0.01s").fails(2, &["2 to 100000"]);
 }
+
+/// What files lack, and what that costs, is said once.
+#[test]
+fn what_is_missing_is_told() {
+    let folder = Folder::new();
+    folder.particles("a.ply", block(4));
+    let said = |command: &str| folder.run(&format!("render {command} {SMALL}")).ok().stderr();
+    let text = said("a.ply -o a.png");
+    assert_eq!(text.matches("no velocities and no ids: no foam").count(), 1, "{text}");
+    // Where no foam is wanted nothing is amiss.
+    let text = said("a.ply -o a.png --foam none");
+    assert!(!text.contains("velocities"), "{text}");
+    // Of a sequence whose order changes none are found.
+    for frame in 1..=3_usize {
+        let mut positions = block(6);
+        (0..216).for_each(|i| positions.swap(i, (i * 61 * frame + 31) % 216));
+        folder.particles(&format!("f_{frame}.ply"), positions);
+    }
+    let text = said("f_*.ply -o f.png");
+    assert_eq!(text.matches("do not keep their order: no foam").count(), 1, "{text}");
+}
+
+/// One frame of four has neither velocities nor ids: it is told, and foams as the others do.
+#[test]
+fn a_frame_that_lacks_what_others_have_is_told() {
+    let folder = Folder::new();
+    let (fps, speed) = (64.0_f32, 2.0_f32);
+    for frame in 1..=4_u8 {
+        let full = frame != 3;
+        let mut rows = String::from(if full { "x,y,z,vx,vy,vz,id\n" } else { "x,y,z\n" });
+        for (i, [x, y, z]) in block(5).into_iter().enumerate() {
+            // The upper half slides over the lower one.
+            let speed = if y > 0.15 { speed } else { 0.0 };
+            rows += &format!("{},{y},{z}", x + speed / fps * f32::from(frame));
+            rows += &if full { format!(",{speed},0,0,{i}\n") } else { "\n".into() };
+        }
+        folder.text(&format!("f_{frame}.csv"), &rows);
+    }
+    let common = format!("{SMALL} --foam 1 --layers water.foam.thickness");
+    let said = folder.run(&format!("render f_*.csv -o a_%d.exr {common}")).ok().stderr();
+    let expected =
+        "f_3.csv: no velocities and ids, which other frames have; velocities and ids are found";
+    assert_eq!(said.matches(expected).count(), 1, "{said}");
+    assert!(said.contains("64 frames a second (found"), "{said}");
+    assert!(!said.contains("velocities are not in the files"), "{said}");
+    let foam = |frame: u8| -> f32 {
+        let picture = folder.picture(&format!("a_{frame}.exr"));
+        picture.channel("water.foam.thickness").unwrap().iter().sum()
+    };
+    let [before, here, after] = [2, 3, 4].map(foam);
+    assert!(here > 0.7 * before && here > 0.7 * after, "{before} {here} {after}");
+    folder.run(&format!("render f_*.csv -o b_%d.exr {common} --frames 3")).ok();
+    folder.run("compare a_3.exr b_3.exr").ok();
+}
+
+/// The same warning of each frame is said of the first, and how many it was at the end.
+#[test]
+fn a_warning_of_many_frames_is_said_once() {
+    let folder = Folder::new();
+    for frame in 1..=4_u8 {
+        let mut positions = block(6);
+        positions.extend(vec![[f32::NAN; 3]; usize::from(frame)]);
+        folder.particles(&format!("f_{frame}.ply"), positions);
+    }
+    let said = folder.run(&format!("render f_*.ply -o a.png {SMALL}")).ok().stderr();
+    assert_eq!(said.matches("or infinite, or too large").count(), 1, "{said}");
+    assert!(said.contains("4 of 4 frames as f_1.ply: 1 of 217 positions are not finite"), "{said}");
+}
