@@ -106,7 +106,8 @@ pub struct RenderArgs {
     /// drawn]
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
-    /// Particle radius of the solver, half the spacing at rest [default: estimated]
+    /// Particle radius of the solver, half the spacing at rest, in metres (as --unit or --scale makes them) [default:
+    /// estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
     /// Frames a second of the sequence, by which foam comes and goes and the motion layer is made
@@ -126,9 +127,17 @@ pub struct RenderArgs {
     /// read again as any others
     #[arg(long, value_name = "FILE")]
     pub write_whitewater: Option<PathBuf>,
-    /// Which axis of the particles points up; z is turned to y, scene and camera are y-up
-    #[arg(long, value_enum, default_value = "y")]
-    pub up_axis: Up,
+    /// Which axis of the particles points up; z is turned to y, scene and camera are y-up [default: z where the water lies on
+    /// the lower end of z and is open above, or comes down along it, which is said; else y]
+    #[arg(long, value_enum)]
+    pub up_axis: Option<Up>,
+    /// Unit of lengths in the particle files, velocities too. All other lengths (--radius, --eye, --scene) are in metres
+    /// [default: m]
+    #[arg(long, value_enum, conflicts_with = "scale")]
+    pub unit: Option<Unit>,
+    /// Metres of a unit of length in the particle files: 0.001 is as --unit mm
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    pub scale: Option<f32>,
     /// What stands behind the water: .glb, .gltf, .obj, or .json (boxes, cylinders, tubes, spheres;
     /// parts may move, with a pose for each frame, as 'whitewater simulate' writes them);
     /// 'ground' [default: a basin round water that fills a box, else a ground under it]
@@ -397,6 +406,35 @@ pub struct PatternArgs {
 pub enum Up {
     Y,
     Z,
+}
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Unit {
+    Mm,
+    Cm,
+    M,
+    Km,
+}
+
+impl Unit {
+    pub fn metres(self) -> f32 {
+        match self {
+            Self::Mm => 1.0e-3,
+            Self::Cm => 1.0e-2,
+            Self::M => 1.0,
+            Self::Km => 1.0e3,
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mm => "mm",
+            Self::Cm => "cm",
+            Self::M => "m",
+            Self::Km => "km",
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -9,13 +9,14 @@ use glam::Vec3;
 use whitewater::Settings;
 use whitewater::foam::DiffuseLook;
 use whitewater::headless::{self, Headless};
-use whitewater::io::particles::{Particles, Parts, sequence};
+use whitewater::io::particles::{Particles, Parts};
 
 use crate::args::{Up, Whitewater};
 use crate::bubbles::Random;
 use crate::failure::{Failure, Outcome};
+use crate::frames;
 use crate::generate::Generate;
-use crate::layers;
+use crate::placing::Placing;
 use crate::settings::SettingsFile;
 
 /// Frames in which the longest life is looked for, and how close together particles lie.
@@ -30,7 +31,7 @@ pub enum Diffusing {
 /// The files of a sequence, by frame.
 pub struct Files {
     frames: BTreeMap<u64, Vec<(PathBuf, Option<u32>)>>,
-    up: Up,
+    placing: Placing,
     /// The longest life: none where no file says how long they live.
     life: Option<f32>,
     /// Of each kind, how many a column holds that holds any; none where there are none of it.
@@ -56,7 +57,7 @@ struct Drawn {
 /// nothing is known of them, camera and light are found by the water. So no more than a part is in memory.
 pub struct Reading {
     files: Vec<(Parts<'static>, Option<u32>)>,
-    up: Up,
+    placing: Placing,
     life: Option<f32>,
     drawn: Option<Drawn>,
 }
@@ -135,15 +136,15 @@ pub struct Columns {
 
 impl Columns {
     /// Those of a frame, or a part of them.
-    pub fn add(&mut self, part: &Particles, kind: Option<u32>, up: Up, spacing: f32) {
+    pub fn add(&mut self, part: &Particles, kind: Option<u32>, placing: Placing, spacing: f32) {
         for (i, &[x, y, z]) in part.positions.iter().enumerate() {
             let gone =
                 part.lifetimes.as_ref().is_some_and(|left| left[i].is_nan() || left[i] <= 0.0);
-            let across = if up == Up::Z { y } else { z };
+            let across = if placing.up == Up::Z { y } else { z };
             if gone || !(x.is_finite() && across.is_finite()) {
                 continue;
             }
-            let column = [x, across].map(|c| (c / spacing).floor() as i64);
+            let column = [x, across].map(|c| (c * placing.scale / spacing).floor() as i64);
             let kind = kind.or_else(|| Some(part.kinds.as_ref()?[i])).map_or(0, kind_of);
             self.here.entry(column).or_default()[kind] += 1;
         }
@@ -168,7 +169,7 @@ impl Files {
     /// the water.
     pub fn find(
         named: &[Whitewater],
-        up: Up,
+        placing: Placing,
         single: Option<u64>,
         spacing: f32,
     ) -> Outcome<Option<Self>> {
@@ -182,14 +183,16 @@ impl Files {
                     "--whitewater: expected 'generate' or files, found both or one of it twice";
                 return Err(Failure::usage(why));
             };
-            let found = sequence::expand(std::slice::from_ref(files), None)?;
+            let found =
+                frames::expand(std::slice::from_ref(files), None).map_err(frames::advised)?;
             let alone = single.filter(|_| found.len() == 1);
             for frame in found {
                 let number = alone.unwrap_or(frame.number);
                 frames.entry(number).or_default().push((frame.path, *kind));
             }
         }
-        let mut files = Self { frames, up, life: None, columns: [None; 3], most: 0, drawn: None };
+        let mut files =
+            Self { frames, placing, life: None, columns: [None; 3], most: 0, drawn: None };
         files.look(spacing);
         Ok(Some(files))
     }
@@ -206,7 +209,7 @@ impl Files {
             let read = Parts::open_with(path, Parts::USUAL, |part| {
                 let lifetimes = part.lifetimes.iter().flatten().copied();
                 most = lifetimes.filter(|l| l.is_finite()).chain(most).reduce(f32::max);
-                columns.add(part, kind, self.up, spacing);
+                columns.add(part, kind, self.placing, spacing);
                 here += part.positions.len();
             });
             // One that can't be read is said when its frame is drawn.
@@ -252,14 +255,34 @@ impl Files {
         self.drawn.map_or(1, |drawn| drawn.copies)
     }
 
-    /// What to say where some of the frames have no file of their number.
-    pub fn missing(&self, frames: impl Iterator<Item = u64>) -> Option<String> {
-        let without: Vec<_> = frames.filter(|frame| !self.frames.contains_key(frame)).collect();
-        let first = without.first()?;
-        Some(format!(
-            "--whitewater: {} frames, from {first} on, have no file of their number and are drawn without diffuse particles",
-            without.len()
-        ))
+    /// What to say where some of the frames have no file of their number; fails where none has.
+    pub fn missing(&self, frames: &[u64]) -> Outcome<Option<String>> {
+        let without = frames.iter().filter(|frame| !self.frames.contains_key(frame));
+        let without: Vec<_> = without.collect();
+        let Some(first) = without.first() else { return Ok(None) };
+        if without.len() == frames.len()
+            && let (Some((low, files)), Some((high, _))) =
+                (self.frames.first_key_value(), self.frames.last_key_value())
+        {
+            let file = files.first().map_or(String::new(), |(path, _)| path.display().to_string());
+            let range = |low: &u64, high: &u64| match low == high {
+                true => format!("{low}"),
+                false => format!("{low} to {high}"),
+            };
+            let last = frames.last().unwrap_or(first);
+            return Err(Failure::input(format!(
+                "--whitewater: expected files of the frames {}, found {} files of the numbers {}, the first {file}: the \
+                 last number in the name is the frame; rename one of the sequences",
+                range(frames.first().unwrap_or(first), last),
+                self.frames.len(),
+                range(low, high),
+            )));
+        }
+        let (count, total) = (without.len(), frames.len());
+        Ok(Some(format!(
+            "--whitewater: {count} of {total} frames, from {first} on, have no file of their number and are drawn without \
+             diffuse particles"
+        )))
     }
 
     /// Opens those of a frame; none where there is no file of its number.
@@ -268,7 +291,7 @@ impl Files {
         let open =
             |(path, kind): &(PathBuf, _)| Outcome::Ok((Parts::open(path, Parts::USUAL)?, *kind));
         let files = named.map(open).collect::<Outcome<_>>()?;
-        Ok(Reading { files, up: self.up, life: self.life, drawn: self.drawn })
+        Ok(Reading { files, placing: self.placing, life: self.life, drawn: self.drawn })
     }
 }
 
@@ -287,7 +310,7 @@ impl Reading {
         let identified = self.files.iter().all(|(parts, _)| parts.about().ids.is_some());
         for (parts, kind) in self.files {
             for part in parts {
-                let part = Part::new(part?, kind, (self.up, self.life, self.drawn), first);
+                let part = Part::new(part?, kind, (self.placing, self.life, self.drawn), first);
                 first = first.wrapping_add(part.positions.len() as u32);
                 upload.push(&headless::Diffuse {
                     positions: &part.positions,
@@ -306,12 +329,10 @@ impl Part {
     fn new(
         mut read: Particles,
         kind: Option<u32>,
-        (up, life, drawn): (Up, Option<f32>, Option<Drawn>),
+        (placing, life, drawn): (Placing, Option<f32>, Option<Drawn>),
         first: u32,
     ) -> Self {
-        if up == Up::Z {
-            layers::turn_up(read.positions.iter_mut());
-        }
+        placing.place(&mut read);
         let count = read.positions.len();
         let kinds = kind.map(|kind| vec![kind; count]).or(read.kinds);
         let age = |left: f32| match life {
@@ -410,10 +431,15 @@ mod tests {
     fn frames_without_a_file_are_told() {
         let frames = [2, 4].map(|frame| (frame, vec![(PathBuf::new(), None)])).into();
         let columns = [None; 3];
-        let files = Files { frames, up: Up::Y, life: None, columns, most: 0, drawn: None };
-        assert_eq!(files.missing([2, 4].into_iter()), None);
-        let said = files.missing(2..=5).expect("a warning");
-        assert!(said.contains("2 frames, from 3 on"), "{said}");
+        let placing = Placing::default();
+        let files = Files { frames, placing, life: None, columns, most: 0, drawn: None };
+        assert_eq!(files.missing(&[2, 4]).unwrap(), None);
+        let said = files.missing(&[2, 3, 4, 5]).unwrap().expect("a warning");
+        assert!(said.contains("2 of 4 frames, from 3 on"), "{said}");
+        let failure = files.missing(&[10, 11]).unwrap_err();
+        for part in ["frames 10 to 11", "2 files of the numbers 2 to 4"] {
+            assert!(failure.message.contains(part), "{}", failure.message);
+        }
     }
 
     /// Opacity of a column of `n` particles of foam (Akinci et al. 2013, Sec. 2.3).
@@ -465,7 +491,9 @@ mod tests {
         read.ids = Some((10..16).collect());
         let radii = [0.01, 0.02, 0.03];
         let drawn = Drawn { radii, copies: 5, spacing: 0.1 };
-        let of = |read: Particles, drawn| Part::new(read, None, (Up::Y, Some(2.0), drawn), 0);
+        let of = |read: Particles, drawn| {
+            Part::new(read, None, (Placing::default(), Some(2.0), drawn), 0)
+        };
         let (one, all) = (of(read.clone(), None), of(read.clone(), Some(drawn)));
         assert_eq!((all.positions.len(), all.radii.as_ref().map(Vec::len)), (30, Some(30)));
         for (i, copies) in all.positions.chunks(5).enumerate() {
@@ -508,7 +536,7 @@ mod tests {
         part.lifetimes = Some(vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -2.0]);
         let mut columns = Columns::default();
         let counted = |columns: &mut Columns, kind, up| {
-            columns.add(&part, kind, up, 1.0);
+            columns.add(&part, kind, Placing { up, scale: 1.0 }, 1.0);
             columns.end_frame();
             columns.means()
         };
@@ -522,7 +550,7 @@ mod tests {
         assert_eq!(counted(&mut columns, Some(0), Up::Z)[0], Some(6.0 / 5.0));
         // Two files of one frame are in the same columns.
         let mut columns = Columns::default();
-        columns.add(&part, Some(0), Up::Y, 1.0);
+        columns.add(&part, Some(0), Placing::default(), 1.0);
         assert_eq!(counted(&mut columns, Some(0), Up::Y)[0], Some(10.0 / 3.0));
     }
 

@@ -6,11 +6,11 @@ use whitewater::foam::{GenerateSettings, Limits};
 use whitewater::headless::Headless;
 use whitewater::io::particles::Particles;
 
-use crate::args::Up;
 use crate::bounds::Bounds;
 use crate::diffuse::{Columns, Sizes};
 use crate::failure::Outcome;
 use crate::foam::quantile;
+use crate::placing::Placing;
 use crate::render::round;
 use crate::session::PRE_ROLLED;
 use crate::settings::SettingsFile;
@@ -153,7 +153,7 @@ impl Generate {
             let made = headless.generated()?;
             let made =
                 Particles { kinds: Some(made.kinds), ..Particles::from_positions(made.positions) };
-            columns.add(&made, None, Up::Y, self.spacing);
+            columns.add(&made, None, Placing::default(), self.spacing);
             columns.end_frame();
             Ok(())
         })?;

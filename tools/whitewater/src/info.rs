@@ -8,11 +8,13 @@ use whitewater::io::particles::{self, Meaning, Particles};
 
 use crate::args::InfoArgs;
 use crate::failure::{Failure, Kind, Outcome};
+use crate::frames;
 use crate::out;
 use crate::reader::Has;
+use crate::upright;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
-    let frames = expand(&args.inputs)?;
+    let frames = expand(&args.inputs).map_err(frames::advised)?;
     let mut all = Vec::new();
     let mut failed = Vec::new();
     for frame in &frames {
@@ -96,6 +98,7 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
         "missing": missing(Has::of(particles)),
+        "z_is_up": upright::is_z(std::slice::from_ref(particles)),
         "warnings": particles.warnings,
     })
 }
@@ -168,6 +171,9 @@ fn text(value: &Value) -> String {
         let [name, ty] = ["name", "type"].map(|key| a[key].as_str().unwrap_or_default());
         let meaning = a["meaning"].as_str().unwrap_or("passed over");
         lines.push(format!("  attribute   {name} ({ty} x {}): {meaning}", a["components"]));
+    }
+    if let Some(why) = value["z_is_up"].as_str() {
+        lines.push(format!("  up          z: {why}"));
     }
     if let Some(missing) = value["missing"].as_str() {
         lines.push(format!("  missing     {missing}"));

@@ -16,12 +16,14 @@ mod environment;
 mod failure;
 mod film;
 mod foam;
+mod frames;
 mod generate;
 mod info;
 mod layers;
 mod out;
 mod output;
 mod pattern;
+mod placing;
 mod progress;
 mod reader;
 mod render;
@@ -32,6 +34,7 @@ mod shore;
 mod simulate;
 mod stage;
 mod timings;
+mod upright;
 
 use std::process::ExitCode;
 

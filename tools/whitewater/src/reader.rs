@@ -11,7 +11,7 @@ use crate::args::Up;
 use crate::bounds;
 use crate::failure::Outcome;
 use crate::foam::quantile;
-use crate::layers;
+use crate::placing::Placing;
 
 /// Frames a second, where that can't be found.
 pub const DEFAULT_FPS: f32 = 30.0;
@@ -32,7 +32,7 @@ struct Known {
 /// Reads frames of a sequence.
 pub struct Reader<'a> {
     all: &'a [Frame],
-    up: Up,
+    placing: Placing,
     /// Frames a second, where velocities are to be found; else none are.
     fps: Option<f32>,
     last: Option<Known>,
@@ -45,10 +45,10 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(all: &'a [Frame], up: Up, fps: Option<f32>) -> Self {
+    pub fn new(all: &'a [Frame], placing: Placing, fps: Option<f32>) -> Self {
         Self {
             all,
-            up,
+            placing,
             fps,
             last: None,
             found_velocities: false,
@@ -102,6 +102,12 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
+    /// Has frames turned from now on; those that were read are by whoever has them.
+    pub fn turn(&mut self, up: Up) {
+        self.placing.up = up;
+        self.last = None;
+    }
+
     /// Has velocities found by another rate, where they are found.
     pub fn set_rate(&mut self, fps: f32) {
         self.fps = self.fps.map(|_| fps);
@@ -110,10 +116,7 @@ impl<'a> Reader<'a> {
     /// A frame without what is found or told of it.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
         let mut particles = particles::read(&frame.path)?;
-        if self.up == Up::Z {
-            let Particles { positions, velocities, .. } = &mut particles;
-            layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
-        }
+        self.placing.place(&mut particles);
         Ok(particles)
     }
 

@@ -8,7 +8,7 @@ use whitewater::io::particles::{self, Particles};
 use whitewater::water::settings::Medium;
 use whitewater::water::{FoamLook, SprayLook};
 
-use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Whitewater};
+use crate::args::{Foaming, RenderArgs, SetArg, SprayArg, Turntable, Unit, Up, Whitewater};
 use crate::bounds::{self, Bounds};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Turn};
@@ -16,14 +16,17 @@ use crate::diffuse;
 use crate::environment::Environment;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::foam;
+use crate::frames;
 use crate::generate::Generate;
 use crate::output;
+use crate::placing::{self, Placing};
 use crate::progress::Progress;
 use crate::reader::{DEFAULT_FPS, Has, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 use crate::shore::{self, Shores};
 use crate::stage;
+use crate::upright;
 
 pub fn run(args: &RenderArgs) -> Outcome<()> {
     if let Some(which) = &args.shore {
@@ -50,9 +53,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         None => None,
     };
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let all = sequence::expand(&args.inputs, None)?;
+    let all = frames::expand(&args.inputs, None).map_err(frames::advised)?;
     let frames = match range {
-        Some(range) => sequence::expand(&args.inputs, Some(range))?,
+        Some(range) => frames::expand(&args.inputs, Some(range)).map_err(frames::advised)?,
         None => all.clone(),
     };
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
@@ -123,8 +126,20 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
     let moving = made || foams || sequence.motion;
     let fps = moving.then(|| args.fps.unwrap_or(DEFAULT_FPS));
-    let mut reader = Reader::new(&all, args.up_axis, fps);
+    let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
+    let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale };
+    let mut reader = Reader::new(&all, placing, fps);
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
+    if let (None, Some(why)) = (args.up_axis, upright::is_z(&probes.frames)) {
+        progress.say(&format!("z is up in the files: {why} (--up-axis y: not turned)"));
+        placing.up = Up::Z;
+        reader.turn(Up::Z);
+        let turned = Placing { up: Up::Z, scale: 1.0 };
+        probes.frames.iter_mut().for_each(|frame| turned.place(frame));
+    }
+    if args.unit.is_none() && args.scale.is_none() {
+        probes.unit_hint().iter().for_each(|line| progress.say(line));
+    }
     if reader.found_velocities && !probes.own.velocities {
         progress.say(
             "velocities are not in the files: found by where particles are from frame to frame",
@@ -148,9 +163,10 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let files = if made { &[][..] } else { &args.whitewater };
     let spacing = spacing(args, &probes, &settings, &progress);
     let files =
-        steps.during("reading", || diffuse::Files::find(files, args.up_axis, single, spacing))?;
-    if let Some(line) = files.as_ref().and_then(|f| f.missing(all.iter().map(|f| f.number))) {
-        progress.say(&line);
+        steps.during("reading", || diffuse::Files::find(files, placing, single, spacing))?;
+    if let Some(files) = &files {
+        let numbers: Vec<_> = all.iter().map(|f| f.number).collect();
+        files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
     }
     let found = Found { camera, spacing, files };
     let look = steps.during("finding camera and light", || {
@@ -164,7 +180,7 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let look = Look { bubbles: foam, shores, ..look };
     let mut session = Session::new(&args.draw, checked, look, steps)?;
     session.keep = keep;
-    session.up = args.up_axis;
+    session.placing = placing;
     let mut failed: Vec<(u64, Failure)> = Vec::new();
     let mut warnings = Warnings::default();
     for frame in &left {
@@ -216,7 +232,8 @@ fn draw(
     let before = before.filter(|_| all.len() > 1);
     session.frame(number, before, &frame.path.display().to_string(), &particles)?;
     let paths: Vec<_> = session.paths(number).iter().map(|p| p.display().to_string()).collect();
-    let made = session.made()?.map_or(String::new(), |made| format!(", {made} diffuse particles"));
+    let made = session.made()?.map(|made| made as usize).or(session.read);
+    let made = made.map_or(String::new(), |made| format!(", {made} diffuse particles"));
     Ok(format!(
         "frame {number}: {} particles{made}, {:.2} s, {}",
         particles.positions.len(),
@@ -394,6 +411,16 @@ impl Probes {
     fn spacing(&self) -> Option<f32> {
         let each = |f: &Particles| particles::estimate_spacing(&bounds::together(&f.positions));
         self.frames.iter().find_map(each)
+    }
+
+    /// A word on what is no likely extent of water.
+    fn unit_hint(&self) -> Option<String> {
+        let extent = self.bounds()?.size().max_element();
+        let fastest = |frame: &Particles| {
+            let speeds = frame.velocities.as_ref()?.iter().map(|v| Vec3::from(*v).length());
+            foam::quantile(speeds.filter(|speed| speed.is_finite()).collect(), 0.99)
+        };
+        placing::hint(extent, self.frames.iter().filter_map(fastest).reduce(f32::max))
     }
 
     fn bounds(&self) -> Option<Bounds> {

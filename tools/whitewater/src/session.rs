@@ -12,7 +12,7 @@ use whitewater::io::picture::{self, Display, Layers};
 use whitewater::water::{FoamSettings, Kernels, NoiseLook, Rule, Shading, WaterSettings};
 use whitewater::{Config, Offer, Previous, Region, Settings};
 
-use crate::args::{DrawArgs, NoiseArg, ShadowArg, Up};
+use crate::args::{DrawArgs, NoiseArg, ShadowArg};
 use crate::blur::{self, Blur, Mean};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
@@ -23,6 +23,7 @@ use crate::film::{self, Reel};
 use crate::foam;
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
+use crate::placing::Placing;
 use crate::progress::{Progress, Steps};
 use crate::settings::{FoamBy, Found, SettingsFile};
 use crate::shore::Shores;
@@ -93,12 +94,14 @@ pub struct Session<'a> {
     memory: Memory,
     /// How diffuse particles are made, and how many at most.
     making: Option<(GenerateSettings, u32)>,
+    /// How many diffuse particles were read for the frame drawn last; none where none are.
+    pub read: Option<usize>,
     /// It was said that there is no room for more of them.
     full: bool,
     /// Where what is made goes.
     pub keep: Option<Target<WriteFormat>>,
-    /// In which axes.
-    pub up: Up,
+    /// In which axes and unit.
+    pub placing: Placing,
     /// What goes into films.
     reel: Option<Reel>,
     pub times: Times,
@@ -219,9 +222,10 @@ impl<'a> Session<'a> {
             headless: None,
             memory: Memory::default(),
             making: None,
+            read: None,
             full: false,
             keep: None,
-            up: Up::Y,
+            placing: Placing::default(),
             reel,
             times,
         })
@@ -384,6 +388,7 @@ impl<'a> Session<'a> {
             .times
             .step("read", number, || files.map(|files| files.open(content)).transpose())?;
         let count = diffuse.as_ref().map_or(0, diffuse::Reading::total);
+        self.read = diffuse.as_ref().map(diffuse::Reading::total);
         self.make_room_with(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
             (Some(before), Some(rate)) => {
@@ -669,9 +674,7 @@ impl<'a> Session<'a> {
             return Ok(());
         };
         let mut made = times.step("read back", number, || headless.generated())?;
-        if self.up == Up::Z {
-            layers::turn_back(made.positions.iter_mut().chain(&mut made.velocities));
-        }
+        self.placing.back(&mut made.positions, &mut made.velocities);
         let particles = Particles {
             velocities: Some(made.velocities),
             ids: Some(made.ids),

@@ -16,6 +16,8 @@ mod info_compare;
 mod pattern;
 #[path = "tool/pictures.rs"]
 mod pictures;
+#[path = "tool/real_files.rs"]
+mod real_files;
 #[path = "tool/scenes.rs"]
 mod scenes;
 #[path = "tool/sequences.rs"]

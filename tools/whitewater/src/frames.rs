@@ -1,0 +1,116 @@
+//! Files that are named, and what to do where nothing fits.
+
+use std::ops::RangeInclusive;
+
+use whitewater::io::particles::sequence::{self, Frame, SequenceError};
+
+use crate::failure::Failure;
+
+/// The frames of one sequence; where nothing fits the name, what form of a pattern would.
+pub fn expand(
+    inputs: &[String],
+    range: Option<RangeInclusive<u64>>,
+) -> Result<Vec<Frame>, SequenceError> {
+    sequence::expand(inputs, range)
+}
+
+/// A failure to expand inputs, with advice where their form is that of another program.
+pub fn advised(error: SequenceError) -> Failure {
+    let advice = match &error {
+        SequenceError::NotFound { input } => foreign(input),
+        SequenceError::NoMatch { pattern, .. } => padded(pattern).or_else(|| foreign(pattern)),
+        SequenceError::Pattern { pattern, .. } => foreign(pattern),
+        _ => None,
+    };
+    let failure = Failure::from(error);
+    match advice {
+        Some(advice) => Failure { message: format!("{}; {advice}", failure.message), ..failure },
+        None => failure,
+    }
+}
+
+/// How other programs name the number of a frame: Rust and Python, Houdini, Nuke and Maya, and printf with blanks.
+const FOREIGN: [&str; 6] = ["{", "#", "$F", "<", "@", "%"];
+
+/// The pattern in the form that is understood here, where it is one of another program.
+fn foreign(pattern: &str) -> Option<String> {
+    let (folder, name) = match pattern.rsplit_once('/') {
+        Some((folder, name)) => (format!("{folder}/"), name),
+        None => (String::new(), pattern),
+    };
+    let (at, mark) = FOREIGN.iter().filter_map(|mark| Some((name.find(mark)?, *mark))).min()?;
+    let (before, rest) = name.split_at(at);
+    let end = match mark {
+        "{" => rest.find('}')? + 1,
+        "<" => rest.find('>')? + 1,
+        "$F" => 2 + rest[2..].bytes().take_while(u8::is_ascii_digit).count(),
+        "%" => rest.find('d')? + 1,
+        mark => rest.len() - rest.trim_start_matches(mark).len(),
+    };
+    let mut name = before.to_string() + "%d" + &rest[end..];
+    // Padded as the files are, where they are.
+    let fits = |name: &str| sequence::expand(&[format!("{folder}{name}")], None).is_ok();
+    if !fits(&name) {
+        let padded = (2..=10).map(|width| name.replace("%d", &format!("%0{width}d")));
+        name = padded.into_iter().find(|name| fits(name)).unwrap_or(name);
+    }
+    let found = if fits(&name) { "" } else { ", or * for any text" };
+    Some(format!(
+        "the number of a frame is %d here, or %04d where it has four digits{found}: '{folder}{name}'"
+    ))
+}
+
+/// The same without the padding, or with another one, where files fit that.
+fn padded(pattern: &str) -> Option<String> {
+    let (before, rest) = pattern.rsplit_once('%')?;
+    let (spec, after) = rest.split_once('d')?;
+    if !spec.bytes().all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    let specs = std::iter::once(String::new()).chain((2..=10).map(|width| format!("0{width}")));
+    let others = specs.filter(|other| other != spec);
+    others.map(|other| format!("{before}%{other}d{after}")).find_map(|other| {
+        let count = sequence::expand(std::slice::from_ref(&other), None).ok()?.len();
+        let files = if count == 1 { "file fits" } else { "files fit" };
+        let how = if other.contains("%d") { " (their numbers have no zeros in front)" } else { "" };
+        Some(format!("{count} {files} '{other}'{how}"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_of_other_programs_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name).display().to_string();
+        for name in ["u_8.bgeo", "u_9.bgeo", "u_10.bgeo", "p_0008.bgeo", "p_0009.bgeo"] {
+            std::fs::write(at(name), "").unwrap();
+        }
+        let said = |name: &str| advised(expand(&[at(name)], None).unwrap_err()).message;
+        for name in [
+            "u_{}.bgeo",
+            "u_{:04d}.bgeo",
+            "u_####.bgeo",
+            "u_$F4.bgeo",
+            "u_$F.bgeo",
+            "u_<f>.bgeo",
+            "u_%4d.bgeo",
+        ] {
+            let text = said(name);
+            assert!(text.ends_with("u_%d.bgeo'") && text.contains("%04d"), "{name}: {text}");
+        }
+        assert!(said("p_####.bgeo").ends_with("p_%04d.bgeo'"), "{}", said("p_####.bgeo"));
+        assert!(
+            said("none_####.bgeo").contains("or * for any text: "),
+            "{}",
+            said("none_####.bgeo")
+        );
+        let text = said("u_%04d.bgeo");
+        assert!(text.contains("3 files fit") && text.contains("u_%d.bgeo' (their"), "{text}");
+        assert!(said("p_%d.bgeo").contains("2 files fit"), "{}", said("p_%d.bgeo"));
+        // A plain name.
+        assert!(!said("a.bgeo").contains("%d.bgeo'"), "{}", said("a.bgeo"));
+    }
+}

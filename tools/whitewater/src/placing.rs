@@ -1,0 +1,116 @@
+//! From the axes and the unit of files to those of the scene: y up, metres.
+
+use whitewater::io::particles::Particles;
+
+use crate::args::{Unit, Up};
+use crate::layers;
+
+/// How the particles of files are put into the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placing {
+    pub up: Up,
+    /// Metres of a unit of the files.
+    pub scale: f32,
+}
+
+impl Default for Placing {
+    fn default() -> Self {
+        Self { up: Up::Y, scale: 1.0 }
+    }
+}
+
+impl Placing {
+    pub fn place(&self, particles: &mut Particles) {
+        let Particles { positions, velocities, .. } = particles;
+        self.scale(positions.iter_mut().chain(velocities.iter_mut().flatten()));
+        if self.up == Up::Z {
+            layers::turn_up(positions.iter_mut().chain(velocities.iter_mut().flatten()));
+        }
+    }
+
+    fn scale<'a>(&self, vectors: impl IntoIterator<Item = &'a mut [f32; 3]>) {
+        if self.scale != 1.0 {
+            vectors.into_iter().flatten().for_each(|c| *c *= self.scale);
+        }
+    }
+
+    /// As the files have them.
+    pub fn back(&self, positions: &mut [[f32; 3]], velocities: &mut [[f32; 3]]) {
+        if self.up == Up::Z {
+            layers::turn_back(positions.iter_mut().chain(velocities.iter_mut()));
+        }
+        Self { scale: self.scale.recip(), ..*self }
+            .scale(positions.iter_mut().chain(velocities.iter_mut()));
+    }
+}
+
+/// Acceleration of a fall, m/s².
+const GRAVITY: f32 = 9.81;
+/// Water that falls from its own height is as fast as the root of twice this number times that (a Froude number squared of
+/// 2); a jet under pressure may be some times as fast, water in a unit that is a hundredth or a thousandth is not.
+const FASTEST: f32 = 40.0;
+/// Metres across from which on, and up to which, water is asked whether it is so large, or small, where its speed does not
+/// tell.
+const LARGE: f32 = 200.0;
+const TINY: f32 = 0.005;
+
+/// A word on an extent that is no likely one of water in metres; `fastest`: of nearly all, where velocities are known.
+pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
+    let spans = format!("the water spans {} metres", crate::render::round(extent));
+    let froude = fastest.map(|speed| speed * speed / (GRAVITY * extent));
+    match froude {
+        Some(number) if number.is_finite() && number > FASTEST => {
+            // In a unit of so many metres the number is that many times it.
+            let off = |unit: &Unit| (number * unit.metres()).ln().abs();
+            let units = [Unit::Mm, Unit::Cm];
+            let unit = units.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            Some(format!(
+                "{spans}, and moves at up to {}: too fast for gravity if the files are in metres (--unit {} fits)",
+                crate::render::round(fastest?),
+                unit.name()
+            ))
+        }
+        // As fast as water of that size.
+        Some(number) if number > 0.02 => None,
+        _ if extent > LARGE || extent < TINY => {
+            Some(format!("{spans}: if the files are in another unit, --unit mm, cm or km says so"))
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A dam of half a metre in metres, millimetres and centimetres, one of a kilometre, a cup, and what is at rest.
+    #[test]
+    fn units_that_cannot_be_are_told() {
+        assert_eq!(hint(1.3, Some(3.5)), None);
+        assert!(hint(1347.0, Some(3535.0)).unwrap().contains("--unit mm fits"));
+        assert!(hint(134.7, Some(353.5)).unwrap().contains("--unit cm fits"));
+        assert_eq!(hint(1347.0, Some(111.0)), None, "a lake");
+        assert_eq!(hint(0.027, Some(0.5)), None, "a cup");
+        assert_eq!(hint(2.0, Some(20.0)), None, "a jet under pressure");
+        assert!(hint(1347.0, None).unwrap().contains("1347 metres: if"));
+        assert!(hint(1347.0, Some(0.001)).is_some(), "at rest");
+        assert_eq!(hint(80.0, None), None);
+        assert_eq!(hint(f32::NAN, None), None);
+    }
+
+    #[test]
+    fn what_is_placed_comes_back() {
+        let mut particles = Particles::from_positions(vec![[1000.0, 2000.0, 3000.0]]);
+        particles.velocities = Some(vec![[10.0, 20.0, 30.0]]);
+        let mut other = particles.clone();
+        let placing = Placing { up: Up::Z, scale: 0.001 };
+        placing.place(&mut other);
+        let near = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0e-5);
+        assert!(near(other.positions[0], [1.0, 3.0, -2.0]), "{:?}", other.positions);
+        let mut velocities = other.velocities.unwrap();
+        assert!(near(velocities[0], [0.01, 0.03, -0.02]), "{velocities:?}");
+        placing.back(&mut other.positions, &mut velocities);
+        assert!(near(other.positions[0].map(|c| 0.001 * c), [1.0, 2.0, 3.0]));
+        assert!(near(velocities[0], [10.0, 20.0, 30.0]));
+    }
+}

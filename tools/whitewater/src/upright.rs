@@ -1,0 +1,118 @@
+//! Which way is up in files, by how the water lies and moves.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+use whitewater::io::particles::{self, Particles};
+
+use crate::bounds::Bounds;
+
+/// Columns that are looked at are so many spacings wide.
+const COLUMN: f32 = 3.0;
+/// Particles so many spacings from an end of an axis lie at it.
+const NEAR: f32 = 2.0;
+/// How much more of the water lies on a floor than under a lid of the same kind, so that it is taken for one.
+const OPEN: f32 = 0.35;
+/// Of the root mean square speed: how fast water as a whole goes up, or down.
+const MOVES: f32 = 0.1;
+
+/// What an axis looks like as the one that points up.
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    /// Share of the columns along it that begin at its lower end, less those that end at its upper end.
+    open: f32,
+    /// Mean velocity along it, in root mean square speeds.
+    moves: f32,
+}
+
+/// Whether z points up in the files and y does not, told by frames of a sequence as they are in the files: water lies on a
+/// floor and is open above, and as a whole it comes down. Says what speaks for it. Where both may be up, or neither is told,
+/// it is y.
+pub fn is_z(frames: &[Particles]) -> Option<&'static str> {
+    let [y, z] = [1, 2].map(|axis| look(frames, axis));
+    let (y, z) = (y?, z?);
+    let lies = z.open >= OPEN && z.moves <= MOVES;
+    if lies && z.open - y.open >= OPEN {
+        return Some("the water lies at the lower end of z, and is open above");
+    }
+    // Against a wall it lies as on a floor: it goes away from one, and down on the other.
+    if lies && z.moves < -MOVES && y.moves > MOVES {
+        return Some("the water comes down along z");
+    }
+    None
+}
+
+fn look(frames: &[Particles], axis: usize) -> Option<Axis> {
+    let bounds = frames.iter().filter_map(|f| Bounds::of_bulk(&f.positions));
+    let bounds = bounds.reduce(|a, b| a.union(&b))?;
+    let (mut shares, mut moves) = (Vec::new(), Vec::new());
+    for frame in frames {
+        let inside: Vec<Vec3> = frame.positions.iter().map(|p| Vec3::from(*p)).collect();
+        let spacing = particles::estimate_spacing(&crate::bounds::together(&frame.positions))?;
+        let mut columns: HashMap<[i64; 2], [f32; 2]> = HashMap::new();
+        let across = [(axis + 1) % 3, (axis + 2) % 3];
+        for p in inside.iter().filter(|p| bounds.contains(**p)) {
+            let at = across.map(|axis| (p[axis] / (COLUMN * spacing)).floor() as i64);
+            let [low, high] = columns.entry(at).or_insert([f32::INFINITY, f32::NEG_INFINITY]);
+            (*low, *high) = (low.min(p[axis]), high.max(p[axis]));
+        }
+        let of = |near: &dyn Fn(&[f32; 2]) -> bool| {
+            columns.values().filter(|ends| near(ends)).count() as f32 / columns.len().max(1) as f32
+        };
+        let reach = NEAR * spacing;
+        let lies = of(&|[low, _]| low - bounds.min[axis] < reach);
+        let lid = of(&|[_, high]| bounds.max[axis] - high < reach);
+        shares.push(lies - lid);
+        if let Some(velocities) = &frame.velocities {
+            let velocities = velocities.iter().map(|v| Vec3::from(*v)).filter(|v| v.is_finite());
+            let (sum, squares, count) = velocities
+                .fold((Vec3::ZERO, 0.0, 0_u32), |(s, q, n), v| {
+                    (s + v, q + v.length_squared(), n + 1)
+                });
+            let mean = sum[axis] / count.max(1) as f32;
+            moves.push(mean / (squares / count.max(1) as f32).sqrt().max(f32::MIN_POSITIVE));
+        }
+    }
+    let mean = |values: &[f32]| values.iter().sum::<f32>() / values.len().max(1) as f32;
+    Some(Axis { open: mean(&shares), moves: mean(&moves) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPACING: f32 = 0.05;
+
+    /// Water on a floor that slopes away from a wall, and velocities: along, across and up.
+    fn dam(turn: impl Fn([f32; 3]) -> [f32; 3], moves: bool) -> Particles {
+        let cells =
+            (0..40).flat_map(|x| (0..12).flat_map(move |y| (0..20).map(move |z| (x, y, z))));
+        let wet = cells.filter(|(x, _, z)| *z as f32 <= 19.0 - 0.5 * *x as f32);
+        let at = wet.map(|(x, y, z)| [x, y, z].map(|i| SPACING * i as f32));
+        let mut dam = Particles::from_positions(at.map(&turn).collect());
+        dam.velocities = moves.then(|| vec![turn([1.0, 0.0, -0.6]); dam.positions.len()]);
+        dam
+    }
+
+    #[test]
+    fn water_lies_on_the_floor() {
+        let z_up = |p: [f32; 3]| p;
+        let y_up = |[x, y, z]: [f32; 3]| [x, z, -y];
+        assert!(is_z(&[dam(z_up, false)]).is_some());
+        assert!(is_z(&[dam(z_up, true)]).is_some());
+        assert_eq!(is_z(&[dam(y_up, false)]), None);
+        assert_eq!(is_z(&[dam(y_up, true)]), None);
+        // The dam breaks along the axis that may be taken for the one that is up: how it moves tells.
+        let z_up = |[x, y, z]: [f32; 3]| [y, x, z];
+        let y_up = |[x, y, z]: [f32; 3]| [y, z, x];
+        assert!(is_z(&[dam(z_up, true)]).is_some());
+        assert_eq!(is_z(&[dam(y_up, true)]), None);
+        assert_eq!(is_z(&[dam(z_up, false)]), None, "nothing tells: y");
+        assert_eq!(is_z(&[dam(y_up, false)]), None);
+        // A block, and nothing.
+        let block = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
+        assert_eq!(is_z(&[Particles::from_positions(block.collect())]), None);
+        assert_eq!(is_z(&[Particles::from_positions(Vec::new())]), None);
+        assert_eq!(is_z(&[]), None);
+    }
+}
