@@ -1,83 +1,39 @@
 //! Where water traps air: how fast neighbours run into each other.
 
-use std::num::NonZeroUsize;
-
 use glam::Vec3;
+
+use crate::cells::Cells;
 
 /// Sum of the weights of neighbours in a body of water: the integral of 1 - q/2 over the ball of q up to 2 spacings.
 const WHOLE: f32 = 8.0 * std::f32::consts::PI / 3.0;
-/// Cells are told by 21 bits an axis.
-const BITS: u32 = 21;
-/// Particles from which threads are worth their while.
-const MANY: usize = 4096;
-
-/// A particle, and the cell that it lies in.
-#[derive(Clone, Copy)]
-struct Placed {
-    key: u64,
-    index: u32,
-    position: Vec3,
-    velocity: Vec3,
-}
 
 /// The mean speed at which the neighbours of each particle come nearer, scene units a second: the trapped air potential of
 /// Ihmsen et al. 2012 (Eq. 2), `Σ |v_ij| (1 - v_ij·x_ij) (1 - |x_ij| / h)` with unit vectors in the scalar product and an
 /// h of two spacings, over the sum of the weights in a body of water. So it is 0 in water that rests, that flows and turns
 /// as a whole or falls, and for what is alone. Particles that have no finite place or velocity have 0, and are nobody's
-/// neighbours. Takes memory of 32 bytes a particle, and all cores.
+/// neighbours.
 pub fn trapped(positions: &[[f32; 3]], velocities: &[[f32; 3]], spacing: f32) -> Vec<f32> {
-    let mut speeds = vec![0.0; positions.len()];
     let reach = 2.0 * spacing;
-    let mut placed: Vec<Placed> = (0_u32..)
-        .zip(positions.iter().zip(velocities))
-        .map(|(index, (p, v))| (index, Vec3::from(*p), Vec3::from(*v)))
-        .filter(|(_, p, v)| p.is_finite() && v.is_finite())
-        .map(|(index, position, velocity)| {
-            let key = key(cell(position, reach));
-            Placed { key, index, position, velocity }
-        })
-        .collect();
-    placed.sort_unstable_by_key(|one| (one.key, one.index));
-    let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let share = if placed.len() < MANY { placed.len() } else { placed.len().div_ceil(threads) };
-    let all = &placed;
-    let found: Vec<Vec<(u32, f32)>> = std::thread::scope(|scope| {
-        let run = |part| move || of_part(all, part, reach);
-        let parts: Vec<_> = all.chunks(share.max(1)).map(|part| scope.spawn(run(part))).collect();
-        // A thread that panicked leaves its particles at 0.
-        parts.into_iter().filter_map(|part| part.join().ok()).collect()
-    });
-    for (index, speed) in found.into_iter().flatten() {
-        speeds[index as usize] = speed;
+    let velocity = |i: usize| Vec3::from(velocities[i]);
+    let cells = Cells::new(positions, reach, |i| i < velocities.len() && velocity(i).is_finite());
+    let found = cells.map(
+        |_| true,
+        |index, p, others| {
+            let own = velocity(index);
+            let each =
+                others.map(|(other, there)| approach(p - there, own - velocity(other), reach));
+            each.sum::<f32>() / WHOLE
+        },
+    );
+    let mut speeds = vec![0.0; positions.len()];
+    for (index, speed) in found {
+        speeds[index] = speed;
     }
     speeds
 }
 
-fn of_part(all: &[Placed], part: &[Placed], reach: f32) -> Vec<(u32, f32)> {
-    let mut found = Vec::with_capacity(part.len());
-    for same in part.chunk_by(|a, b| a.key == b.key) {
-        let [x, y, z] = cell(same[0].position, reach);
-        // Cells beside each other along x are beside each other here.
-        let rows = [-1, 0, 1].map(|dz| {
-            [-1, 0, 1].map(|dy| {
-                let [first, last] = [-1, 1].map(|dx| key([x + dx, y + dy, z + dz]));
-                let from = all.partition_point(|other| other.key < first);
-                let past = all.partition_point(|other| other.key <= last);
-                &all[from..past.max(from)]
-            })
-        });
-        for one in same {
-            let others = rows.iter().flatten().copied().flatten();
-            let sum: f32 = others.map(|other| approach(one, other, reach)).sum();
-            found.push((one.index, sum / WHOLE));
-        }
-    }
-    found
-}
-
-/// What a neighbour adds.
-fn approach(one: &Placed, other: &Placed, reach: f32) -> f32 {
-    let (apart, relative) = (one.position - other.position, one.velocity - other.velocity);
+/// What a neighbour adds, by where it is from there and how fast that comes.
+fn approach(apart: Vec3, relative: Vec3, reach: f32) -> f32 {
     let (squared, speed) = (apart.length_squared(), relative.length());
     // Itself, too.
     if squared >= reach * reach || squared <= 0.0 || speed <= 0.0 {
@@ -85,17 +41,6 @@ fn approach(one: &Placed, other: &Placed, reach: f32) -> f32 {
     }
     let distance = squared.sqrt();
     (speed - relative.dot(apart) / distance) * (1.0 - distance / reach)
-}
-
-/// The outermost cells hold all that lies beyond: who is near whom is asked of the positions.
-fn cell(position: Vec3, reach: f32) -> [i64; 3] {
-    let most = (1_i64 << (BITS - 1)) - 2;
-    position.to_array().map(|c| ((c / reach).floor() as i64).clamp(-most, most))
-}
-
-fn key([x, y, z]: [i64; 3]) -> u64 {
-    let part = |c: i64| (c + (1 << (BITS - 1))) as u64;
-    part(z) << (2 * BITS) | part(y) << BITS | part(x)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! One run of drawing: device, look, targets. `render` and `demo` feed it frames.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 
 use whitewater::ash::vk;
@@ -20,6 +21,7 @@ use crate::diffuse::{self, Diffusing};
 use crate::environment::{Environment, Panorama, Source};
 use crate::failure::{Failure, Kind, Outcome, bad_picture, too_large};
 use crate::film::{self, Reel};
+use crate::films;
 use crate::foam;
 use crate::layers;
 use crate::output::{self, Output, PictureFormat, Target};
@@ -504,11 +506,19 @@ impl<'a> Session<'a> {
         }
         // Spray goes by density.
         let water = &self.look.settings.water;
-        let guessed = times
-            .step("densities", number, || guessed_densities(self.look.spray, particles, water));
+        let densities = times.step("densities", number, || {
+            let guessed = guessed_densities(self.look.spray, particles, water).map(Cow::Owned);
+            let mut all = guessed.or(particles.densities.as_deref().map(Cow::Borrowed));
+            if let Some(all) =
+                all.as_mut().filter(|_| self.look.spray && !self.look.file.is_thesis())
+            {
+                let limit = self.look.settings.spray.densities[2] * water.rest_density;
+                films::hold(&particles.positions, all.to_mut(), water.spacing, limit);
+            }
+            all
+        });
         times.step("upload", number, || {
-            let densities = particles.densities.as_deref().or(guessed.as_deref());
-            headless.particles(&particles.positions, densities)?;
+            headless.particles(&particles.positions, densities.as_deref())?;
             match &particles.velocities {
                 Some(velocities) => headless.motion(velocities, particles.ids.as_deref()),
                 None => Ok(()),

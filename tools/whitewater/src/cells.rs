@@ -1,0 +1,102 @@
+//! Who is near whom: particles by cells as wide as the reach.
+
+use std::num::NonZeroUsize;
+
+use glam::Vec3;
+
+/// Cells are told by 21 bits an axis.
+const BITS: u32 = 21;
+/// Particles from which threads are worth their while.
+const MANY: usize = 4096;
+
+/// A particle, and the cell that it lies in.
+#[derive(Clone, Copy)]
+struct Placed {
+    key: u64,
+    index: u32,
+    position: Vec3,
+}
+
+/// Particles of finite places, in the order of their cells. 24 bytes each.
+pub struct Cells {
+    placed: Vec<Placed>,
+    reach: f32,
+}
+
+impl Cells {
+    /// Of those that are wanted.
+    pub fn new(positions: &[[f32; 3]], reach: f32, wanted: impl Fn(usize) -> bool) -> Self {
+        let all = (0_u32..).zip(positions).map(|(index, p)| (index, Vec3::from(*p)));
+        let mut placed: Vec<Placed> = all
+            .filter(|(index, p)| p.is_finite() && wanted(*index as usize))
+            .map(|(index, position)| Placed { key: key(cell(position, reach)), index, position })
+            .collect();
+        placed.sort_unstable_by_key(|one| (one.key, one.index));
+        Self { placed, reach }
+    }
+
+    /// What is found of each that is asked for, of its number, its place, and of the others in its cell and those round it,
+    /// among which are all within reach, and itself. On all cores.
+    pub fn map<T: Send>(
+        &self,
+        asked: impl Fn(usize) -> bool + Sync,
+        of: impl Fn(usize, Vec3, &mut dyn Iterator<Item = (usize, Vec3)>) -> T + Sync,
+    ) -> Vec<(usize, T)> {
+        let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+        let all = self.placed.len();
+        let share = if all < MANY { all } else { all.div_ceil(threads) };
+        let (asked, of) = (&asked, &of);
+        std::thread::scope(|scope| {
+            let parts = self.placed.chunks(share.max(1));
+            let parts: Vec<_> =
+                parts.map(|part| scope.spawn(move || self.of_part(part, asked, of))).collect();
+            // A thread that panicked says nothing of its particles.
+            parts.into_iter().filter_map(|part| part.join().ok()).flatten().collect()
+        })
+    }
+
+    fn of_part<T>(
+        &self,
+        part: &[Placed],
+        asked: impl Fn(usize) -> bool,
+        of: impl Fn(usize, Vec3, &mut dyn Iterator<Item = (usize, Vec3)>) -> T,
+    ) -> Vec<(usize, T)> {
+        let all = &self.placed;
+        let mut found = Vec::new();
+        for same in part.chunk_by(|a, b| a.key == b.key) {
+            let wanted = same.iter().filter(|one| asked(one.index as usize));
+            let mut wanted = wanted.peekable();
+            if wanted.peek().is_none() {
+                continue;
+            }
+            let [x, y, z] = cell(same[0].position, self.reach);
+            // Cells beside each other along x are beside each other here.
+            let rows = [-1, 0, 1].map(|dz| {
+                [-1, 0, 1].map(|dy| {
+                    let [first, last] = [-1, 1].map(|dx| key([x + dx, y + dy, z + dz]));
+                    let from = all.partition_point(|other| other.key < first);
+                    let past = all.partition_point(|other| other.key <= last);
+                    &all[from..past.max(from)]
+                })
+            });
+            for one in wanted {
+                let others = rows.iter().flatten().copied().flatten();
+                let mut others = others.map(|other| (other.index as usize, other.position));
+                let index = one.index as usize;
+                found.push((index, of(index, one.position, &mut others)));
+            }
+        }
+        found
+    }
+}
+
+/// The outermost cells hold all that lies beyond: who is near whom is asked of the positions.
+fn cell(position: Vec3, reach: f32) -> [i64; 3] {
+    let most = (1_i64 << (BITS - 1)) - 2;
+    position.to_array().map(|c| ((c / reach).floor() as i64).clamp(-most, most))
+}
+
+fn key([x, y, z]: [i64; 3]) -> u64 {
+    let part = |c: i64| (c + (1 << (BITS - 1))) as u64;
+    part(z) << (2 * BITS) | part(y) << BITS | part(x)
+}
