@@ -162,7 +162,7 @@ fn garden(scene: &mut Scene, place: &Place) {
         ground.reach = Some((half.max_element() + 1.1) * b.wide);
     }
     scene.backdrop = b.meshes;
-    scene.haze = Some(48.0 * b.wide);
+    scene.haze = Some(130.0 * b.wide);
 }
 
 /// A floor that passes into the backdrop without a seam, as a cyclorama's does: by haze.
@@ -216,7 +216,7 @@ fn beach(scene: &mut Scene, place: &Place) {
     }
     b.push("headland", lumps(&heads, 12, rock));
     scene.backdrop = b.meshes;
-    scene.haze = Some(40.0 * b.wide);
+    scene.haze = Some(110.0 * b.wide);
     let calm = Sea::default();
     scene.sea = Some(Sea {
         level: b.middle.y - 0.075 * b.wide,
