@@ -113,7 +113,7 @@ fn known_formats_that_are_not_read_say_what_to_do() {
         Extension::Vtk,
         &["STRUCTURED_POINTS", "POLYDATA"],
     );
-    refused(&npy("<f2", "(1, 3)", false, 1, &[0; 6]), Extension::Npy, &["<f2", "astype"]);
+    refused(&npy("<f16", "(1, 3)", false, 1, &[0; 48]), Extension::Npy, &["<f16", "astype"]);
 }
 
 #[test]

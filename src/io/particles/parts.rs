@@ -278,8 +278,9 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
         format::Reader::Npy => source::header(&mut source, numpy::layout)?,
         format::Reader::Npz if !gzip => {
             let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
-            let numpy::Arrays { rows, attributes } = arrays;
-            return of_rows(input, rows, about(None, attributes, Format::Npz)).map(Some);
+            let numpy::Arrays { rows, placed, attributes, warnings } = arrays;
+            let about = About { placed, attributes, warnings, time: None, format: Format::Npz };
+            return of_rows(input, rows, about).map(Some);
         }
         _ => None,
     };
