@@ -265,7 +265,11 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
     if format::from_utf16(&start).is_some() {
         return Ok(None);
     }
-    let Ok(reader) = format::detect(&start, hint) else { return Ok(None) };
+    let reader = match format::detect(&start, hint) {
+        Ok(reader) => reader,
+        Err(told @ ReadError::Unsupported { .. }) => return Err(told),
+        Err(_) => return Ok(None),
+    };
     drop(start);
     let mut source = Source::new(input, &piece);
     let layout = match reader {
