@@ -68,7 +68,7 @@ pub use columns::{Attribute, AttributeType};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
 pub use meaning::Meaning;
-pub use parts::Parts;
+pub use parts::{Parts, find_origin};
 pub use spacing::{estimate_densities, estimate_spacing};
 pub use write::{write, write_to};
 
