@@ -248,12 +248,62 @@ fn shapes_of_json() {
             true,
         ),
         ("flat and bare", format!("[{}]", flat(&cloud.positions)), false),
+        (
+            "split of pandas",
+            format!(
+                "{{\"columns\":[\"id\",\"x\",\"y\",\"z\"],\"index\":[0],\"data\":[{}]}}",
+                all(
+                    &|i| {
+                        let [x, y, z] = cloud.positions[i];
+                        format!("[{},{x},{y},{z}]", ids[i])
+                    },
+                    ","
+                )
+            ),
+            false,
+        ),
+        (
+            "columns of pandas",
+            format!(
+                "{{{}}}",
+                join(
+                    ["x", "y", "z"]
+                        .iter()
+                        .enumerate()
+                        .map(|(c, name)| {
+                            format!(
+                                "\"{name}\":{{{}}}",
+                                all(&|i| format!("\"{}\":{}", 10 + i, cloud.positions[i][c]), ",")
+                            )
+                        })
+                        .collect(),
+                    ","
+                )
+            ),
+            false,
+        ),
+        (
+            "rows of pandas",
+            format!("{{{}}}", all(&|i| format!("\"{}\":{}", 10 + i, scalars(i)), ",")),
+            true,
+        ),
+        ("rows of six", format!("[{}]", all(&|i| position(i).replace(']', ",7,8,9]"), ",")), false),
         ("particles are vectors", format!("{{\"particles\":[{}]}}", all(&position, ",")), false),
     ] {
         let p = read(name, text.as_bytes(), Extension::Json);
         assert_eq!(p.positions, cloud.positions, "{name}");
         assert_eq!(p.velocities, cloud.velocities.clone().filter(|_| full), "{name}");
-        assert_eq!(p.ids, cloud.ids.clone().filter(|_| full), "{name}");
+        assert_eq!(
+            p.ids,
+            cloud.ids.clone().filter(|_| full || name.starts_with("split")),
+            "{name}"
+        );
+        assert_eq!(
+            p.warnings.len(),
+            usize::from(name == "rows of six"),
+            "{name}: {:?}",
+            p.warnings
+        );
     }
     let text = "[[NaN, 1, 2], [3, Infinity, -Infinity], [5, 6, 7]]";
     let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();

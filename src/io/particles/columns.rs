@@ -268,6 +268,18 @@ impl Data {
         true
     }
 
+    /// The first components of rows.
+    pub(super) fn some(&self, components: usize, first: usize) -> Self {
+        fn some<T: Copy>(v: &[T], components: usize, first: usize) -> Vec<T> {
+            v.chunks(components.max(1)).flat_map(|row| row.iter().take(first).copied()).collect()
+        }
+        match self {
+            Self::F32(v) => Self::F32(some(v, components, first)),
+            Self::F64(v) => Self::F64(some(v, components, first)),
+            Self::Int(v) => Self::Int(some(v, components, first)),
+        }
+    }
+
     /// Some components of numbers of which all of the first component come first: those from one on.
     pub(super) fn turned(&self, components: usize, from: usize, count: usize) -> Self {
         fn turn<T: Copy>(v: &[T], components: usize, from: usize, count: usize) -> Vec<T> {

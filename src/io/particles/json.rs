@@ -102,9 +102,58 @@ fn list(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     several_frames(&rows, "the array")?;
     table.list("position", 3, AttributeType::Number);
     let (components, data) = numbers("position", &rows)?;
+    if components > 3 {
+        table.warnings.push(format!(
+            "no names: the first 3 of {components} numbers of each particle are taken as positions, the others are not read"
+        ));
+        table.positions = Some((3, data.some(components, 3)));
+        return Ok(());
+    }
     let (components, data) = vectors("position", components, data)?;
     table.positions = Some((components, data));
     Ok(())
+}
+
+/// As pandas writes tables: lists of names and of rows, columns by the names of their rows, or rows by theirs.
+fn of_pandas(map: &mut Map<String, Value>) -> Option<Vec<Value>> {
+    if let (Some(Value::Array(names)), Some(Value::Array(_))) =
+        (map.get("columns"), map.get("data"))
+    {
+        let names: Vec<String> =
+            names.iter().map(|name| Some(name.as_str()?.to_string())).collect::<Option<_>>()?;
+        let Some(Value::Array(rows)) = map.remove("data") else { return None };
+        let named = |row: Value| match row {
+            Value::Array(row) => Value::Object(names.iter().cloned().zip(row).collect()),
+            row => row,
+        };
+        return Some(rows.into_iter().map(named).collect());
+    }
+    let columns: Vec<_> =
+        map.iter().filter(|(name, value)| names::wanted(name) && value.is_object()).collect();
+    let names: Vec<_> = columns.iter().map(|(name, _)| *name).collect();
+    if names::may_have_positions(&names) {
+        for value in map.values_mut() {
+            if let Value::Object(rows) = value {
+                *value = Value::Array(
+                    std::mem::take(rows).into_iter().map(|(_, value)| value).collect(),
+                );
+            }
+        }
+        return None;
+    }
+    // A row has numbers, and vectors of a few of them.
+    let small = |value: &Value| {
+        !value.is_object()
+            && value.as_array().is_none_or(|v| v.len() <= 3 && v.iter().all(Value::is_number))
+    };
+    let particle = |value: &Value| {
+        value.as_object().is_some_and(|row| {
+            let names: Vec<_> = row.keys().collect();
+            names::may_have_positions(&names) && row.values().all(small)
+        })
+    };
+    (map.len() > 1 && map.values().all(particle))
+        .then(|| std::mem::take(map).into_iter().map(|(_, row)| row).collect())
 }
 
 /// A list of vectors, as such or flat.
@@ -183,12 +232,15 @@ fn is_list_of_particles(value: &Value) -> bool {
     first.is_some_and(|first| first.is_object() || first.is_array())
 }
 
-fn object(map: Map<String, Value>, table: &mut Table) -> Result<(), ReadError> {
+fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadError> {
     if map.contains_key("file-series-version") {
         return Err(ReadError::Unsupported {
             what: "a list of the files of a sequence".into(),
             advice: "name it .series, with the files beside it",
         });
+    }
+    if let Some(rows) = of_pandas(&mut map) {
+        return list(rows, table);
     }
     let known: Vec<&String> = map.keys().filter(|name| names::wanted(name)).collect();
     if !names::may_have_positions(&known) {
