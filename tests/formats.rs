@@ -5,6 +5,8 @@
 
 #[path = "formats/allocation.rs"]
 mod allocation;
+#[path = "formats/arrays.rs"]
+mod arrays;
 #[path = "formats/bad.rs"]
 mod bad;
 #[path = "formats/data.rs"]

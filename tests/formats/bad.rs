@@ -5,10 +5,10 @@ use std::path::Path;
 use super::samples::{self, Has};
 use super::{allocation, samples::npy};
 use whitewater::io::particles::{
-    Compression, Extension, Particles, ReadError, Storage, read, read_bytes,
+    Compression, Extension, Particles, Parts, ReadError, Storage, read, read_bytes,
 };
 
-const HINTS: [Extension; 13] = [
+const HINTS: [Extension; 15] = [
     Extension::Bgeo,
     Extension::Geo,
     Extension::Sc,
@@ -20,7 +20,9 @@ const HINTS: [Extension; 13] = [
     Extension::Npz,
     Extension::Csv,
     Extension::Xyz,
+    Extension::Text,
     Extension::Json,
+    Extension::Bobj,
     Extension::Unknown,
 ];
 
@@ -113,7 +115,7 @@ fn known_formats_that_are_not_read_say_what_to_do() {
         Extension::Vtk,
         &["STRUCTURED_POINTS", "POLYDATA"],
     );
-    refused(&npy("<f2", "(1, 3)", false, 1, &[0; 6]), Extension::Npy, &["<f2", "astype"]);
+    refused(&npy("<f16", "(1, 3)", false, 1, &[0; 48]), Extension::Npy, &["<f16", "astype"]);
 }
 
 #[test]
@@ -410,4 +412,51 @@ fn mutations() {
     }
     println!("{cases} damaged files, {read} of them read");
     assert!(cases > 5000 && read > 0 && read < cases / 2, "{read} of {cases}");
+}
+
+/// Sound files of other formats are named with the way out, and none of them is called damaged.
+#[test]
+fn files_of_other_formats_are_named() {
+    let zip = |name: &str| {
+        let mut out = b"PK\x03\x04".to_vec();
+        out.extend([0; 22]);
+        out.extend((name.len() as u16).to_le_bytes());
+        out.extend([0; 2]);
+        out.extend(name.as_bytes());
+        out
+    };
+    for (bytes, hint, parts) in [
+        (&b"\x89HDF\r\n\x1a\n\0\0"[..], Extension::Unknown, ["HDF5", "h5py"]),
+        (b"Ogawa\xff\0\x01", Extension::Unknown, ["Alembic", "BGEO"]),
+        (b"PXR-USDC\0", Extension::Unknown, ["USD", "BGEO"]),
+        (b"#usda 1.0\n", Extension::Unknown, ["USD", "BGEO"]),
+        (&zip("dam.usdc"), Extension::Unknown, ["USD", "BGEO"]),
+        (&zip("[Content_Types].xml"), Extension::Csv, ["spreadsheet", "CSV"]),
+        (b"\x20\x42\x44\x56\0\0\0\0\xe0\0\0\0", Extension::Unknown, ["OpenVDB", "particles"]),
+        (b"\x7fNSJb\0\0\0", Extension::Bgeo, ["Houdini 12", "classic"]),
+        (b"#FileJBD BI4          \n", Extension::Unknown, ["DualSPHysics", "PartVTK"]),
+        (b"\x10\x27\0\0\0\0\x80\x3f", Extension::Bobj, ["mesh", "particles"]),
+        (&samples::gzip(b"\x10\x27\0\0\0\0\x80\x3f"), Extension::Bobj, ["mesh", "particles"]),
+        (b"PB02\x10\x27\0\0", Extension::Unknown, ["Mantaflow", "BGEO"]),
+        (&samples::gzip(b"MNT3\x10\x27\0\0"), Extension::Unknown, ["Mantaflow", "particles"]),
+        (b"# .PCD v0.7\nVERSION 0.7\n", Extension::Xyz, ["PCD", "PLY"]),
+        (b"<?xml version=\"1.0\"?><Xdmf Version=\"3.0\"/>", Extension::Unknown, ["Xdmf", "HDF5"]),
+        (
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+            Extension::Bgeo,
+            ["Git LFS", "git lfs pull"],
+        ),
+        (b"<!DOCTYPE html>\n<html>", Extension::Vtu, ["web page", "itself"]),
+        (
+            b"FoamFile\n{\n    class Cloud;\n}\n1\n(\n(0 0 0) 0\n)\n",
+            Extension::Unknown,
+            ["OpenFOAM", "foamToVTK"],
+        ),
+        (b"\x28\xb5\x2f\xfd\0", Extension::Bgeo, ["zstd", "unpack"]),
+    ] {
+        let error = refused(bytes, hint, &parts);
+        assert!(matches!(error, ReadError::Unsupported { .. }), "{error:?}");
+        let parts = Parts::of_bytes(bytes, hint, 10).map(|_| ()).unwrap_err();
+        assert_eq!(parts.to_string(), error.to_string());
+    }
 }

@@ -402,3 +402,52 @@ fn several_steps_in_one_table_are_refused() {
     let text = table("time,x,y,z", &|t, i| format!("12:0{t}:00,{i},0,{t}\n"));
     assert_eq!(read(&text, Extension::Csv).positions.len(), 60);
 }
+
+#[test]
+fn tables_of_tecplot() {
+    let text = format!(
+        "TITLE = \"dam\"\nVARIABLES = \"X (m)\", \"Y (m)\", \"Z (m)\", \"U\", \"V\", \"W\", \"ID\", \"Rho\"\n\
+         ZONE T=\"0.32 s\", I=2, F=POINT\n{}",
+        rows("  ", "\n")
+    );
+    let mut p = read(&text, Extension::Text);
+    p.warnings.clear();
+    check("Tecplot", &p);
+    check("Tecplot", &read(&text.replace("TITLE = \"dam\"\n", "# dam\n"), Extension::Text));
+    let zone = text.split_once("ZONE").unwrap().1.to_string();
+    error(&format!("{text}ZONE{zone}"), Extension::Text, &["several frames", "line 6"]);
+}
+
+#[test]
+fn a_first_column_that_counts_is_the_id() {
+    let table = |separator: &str, first: usize, columns: usize| {
+        let row = |i: usize| {
+            let mut row = vec![
+                (first + i).to_string(),
+                format!("{}.5", i + 1),
+                "2".into(),
+                "3".into(),
+                "9".into(),
+            ];
+            row.truncate(columns);
+            row.join(separator) + "\n"
+        };
+        (0..20).map(row).collect::<String>()
+    };
+    for (separator, hint) in [
+        (",", Extension::Csv),
+        (";", Extension::Csv),
+        (" ", Extension::Xyz),
+        (" ", Extension::Csv),
+        (", ", Extension::Xyz),
+    ] {
+        for (first, columns) in [(0, 4), (1, 4), (1, 5)] {
+            let p = read(&table(separator, first, columns), hint);
+            assert_eq!(p.positions[4], [5.5, 2.0, 3.0], "{separator} {columns}");
+            assert_eq!(p.ids.unwrap()[4], 4 + first as u32);
+            assert!(p.warnings.len() == 1 && p.warnings[0].contains("counts"), "{:?}", p.warnings);
+        }
+        // Three columns are positions, whatever they are.
+        assert_eq!(read(&table(separator, 0, 3), hint).positions[4], [4.0, 5.5, 2.0]);
+    }
+}

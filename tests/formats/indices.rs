@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::samples;
 use whitewater::io::particles::sequence::{SequenceError, expand};
 use whitewater::io::particles::{
-    Compression, Extension, Particles, Parts, Storage, read, read_bytes,
+    Compression, Extension, Particles, Parts, Storage, find_origin, read, read_bytes,
 };
 
 /// A folder of files that goes away at the end.
@@ -306,4 +306,25 @@ fn the_time_of_a_frame() {
     binary.extend([0; 12]);
     assert_eq!(read_bytes(&binary, Extension::Vtk).unwrap().time, Some(0.32));
     assert_eq!(time("0 0 0\n", Extension::Xyz), None);
+}
+
+#[test]
+fn the_origin_of_a_file_is_found_by_its_first_particles() {
+    let folder = Folder::new("origin");
+    let table = |far: f64| {
+        let rows: String =
+            (0..5000).map(|i| format!("{},0.5,{}\n", far + f64::from(i % 70), i / 70)).collect();
+        format!("x,y,z\n{rows}")
+    };
+    let far = folder.put("far.csv", table(4.0e6));
+    let origin = find_origin(&far).unwrap();
+    assert_eq!(origin, read(&far).unwrap().origin);
+    assert_ne!(origin, [0.0; 3]);
+    assert_eq!(Parts::open(&far, 100).unwrap().about().origin, origin);
+    let near = folder.put("near.csv", table(40.0));
+    assert_eq!(find_origin(&near).unwrap(), [0.0; 3]);
+    let list = folder.put("far.json", "[[4e6, 0, 0], [4000001, 1, 1]]");
+    assert_eq!(find_origin(&list).unwrap(), read(&list).unwrap().origin);
+    let none = find_origin(&folder.0.join("none.csv")).unwrap_err().to_string();
+    assert!(none.contains("none.csv"), "{none}");
 }

@@ -150,6 +150,9 @@ fn numbers_that_are_no_times() {
             &[(3_000_000_000, "p_3000000000_of_4.ply"), (3_000_001_000, "p_3000001000_of_4.ply")],
         ),
         ("ranks", "*.vtu", &[(0, "p-00008.0000.vtu"), (1, "p-00008.0001.vtu")]),
+        // A hash behind the number, hours before minutes.
+        ("more runs", "*.ply", &[(3, "f_3_99.ply"), (4, "f_4_17.ply"), (5, "f_5_3.ply")]),
+        ("clocks", "*.ply", &[(0, "d_10_58.ply"), (1, "d_10_59.ply"), (2, "d_11_01.ply")]),
         // No program writes 1.10 for 1.1 among times of fewer decimals.
         ("steps of runs", "*.vtk", &[(0, "run1.9.vtk"), (1, "run1.10.vtk")]),
         // A minus behind another sign is that of the number.

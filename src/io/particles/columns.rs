@@ -1,5 +1,7 @@
 //! From named columns of numbers to [`Particles`]: which names mean what, and checks that hold for all formats.
 
+use half::f16;
+
 use super::error::{Place, ReadError};
 use super::meaning::Meaning;
 use super::names::{self, Names};
@@ -26,6 +28,8 @@ pub enum AttributeType {
     I64,
     /// Unsigned, 64 bits
     U64,
+    /// Half precision
+    F16,
     /// Single precision
     F32,
     /// Double precision
@@ -45,7 +49,7 @@ impl AttributeType {
     pub(super) fn size(self) -> Option<u64> {
         match self {
             Self::I8 | Self::U8 => Some(1),
-            Self::I16 | Self::U16 => Some(2),
+            Self::I16 | Self::U16 | Self::F16 => Some(2),
             Self::I32 | Self::U32 | Self::F32 => Some(4),
             Self::I64 | Self::U64 | Self::F64 => Some(8),
             Self::Number | Self::Text | Self::List | Self::Other => None,
@@ -64,6 +68,7 @@ impl std::fmt::Display for AttributeType {
             Self::U32 => "u32",
             Self::I64 => "i64",
             Self::U64 => "u64",
+            Self::F16 => "f16",
             Self::F32 => "f32",
             Self::F64 => "f64",
             Self::Number => "number",
@@ -106,7 +111,7 @@ impl Data {
     pub(super) fn for_type(ty: AttributeType) -> Self {
         use AttributeType as T;
         match ty {
-            T::F32 => Self::F32(Vec::new()),
+            T::F16 | T::F32 => Self::F32(Vec::new()),
             T::I8 | T::U8 | T::I16 | T::U16 | T::I32 | T::U32 | T::I64 | T::U64 => {
                 Self::Int(Vec::new())
             }
@@ -237,6 +242,10 @@ impl Data {
         }
         use AttributeType as T;
         match (self, ty) {
+            (Self::F32(v), T::F16) => {
+                let number = if big_endian { f16::from_be_bytes } else { f16::from_le_bytes };
+                v.extend(raw.as_chunks::<2>().0.iter().map(|c| number(*c).to_f32()));
+            }
             (Self::F32(v), T::F32) => push!(v, f32, f32),
             (Self::F64(v), T::F64) => push!(v, f64, f64),
             (Self::Int(v), T::I8) => push!(v, i8, i64),
@@ -259,18 +268,30 @@ impl Data {
         true
     }
 
-    /// From all values of the first component, then all of the second ...: to particle after particle.
-    pub(super) fn transposed(self, components: usize) -> Self {
-        fn turn<T: Copy>(v: &[T], components: usize) -> Vec<T> {
-            let rows = v.len() / components.max(1);
-            (0..rows)
-                .flat_map(|row| (0..components).filter_map(move |c| v.get(c * rows + row).copied()))
-                .collect()
+    /// The first components of rows.
+    pub(super) fn some(&self, components: usize, first: usize) -> Self {
+        fn some<T: Copy>(v: &[T], components: usize, first: usize) -> Vec<T> {
+            v.chunks(components.max(1)).flat_map(|row| row.iter().take(first).copied()).collect()
         }
         match self {
-            Self::F32(v) => Self::F32(turn(&v, components)),
-            Self::F64(v) => Self::F64(turn(&v, components)),
-            Self::Int(v) => Self::Int(turn(&v, components)),
+            Self::F32(v) => Self::F32(some(v, components, first)),
+            Self::F64(v) => Self::F64(some(v, components, first)),
+            Self::Int(v) => Self::Int(some(v, components, first)),
+        }
+    }
+
+    /// Some components of numbers of which all of the first component come first: those from one on.
+    pub(super) fn turned(&self, components: usize, from: usize, count: usize) -> Self {
+        fn turn<T: Copy>(v: &[T], components: usize, from: usize, count: usize) -> Vec<T> {
+            let rows = v.len() / components.max(1);
+            let row =
+                |row| (from..from + count).filter_map(move |c| v.get(c * rows + row).copied());
+            (0..rows).flat_map(row).collect()
+        }
+        match self {
+            Self::F32(v) => Self::F32(turn(v, components, from, count)),
+            Self::F64(v) => Self::F64(turn(v, components, from, count)),
+            Self::Int(v) => Self::Int(turn(v, components, from, count)),
         }
     }
 }
@@ -287,7 +308,7 @@ pub(super) struct Column {
 #[derive(Debug, Default)]
 pub(super) struct Table {
     /// Positions, where the format has a place for them; else they are looked for among the columns.
-    pub(super) positions: Option<Data>,
+    pub(super) positions: Option<(usize, Data)>,
     pub(super) columns: Vec<Column>,
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
@@ -318,8 +339,8 @@ impl Table {
 
     /// Checks the lengths and gives the columns their meaning.
     pub(super) fn assemble(mut self, format: Format) -> Result<Particles, ReadError> {
-        let placed = self.positions.take().map(|data| {
-            self.push(PLACED, 3, data);
+        let placed = self.positions.take().map(|(components, data)| {
+            self.push(PLACED, components, data);
             self.columns.len() - 1
         });
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();

@@ -9,17 +9,35 @@ use super::Format;
 use super::bytes::show;
 use super::columns::{self, AttributeType, Column};
 use super::error::{Place, ReadError};
-use super::heading::{Heading, number_with_comma};
+use super::heading::{self, Heading, number_with_comma};
 use super::names::is_step;
 use super::plan::About;
 use super::source::{Content, Source, inner_error};
 use super::table::{RowReader, Table};
+use super::xyz;
 
 pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
-    let heading = Heading::read(content)?;
+    let lines = heading::lines(content)?;
+    let heading = Heading::of(&lines);
+    let first = |line: &[u8]| {
+        let fields = heading::fields(line, heading.delimiter);
+        super::bytes::parse_number(fields.first()?.as_bytes())
+    };
+    if let (Some(delimiter), true) = (heading.delimiter, heading.names.is_empty())
+        && xyz::counts(&lines, heading.at, first)
+    {
+        let row = lines.iter().find(|line| line.start == heading.at);
+        let columns = row.map_or(0, |row| heading::fields(&row.text, heading.delimiter).len());
+        let names =
+            std::iter::once("id".to_string()).chain((0..columns.saturating_sub(1)).map(unnamed));
+        let heading = Heading { names: names.collect(), ..heading };
+        let mut table = open_at(content, heading, delimiter)?;
+        table.about.warnings.push(xyz::counted_warning(columns));
+        return Ok(table);
+    }
     match heading.delimiter {
         Some(delimiter) => open_at(content, heading, delimiter),
-        None => super::xyz::open(content),
+        None => xyz::open(content),
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::error::ReadError;
+use super::foreign;
 
 /// What the name of a file says about its content. Only a hint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -34,6 +35,8 @@ pub enum Extension {
     Text,
     /// `.json`
     Json,
+    /// `.bobj`: meshes of Blender and Mantaflow, which have no beginning of their own
+    Bobj,
     /// None of these
     Unknown,
 }
@@ -59,7 +62,8 @@ impl Extension {
             Some("csv" | "tsv") => Self::Csv,
             Some("dat" | "extxyz" | "out" | "tab") => Self::Text,
             Some("xyz" | "txt" | "asc" | "pts") => Self::Xyz,
-            Some("json") => Self::Json,
+            Some("json" | "jsonl" | "ndjson") => Self::Json,
+            Some("bobj") => Self::Bobj,
             _ => Self::Unknown,
         }
     }
@@ -232,6 +236,15 @@ pub(super) enum Reader {
 pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError> {
     if bytes.is_empty() {
         return Err(ReadError::Empty);
+    }
+    if let Some(told) = foreign::told(bytes) {
+        return Err(told);
+    }
+    if hint == Extension::Bobj && !is_text(bytes) {
+        return Err(ReadError::Unsupported {
+            what: "a mesh of a fluid (.bobj of Blender and Mantaflow)".into(),
+            advice: "export the particles, as classic BGEO, VTU, PLY or NPZ",
+        });
     }
     let magic = |m: &[u8]| bytes.starts_with(m);
     if magic(b"Bgeo") {

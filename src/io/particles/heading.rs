@@ -59,7 +59,26 @@ fn uncommented(line: &[u8]) -> (&[u8], bool) {
 /// Whether a line is passed over.
 pub(super) fn is_comment(line: &[u8]) -> bool {
     let (rest, marked) = uncommented(line);
-    marked || rest.is_empty()
+    marked || rest.is_empty() || is_zone(rest) || begins(rest, b"TITLE")
+}
+
+/// Whether a line of Tecplot begins the rows of a zone.
+pub(super) fn is_zone(line: &[u8]) -> bool {
+    begins(line, b"ZONE")
+}
+
+/// Whether a line begins with a word of Tecplot's.
+fn begins(line: &[u8], word: &[u8]) -> bool {
+    let line = line.trim_ascii_start();
+    let behind = line.get(word.len()..).and_then(<[u8]>::first);
+    let ends = behind.is_none_or(|b| b.is_ascii_whitespace() || *b == b'=');
+    ends && line.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+}
+
+/// The names that Tecplot has behind a word and a sign.
+fn variables(line: &[u8]) -> Option<&[u8]> {
+    let rest = line.get(b"VARIABLES".len()..).filter(|_| begins(line, b"VARIABLES"))?;
+    rest.trim_ascii_start().strip_prefix(b"=")
 }
 
 /// What separates the fields of a line of numbers. Where others do, commas are those of decimals.
@@ -139,10 +158,6 @@ pub(super) fn number_with_comma(field: &[u8]) -> Option<f64> {
 }
 
 impl Heading {
-    pub(super) fn read(content: &Content<'_>) -> Result<Self, ReadError> {
-        Ok(Self::of(&lines(content)?))
-    }
-
     pub(super) fn of(lines: &[Line]) -> Self {
         let passed = |upto: usize| {
             lines.iter().take(upto).filter(|line| !is_comment(&line.text)).count() as u64
@@ -150,6 +165,7 @@ impl Heading {
         let data = |after: usize| lines.iter().skip(after).find(|line| !is_comment(&line.text));
         for (i, line) in lines.iter().enumerate() {
             let (names_line, _) = uncommented(&line.text);
+            let names_line = variables(names_line).unwrap_or(names_line);
             let row = data(i + 1);
             let separator = row.map_or_else(|| delimiter(names_line), |row| delimiter(&row.text));
             let count = row.map(|row| fields(&row.text, separator).len());

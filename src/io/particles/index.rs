@@ -19,6 +19,12 @@ pub(super) struct Pieces {
     blocks: Vec<String>,
 }
 
+/// A file that a list names; on Windows it may have backslashes.
+fn beside(folder: &Path, file: &str) -> PathBuf {
+    let path = folder.join(file);
+    if file.contains('\\') && !path.exists() { folder.join(file.replace('\\', "/")) } else { path }
+}
+
 /// The text of a list of files; none of another file.
 fn text(path: &Path, extensions: &[&str]) -> Option<String> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
@@ -49,7 +55,7 @@ impl Pieces {
             let Some(file) = node.attribute(attribute).filter(|file| !file.is_empty()) else {
                 continue;
             };
-            files.push(folder.join(file));
+            files.push(beside(folder, file));
             if element == "DataSet" {
                 let above = node.parent().and_then(|parent| parent.attribute("name"));
                 let name = node.attribute("name").or(above).unwrap_or(file);
@@ -135,13 +141,13 @@ pub(super) fn frames(path: &Path) -> Result<Option<Vec<Timed>>, String> {
         for file in list.get("files").and_then(|files| files.as_array()).into_iter().flatten() {
             let name = file.get("name").and_then(|name| name.as_str());
             let time = file.get("time").and_then(serde_json::Value::as_f64);
-            frames.extend(name.map(|name| (folder.join(name), time)));
+            frames.extend(name.map(|name| (beside(folder, name), time)));
         }
     } else {
         let document = Document::parse(&text).map_err(|e| e.to_string())?;
         for node in document.root_element().descendants().filter(|n| n.has_tag_name("DataSet")) {
             let time = node.attribute("timestep").and_then(|time| time.trim().parse().ok());
-            frames.extend(node.attribute("file").map(|file| (folder.join(file), time)));
+            frames.extend(node.attribute("file").map(|file| (beside(folder, file), time)));
         }
     }
     if frames.is_empty() {

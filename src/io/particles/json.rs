@@ -1,9 +1,12 @@
-//! JSON: an array of positions `[[x, y, z], ...]`, or an object of arrays by name.
+//! JSON: an array of positions `[[x, y, z], ...]` or of particles `[{"position": [x, y, z], "id": 7}, ...]`, or an object of
+//! arrays by name.
 //!
-//! In an object an array holds numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`.
-//! `null` is NaN. Houdini's geometry as JSON begins with `"fileversion"` and is refused.
+//! In an object an array holds numbers or arrays of numbers: `{"positions": [[0, 0, 0]], "density": [1000]}`; a flat list has the
+//! components of vectors one after the other. One that holds a single array of particles, `{"particles": [...]}`, is that array.
+//! Lines that are JSON each are the rows of one. `null`, and the `NaN` and `Infinity` of Python, are NaN. Houdini's geometry as JSON
+//! begins with `"fileversion"` and is refused.
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::bytes::show;
 use super::columns::{AttributeType, Data, Table};
@@ -13,37 +16,18 @@ use super::{Format, Particles};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let value: Value = serde_json::from_slice(bytes)
-        .map_err(|e| ReadError::malformed("JSON", e.to_string(), Place::Line(e.line() as u64)))?;
+    let value = match parse(bytes) {
+        // Only where it is at fault: the numbers of Python are rare, and looking for them takes a copy.
+        Err(error) => match without_python(bytes) {
+            Some(bytes) => parse(&bytes)?,
+            None => return Err(error),
+        },
+        Ok(value) => value,
+    };
     let mut table = Table::default();
     match value {
-        Value::Array(rows) => {
-            if rows.first().and_then(Value::as_str) == Some("fileversion") {
-                return Err(ReadError::Unsupported {
-                    what: "Houdini's JSON geometry (GEO of Houdini 12 and later)".into(),
-                    advice: "save classic BGEO (File Cache with the extension .bhclassic, or Partio), VTU, PLY or NPZ",
-                });
-            }
-            table.list("position", 3, AttributeType::Number);
-            let (components, data) = numbers("position", &rows)?;
-            if components != 3 && !rows.is_empty() {
-                return Err(shape("position", "three numbers for each particle", components));
-            }
-            table.positions = Some(data);
-        }
-        Value::Object(map) => {
-            for (name, value) in map {
-                let Value::Array(rows) = value else { continue };
-                if !names::wanted(&name) {
-                    let components = rows.first().and_then(Value::as_array).map_or(1, Vec::len);
-                    table.list(&name, components, AttributeType::Number);
-                    continue;
-                }
-                let (components, data) = numbers(&name, &rows)?;
-                table.list(&name, components, AttributeType::Number);
-                table.push(&name, components, data);
-            }
-        }
+        Value::Array(rows) => list(rows, &mut table)?,
+        Value::Object(map) => object(map, &mut table)?,
         other => {
             return Err(ReadError::malformed(
                 "an array of positions or an object of arrays",
@@ -53,6 +37,252 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
         }
     }
     table.assemble(Format::Json)
+}
+
+/// One value, or a line for each of several, which become an array.
+fn parse(bytes: &[u8]) -> Result<Value, ReadError> {
+    let mut values = serde_json::Deserializer::from_slice(bytes).into_iter::<Value>();
+    let bad = |e: serde_json::Error| {
+        ReadError::malformed("JSON", e.to_string(), Place::Line(e.line() as u64))
+    };
+    let Some(first) = values.next() else {
+        return Err(ReadError::malformed("JSON", "nothing", Place::Line(1)));
+    };
+    let first = first.map_err(bad)?;
+    let Some(second) = values.next() else { return Ok(first) };
+    let mut rows = vec![first, second.map_err(bad)?];
+    for value in values {
+        rows.push(value.map_err(bad)?);
+    }
+    Ok(Value::Array(rows))
+}
+
+/// With `null` in the place of numbers that Python writes and JSON has not; none where there are none.
+fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
+    let mut out = Vec::with_capacity(bytes.len());
+    let mut rest = bytes;
+    let mut quoted = false;
+    let mut found = false;
+    while let Some((&byte, behind)) = rest.split_first() {
+        if quoted && byte == b'\\' {
+            let (pair, after) = rest.split_at_checked(2).unwrap_or((rest, &[]));
+            out.extend(pair);
+            rest = after;
+            continue;
+        }
+        quoted ^= byte == b'"';
+        let words = [&b"NaN"[..], b"-Infinity", b"Infinity"];
+        let word = words.iter().find(|word| !quoted && rest.starts_with(word));
+        match word {
+            Some(word) => {
+                out.extend(b"null");
+                rest = rest.get(word.len()..).unwrap_or_default();
+                found = true;
+            }
+            None => {
+                out.push(byte);
+                rest = behind;
+            }
+        }
+    }
+    found.then_some(out)
+}
+
+/// Rows: of positions, or of particles by the names of what they have.
+fn list(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+    if rows.first().and_then(Value::as_str) == Some("fileversion") {
+        return Err(ReadError::Unsupported {
+            what: "Houdini's JSON geometry (GEO of Houdini 12 and later)".into(),
+            advice: "save classic BGEO (File Cache with the extension .bhclassic, or Partio), VTU, PLY or NPZ",
+        });
+    }
+    if rows.first().is_some_and(Value::is_object) {
+        return particles(rows, table);
+    }
+    several_frames(&rows, "the array")?;
+    table.list("position", 3, AttributeType::Number);
+    let (components, data) = numbers("position", &rows)?;
+    if components > 3 {
+        table.warnings.push(format!(
+            "no names: the first 3 of {components} numbers of each particle are taken as positions, the others are not read"
+        ));
+        table.positions = Some((3, data.some(components, 3)));
+        return Ok(());
+    }
+    let (components, data) = vectors("position", components, data)?;
+    table.positions = Some((components, data));
+    Ok(())
+}
+
+/// As pandas writes tables: lists of names and of rows, columns by the names of their rows, or rows by theirs.
+fn of_pandas(map: &mut Map<String, Value>) -> Option<Vec<Value>> {
+    if let (Some(Value::Array(names)), Some(Value::Array(_))) =
+        (map.get("columns"), map.get("data"))
+    {
+        let names: Vec<String> =
+            names.iter().map(|name| Some(name.as_str()?.to_string())).collect::<Option<_>>()?;
+        let Some(Value::Array(rows)) = map.remove("data") else { return None };
+        let named = |row: Value| match row {
+            Value::Array(row) => Value::Object(names.iter().cloned().zip(row).collect()),
+            row => row,
+        };
+        return Some(rows.into_iter().map(named).collect());
+    }
+    let columns: Vec<_> =
+        map.iter().filter(|(name, value)| names::wanted(name) && value.is_object()).collect();
+    let names: Vec<_> = columns.iter().map(|(name, _)| *name).collect();
+    if names::may_have_positions(&names) {
+        for value in map.values_mut() {
+            if let Value::Object(rows) = value {
+                *value = Value::Array(
+                    std::mem::take(rows).into_iter().map(|(_, value)| value).collect(),
+                );
+            }
+        }
+        return None;
+    }
+    // A row has numbers, and vectors of a few of them.
+    let small = |value: &Value| {
+        !value.is_object()
+            && value.as_array().is_none_or(|v| v.len() <= 3 && v.iter().all(Value::is_number))
+    };
+    let particle = |value: &Value| {
+        value.as_object().is_some_and(|row| {
+            let names: Vec<_> = row.keys().collect();
+            names::may_have_positions(&names) && row.values().all(small)
+        })
+    };
+    (map.len() > 1 && map.values().all(particle))
+        .then(|| std::mem::take(map).into_iter().map(|(_, row)| row).collect())
+}
+
+/// A list of vectors, as such or flat.
+fn vectors(name: &str, components: usize, data: Data) -> Result<(usize, Data), ReadError> {
+    match components {
+        2 | 3 => Ok((components, data)),
+        1 if data.len() == 0 || data.len().is_multiple_of(3) => Ok((3, data)),
+        1 => Err(ReadError::Unsupported {
+            what: format!("a flat list `{name}` of {} numbers, which are no triples,", data.len()),
+            advice: "write a list of [x, y, z] for each particle",
+        }),
+        _ => Err(shape(name, "three numbers for each particle", components)),
+    }
+}
+
+/// Refuses arrays of arrays of vectors.
+fn several_frames(rows: &[Value], what: &str) -> Result<(), ReadError> {
+    let inner = rows.first().and_then(Value::as_array).and_then(|row| row.first());
+    if inner.is_some_and(|inner| inner.is_array() || inner.is_object()) {
+        return Err(ReadError::Unsupported {
+            what: format!(
+                "a file of several frames ({what} has {} lists of particles)",
+                rows.len()
+            ),
+            advice: "write a file for each frame, numbered by it",
+        });
+    }
+    Ok(())
+}
+
+/// Objects, a particle each.
+fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+    let mut columns: Vec<(String, Vec<Value>)> = Vec::new();
+    if let Some(Value::Object(first)) = rows.first() {
+        if let Some((name, _)) = first.iter().find(|(_, value)| is_list_of_particles(value)) {
+            return Err(ReadError::Unsupported {
+                what: format!("a file of {} frames (a list `{name}` in each)", rows.len()),
+                advice: "write a file for each frame, numbered by it",
+            });
+        }
+        for (name, value) in first {
+            let components = value.as_array().map_or(1, Vec::len);
+            let ty = if value.is_string() { AttributeType::Text } else { AttributeType::Number };
+            if table.list(name, components, ty) && !value.is_string() {
+                columns.push((name.clone(), Vec::new()));
+            }
+        }
+    }
+    for (i, row) in rows.into_iter().enumerate() {
+        let Value::Object(mut row) = row else {
+            return Err(ReadError::malformed(
+                "an object for each particle, as the first is one,",
+                show(row.to_string().as_bytes()),
+                Place::Unknown,
+            ));
+        };
+        for (name, values) in &mut columns {
+            let value = row.remove(name).ok_or_else(|| ReadError::Length {
+                attribute: name.clone(),
+                expected: i as u64 + 1,
+                found: i as u64,
+            })?;
+            values.push(value);
+        }
+    }
+    for (name, values) in columns {
+        let (components, data) = numbers(&name, &values)?;
+        table.push(&name, components, data);
+    }
+    Ok(())
+}
+
+/// A list of objects, or of lists.
+fn is_list_of_particles(value: &Value) -> bool {
+    let first = value.as_array().and_then(|list| list.first());
+    first.is_some_and(|first| first.is_object() || first.is_array())
+}
+
+fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadError> {
+    if map.contains_key("file-series-version") {
+        return Err(ReadError::Unsupported {
+            what: "a list of the files of a sequence".into(),
+            advice: "name it .series, with the files beside it",
+        });
+    }
+    if let Some(rows) = of_pandas(&mut map) {
+        return list(rows, table);
+    }
+    let known: Vec<&String> = map.keys().filter(|name| names::wanted(name)).collect();
+    if !names::may_have_positions(&known) {
+        // The particles may be one level deeper.
+        let mut inner: Vec<_> = map
+            .into_iter()
+            .filter(|(_, value)| value.is_object() || is_list_of_particles(value))
+            .collect();
+        if let [(name, value)] = inner.as_mut_slice() {
+            return match std::mem::take(value) {
+                Value::Array(rows) if rows.first().is_some_and(Value::is_array) => {
+                    several_frames(&rows, &format!("`{name}`"))?;
+                    list(rows, table)
+                }
+                Value::Array(rows) => list(rows, table),
+                Value::Object(map) if !map.values().any(Value::is_object) => object(map, table),
+                _ => Ok(()),
+            };
+        }
+        for (name, _) in inner {
+            table.list(&name, 1, AttributeType::Other);
+        }
+        return Ok(());
+    }
+    for (name, value) in map {
+        let Value::Array(rows) = value else { continue };
+        if !names::wanted(&name) {
+            let components = rows.first().and_then(Value::as_array).map_or(1, Vec::len);
+            table.list(&name, components, AttributeType::Number);
+            continue;
+        }
+        several_frames(&rows, &format!("`{name}`"))?;
+        let (mut components, mut data) = numbers(&name, &rows)?;
+        // `x` may be a list of vectors or of their first component.
+        let alone = names::plain(&name) != "x" && names::plain(&name).len() > 1;
+        if components == 1 && names::is_vector(&name) && alone {
+            (components, data) = vectors(&name, components, data)?;
+        }
+        table.list(&name, components, AttributeType::Number);
+        table.push(&name, components, data);
+    }
+    Ok(())
 }
 
 fn shape(name: &str, expected: &str, components: usize) -> ReadError {

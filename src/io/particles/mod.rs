@@ -35,6 +35,7 @@ mod columns;
 mod comma;
 mod encoded;
 mod error;
+mod foreign;
 mod format;
 mod geo;
 mod head;
@@ -60,13 +61,14 @@ mod vtk_xml;
 mod write;
 mod xyz;
 
+use std::io::Read as _;
 use std::path::Path;
 
 pub use columns::{Attribute, AttributeType};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
 pub use meaning::Meaning;
-pub use parts::Parts;
+pub use parts::{Parts, find_origin};
 pub use spacing::{estimate_densities, estimate_spacing};
 pub use write::{write, write_to};
 
@@ -148,6 +150,13 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
     }
     if let Some(pieces) = index::Pieces::of(path)? {
         return pieces.plan().and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
+    }
+    // A large file that can't be read isn't.
+    let mut head = Vec::new();
+    let file = std::fs::File::open(path).map_err(io)?;
+    file.take(foreign::START as u64).read_to_end(&mut head).map_err(io)?;
+    if let Some(told) = foreign::told(&head) {
+        return Err(ReadError::File { path: path.to_path_buf(), reason: Box::new(told) });
     }
     let bytes = std::fs::read(path).map_err(io)?;
     read_bytes(&bytes, Extension::from_path(path))

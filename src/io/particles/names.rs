@@ -124,6 +124,18 @@ pub(super) fn wanted(name: &str) -> bool {
     known(&plain(name))
 }
 
+/// Whether an attribute of this name is one of vectors.
+pub(super) fn is_vector(name: &str) -> bool {
+    let plain = plain(name);
+    POSITION.contains(&plain.as_str()) || VELOCITY.contains(&plain.as_str())
+}
+
+/// Whether one of these names is that of positions, or three or two are.
+pub(super) fn may_have_positions<N: AsRef<str>>(names: &[N]) -> bool {
+    let whole = |name: &N| POSITION.contains(&plain(name.as_ref()).as_str());
+    names.iter().any(whole) || have_positions(names)
+}
+
 /// Whether an attribute of this name may be a time, which may be no number.
 pub(super) fn is_step(name: &str) -> bool {
     STEP.contains(&plain(name).as_str())

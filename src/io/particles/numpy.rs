@@ -2,7 +2,10 @@
 //!
 //! An NPY file is `\x93NUMPY`, two bytes of version, the length of the header (`u16`, from version 2 `u32`, both
 //! little-endian), a header that is a Python dict `{'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }`,
-//! and the numbers. The header is three known keys, read here.
+//! and the numbers. The header is three known keys, read here. `descr` may be a list of fields, `[('pos', '<f4', (3,)), ...]`.
+//!
+//! A row is a particle, in an array of shape (n, 3) or in either order of (3, n); two columns are two dimensions, of six the last three
+//! are velocities. An array of more dimensions is one of frames, which is refused.
 //!
 //! Own, since the crate for it (npyz 0.9) brings a whole Python parser with big integers for these three keys,
 //! gives numbers only as the very type they are stored in, and does not hold the shape against the bytes there are.
@@ -10,61 +13,219 @@
 use std::io::{Cursor as IoCursor, Read};
 
 use super::bytes::{Cursor, show, unpack, unpack_limit};
-use super::columns::{Attribute, AttributeType, Data, Table};
+use super::columns::{Attribute, AttributeType, Column, Data, Table};
 use super::error::{Place, ReadError};
 use super::names;
 use super::rows::{Field, Layout, Rows};
 use super::source::{self, Check, Input, Packing, Piece, Source};
 use super::{Format, Particles};
 
+/// One attribute of a structured array, or all of a plain one.
+struct Member {
+    name: String,
+    ty: AttributeType,
+    components: usize,
+    /// Bytes from the start of an element.
+    offset: u64,
+    big_endian: bool,
+}
+
 /// What the header of an array says.
 struct Header {
-    ty: AttributeType,
-    big_endian: bool,
+    /// Of a plain array one without a name.
+    members: Vec<Member>,
+    structured: bool,
+    /// Bytes of an element.
+    size: u64,
     fortran: bool,
+    /// Without extents of 1 where there are more than two.
     shape: Vec<u64>,
     descr: String,
 }
 
-impl Header {
-    fn count(&self) -> u64 {
-        self.shape.iter().fold(1_u64, |n, d| n.saturating_mul(*d))
-    }
-
-    /// Values per row: 1 for a list, the second extent for a table.
-    fn components(&self) -> usize {
-        let n = self.shape.iter().skip(1).fold(1_u64, |n, d| n.saturating_mul(*d));
-        usize::try_from(n).unwrap_or(usize::MAX)
-    }
-
-    /// Bytes of a number.
-    fn size(&self, name: &str) -> Result<u64, ReadError> {
-        self.ty.size().ok_or_else(|| ReadError::Unsupported {
-            what: format!("array `{name}` of dtype {}", self.descr),
-            advice: "save it as float32, float64 or an integer type: a.astype('f4')",
-        })
-    }
-
+/// An array as rows.
+struct Rowed {
+    rows: u64,
+    /// Values per row.
+    components: usize,
     /// All of the first component come first, then all of the second ...
-    fn is_transposed(&self) -> bool {
-        self.fortran && self.shape.len() == 2 && self.components() > 1
+    transposed: bool,
+}
+
+/// What to do with an array of frames.
+const FRAMES: &str =
+    "save a file for each: for i, frame in enumerate(a): np.save(f'frame_{i:04d}.npy', frame)";
+
+/// Columns from which on an array of 3 rows is taken for one of particles that stand beside each other.
+const WIDE: u64 = 8;
+
+impl Header {
+    fn words(&self) -> String {
+        let extents: Vec<_> = self.shape.iter().map(u64::to_string).collect();
+        let comma = if self.shape.len() == 1 { "," } else { "" };
+        format!("({}{comma}) and dtype {}", extents.join(", "), self.descr)
     }
 
-    /// Where its numbers are, after so many bytes of header; none where particle does not follow particle.
-    fn rows(&self, header: u64, name: &str) -> Result<Option<Rows>, ReadError> {
-        let stride = self.size(name)?.saturating_mul(self.components() as u64);
-        if self.is_transposed() {
-            return Ok(None);
+    fn ty(&self) -> AttributeType {
+        self.members.first().map_or(AttributeType::Other, |member| member.ty)
+    }
+
+    /// `vector`: whether it has as many components as there are dimensions.
+    fn rowed(&self, name: &str, vector: bool) -> Result<Rowed, ReadError> {
+        let count = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
+        let list = |rows| Rowed { rows, components: 1, transposed: false };
+        match *self.shape.as_slice() {
+            [] => Ok(list(1)),
+            [rows] => Ok(list(rows)),
+            [1, rows] if !vector => Ok(list(rows)),
+            [components @ (2 | 3), rows] if vector && rows >= WIDE => {
+                Ok(Rowed { rows, components: count(components), transposed: !self.fortran })
+            }
+            [rows, components] => {
+                let transposed = self.fortran && components > 1;
+                Ok(Rowed { rows, components: count(components), transposed })
+            }
+            [frames, rows, 2 | 3] => Err(ReadError::Unsupported {
+                what: format!(
+                    "array `{name}` of shape {}: {frames} frames of {rows} particles",
+                    self.words()
+                ),
+                advice: FRAMES,
+            }),
+            _ => Err(ReadError::Unsupported {
+                what: format!("array `{name}` of shape {}", self.words()),
+                advice: "save an array of shape (n, 3) for each frame: a.reshape(-1, 3)",
+            }),
         }
-        Ok(Some(Rows {
+    }
+
+    /// Where its numbers are, after so many bytes of header, and what is said of them; `placed`: of positions, whatever its
+    /// name. None where particle does not follow particle.
+    fn rows(
+        &self,
+        header: u64,
+        name: &str,
+        placed: bool,
+    ) -> Result<(Rows, Rowed, Vec<String>), ReadError> {
+        let mut warnings = Vec::new();
+        let vector = !self.structured && (placed || names::is_vector(name));
+        let rowed = self.rowed(name, vector)?;
+        let mut fields = Vec::new();
+        let mut big_endian = self.members.first().is_some_and(|member| member.big_endian);
+        if self.structured {
+            if rowed.components > 1 {
+                let (frames, rows) = (rowed.rows, rowed.components);
+                return Err(ReadError::Unsupported {
+                    what: format!(
+                        "array `{name}` of shape {}: {frames} frames of {rows} particles",
+                        self.words()
+                    ),
+                    advice: FRAMES,
+                });
+            }
+            let used =
+                self.members.iter().filter(|m| names::wanted(&m.name) && m.ty.size().is_some());
+            big_endian = used.clone().any(|member| member.big_endian);
+            if used
+                .clone()
+                .any(|member| member.big_endian != big_endian && member.ty.size() != Some(1))
+            {
+                return Err(self.unsupported(name));
+            }
+            for member in used {
+                fields.push(Field::new(&member.name, member.components, member.ty, member.offset)?);
+            }
+        } else {
+            let size = self.ty().size().ok_or_else(|| self.unsupported(name))?;
+            let components = rowed.components;
+            let first = if vector && components > 3 { 3 } else { components };
+            fields.push(Field::new(name, first, self.ty(), 0)?);
+            if first < components {
+                let velocities = placed && components == 6;
+                if velocities {
+                    fields.push(Field::new("velocity", 3, self.ty(), 3 * size)?);
+                }
+                let then = if velocities { "velocities" } else { "not read" };
+                warnings.push(format!(
+                    "array `{name}` has {components} columns: the first 3 are taken as {}, the others are {then}",
+                    if placed || names::plain(name) != "velocity" { "positions" } else { "velocities" }
+                ));
+            }
+        }
+        let rows = Rows {
             what: format!("array `{name}`"),
             header,
             between: Vec::new(),
-            count: self.shape.first().copied().unwrap_or(1),
-            stride,
-            big_endian: self.big_endian,
-            fields: vec![Field::new(name, self.components(), self.ty, 0)?],
-        }))
+            count: rowed.rows,
+            stride: self.size.saturating_mul(rowed.components as u64),
+            big_endian,
+            fields,
+        };
+        Ok((rows, rowed, warnings))
+    }
+
+    fn unsupported(&self, name: &str) -> ReadError {
+        if self.descr.ends_with('O') {
+            return ReadError::Unsupported {
+                what: format!("array `{name}` of Python objects (dtype object)"),
+                advice: "save arrays of numbers: np.savez(file, position=p, velocity=v)",
+            };
+        }
+        ReadError::Unsupported {
+            what: format!("array `{name}` of dtype {}", self.descr),
+            advice: "save it as float32, float64 or an integer type: a.astype('f4')",
+        }
+    }
+
+    /// All of its numbers, of attribute after attribute.
+    fn columns(
+        &self,
+        cursor: &mut Cursor<'_>,
+        name: &str,
+        placed: bool,
+        warnings: &mut Vec<String>,
+    ) -> Result<Vec<Column>, ReadError> {
+        let (rows, rowed, told) = self.rows(0, name, placed)?;
+        let raw = cursor.take(rows.bytes(), &rows.what)?;
+        warnings.extend(told);
+        let mut columns = rows.columns();
+        if !rowed.transposed {
+            rows.decode(raw, rows.count as usize, &vec![true; columns.len()], &mut columns);
+            return Ok(columns);
+        }
+        let mut data = Data::for_type(self.ty());
+        data.push_bytes(self.ty(), raw, rows.big_endian);
+        let mut from = 0;
+        for column in &mut columns {
+            column.data = data.turned(rowed.components, from, column.components);
+            from += column.components;
+        }
+        Ok(columns)
+    }
+
+    /// Lists it among the attributes.
+    fn list(&self, table: &mut Table, name: &str) {
+        if self.structured {
+            for member in self.members.iter().filter(|member| !member.name.is_empty()) {
+                table.list(&member.name, member.components, member.ty);
+            }
+            return;
+        }
+        let components = self.rowed(name, names::is_vector(name)).map(|rowed| rowed.components);
+        let product = || {
+            let n = self.shape.iter().skip(1).fold(1_u64, |n, d| n.saturating_mul(*d));
+            usize::try_from(n).unwrap_or(usize::MAX)
+        };
+        table.list(name, components.unwrap_or_else(|_| product()), self.ty());
+    }
+
+    /// Whether it may be positions, whatever its name.
+    fn may_be_positions(&self) -> bool {
+        let vectors = matches!(*self.shape.as_slice(), [_, 3])
+            || matches!(*self.shape.as_slice(), [3, n] if n >= WIDE);
+        !self.structured
+            && vectors
+            && matches!(self.ty(), AttributeType::F16 | AttributeType::F32 | AttributeType::F64)
     }
 }
 
@@ -77,8 +238,10 @@ pub(super) fn read_npy(bytes: &[u8]) -> Result<Particles, ReadError> {
     let mut cursor = Cursor::new(bytes);
     let header = of_positions(&mut cursor)?;
     let mut table = Table::default();
-    table.list(NPY, header.components(), header.ty);
-    table.positions = Some(values(&mut cursor, &header, NPY)?);
+    header.list(&mut table, NPY);
+    let mut columns = header.columns(&mut cursor, NPY, true, &mut table.warnings)?.into_iter();
+    table.positions = columns.next().map(|column| (column.components, column.data));
+    table.columns.extend(columns);
     table.assemble(Format::Npy)
 }
 
@@ -89,12 +252,13 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
     let header = of_positions(&mut cursor)?;
     let length = cursor.at() as u64;
     let mut table = Table::default();
-    table.list(NPY, header.components(), header.ty);
-    let layout = header.rows(length, NPY)?.map(|rows| Layout {
+    header.list(&mut table, NPY);
+    let (rows, rowed, warnings) = header.rows(length, NPY, true)?;
+    let layout = (!rowed.transposed).then_some(Layout {
         rows,
-        placed: true,
+        placed: !header.structured,
         attributes: table.attributes,
-        warnings: Vec::new(),
+        warnings,
         format: Format::Npy,
     });
     Ok((layout, length))
@@ -102,12 +266,11 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
 
 fn of_positions(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
     let header = header(cursor)?;
-    if header.shape.len() != 2 || header.components() != 3 {
-        return Err(ReadError::malformed(
-            "an array of shape (n, 3)",
-            format!("shape {:?}", header.shape),
-            Place::Unknown,
-        ));
+    if !header.structured && header.rowed(NPY, true)?.components < 2 {
+        return Err(ReadError::Unsupported {
+            what: format!("an array of shape {}", header.words()),
+            advice: "save an array of shape (n, 3): a.reshape(-1, 3)",
+        });
     }
     Ok(header)
 }
@@ -115,18 +278,23 @@ fn of_positions(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
 pub(super) fn read_npz(bytes: &[u8]) -> Result<Particles, ReadError> {
     let mut archive = zip::ZipArchive::new(IoCursor::new(bytes)).map_err(bad_zip)?;
     let mut budget = unpack_limit(bytes.len());
-    let mut table = Table::default();
+    let (mut table, mut chosen) = choose(&mut archive)?;
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
-        let Some(name) = wanted_array(&mut file, &mut table) else { continue };
+        let Some(name) = wanted_array(&mut file, &chosen) else { continue };
         let raw = unpack(&mut file, budget, &format!("array `{name}`"), 0)?;
         budget = budget.saturating_sub(raw.len());
         let mut cursor = Cursor::new(&raw);
         let header = header(&mut cursor)?;
-        table.list(&name, header.components(), header.ty);
-        let data = values(&mut cursor, &header, &name)?;
-        table.push(&name, header.components(), data);
+        let placed = chosen.positions.as_ref() == Some(&name);
+        let mut columns =
+            header.columns(&mut cursor, &name, placed, &mut table.warnings)?.into_iter();
+        if placed {
+            table.positions = columns.next().map(|column| (column.components, column.data));
+        }
+        table.columns.extend(columns);
     }
+    table.warnings.append(&mut chosen.warnings);
     table.assemble(Format::Npz)
 }
 
@@ -134,17 +302,20 @@ pub(super) fn read_npz(bytes: &[u8]) -> Result<Particles, ReadError> {
 pub(super) struct Arrays {
     /// Those that may be used, and where they lie.
     pub(super) rows: Vec<(Piece, Rows)>,
+    /// The column that is the positions, whatever its name.
+    pub(super) placed: Option<usize>,
     pub(super) attributes: Vec<Attribute>,
+    pub(super) warnings: Vec<String>,
 }
 
 /// What the headers of the arrays in a zip say; none where one can't be read row after row.
 pub(super) fn arrays(input: &Input<'_>) -> Result<Option<Arrays>, ReadError> {
     let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
-    let mut table = Table::default();
-    let mut found = Vec::new();
+    let (mut table, mut chosen) = choose(&mut archive)?;
+    let (mut found, mut placed, mut columns) = (Vec::new(), None, 0);
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
-        let Some(name) = wanted_array(&mut file, &mut table) else { continue };
+        let Some(name) = wanted_array(&mut file, &chosen) else { continue };
         let packing = match file.compression() {
             zip::CompressionMethod::Stored => Packing::None,
             zip::CompressionMethod::Deflated => Packing::Deflate,
@@ -165,38 +336,89 @@ pub(super) fn arrays(input: &Input<'_>) -> Result<Option<Arrays>, ReadError> {
             Ok(((header, length), length))
         });
         let (header, length) = header?;
-        table.list(&name, header.components(), header.ty);
-        let Some(rows) = header.rows(length, &name)? else { return Ok(None) };
+        let of_positions = chosen.positions.as_ref() == Some(&name);
+        let (rows, rowed, told) = header.rows(length, &name, of_positions)?;
+        if rowed.transposed {
+            return Ok(None);
+        }
+        table.warnings.extend(told);
+        if of_positions {
+            placed = Some(columns);
+        }
+        columns += rows.fields.len();
         found.push((piece, rows));
     }
-    Ok(Some(Arrays { rows: found, attributes: table.attributes }))
+    table.warnings.append(&mut chosen.warnings);
+    let Table { attributes, warnings, .. } = table;
+    Ok(Some(Arrays { rows: found, placed, attributes, warnings }))
 }
 
 fn bad_zip(error: zip::result::ZipError) -> ReadError {
     ReadError::malformed("a sound zip of arrays", error.to_string(), Place::Unknown)
 }
 
-/// The name of an array that may be used. Another one is listed.
-fn wanted_array(file: &mut zip::read::ZipFile<'_, impl Read>, table: &mut Table) -> Option<String> {
-    let name = file.name().ok()?.strip_suffix(".npy")?.to_string();
-    if names::wanted(&name) {
-        return Some(name);
-    }
-    // Its header alone is of interest; one that cannot be read is no reason to stop.
-    let mut head = Vec::new();
-    let _ = file.by_ref().take(4096).read_to_end(&mut head);
-    if let Ok(header) = header(&mut Cursor::new(&head)) {
-        table.list(&name, header.components(), header.ty);
-    }
-    None
+/// Which arrays of a zip are used beside those whose names say it.
+#[derive(Default)]
+struct Chosen {
+    /// Structured ones, for their fields.
+    structured: Vec<String>,
+    /// The one that is taken as the positions, where none is called so.
+    positions: Option<String>,
+    warnings: Vec<String>,
 }
 
-fn values(cursor: &mut Cursor<'_>, header: &Header, name: &str) -> Result<Data, ReadError> {
-    let size = header.size(name)?;
-    let raw = cursor.take(header.count().saturating_mul(size), &format!("array `{name}`"))?;
-    let mut data = Data::for_type(header.ty);
-    data.push_bytes(header.ty, raw, header.big_endian);
-    Ok(if header.is_transposed() { data.transposed(header.components()) } else { data })
+/// Lists the arrays of a zip by their headers alone; one that cannot be read is no reason to stop.
+fn choose<R: Read + std::io::Seek>(
+    archive: &mut zip::ZipArchive<R>,
+) -> Result<(Table, Chosen), ReadError> {
+    let (mut table, mut chosen) = (Table::default(), Chosen::default());
+    let (mut all, mut able) = (Vec::new(), Vec::new());
+    for i in 0..archive.len() {
+        let mut file = archive.by_index(i).map_err(bad_zip)?;
+        let name = file.name().ok().and_then(|name| name.strip_suffix(".npy").map(str::to_string));
+        let Some(name) = name else { continue };
+        let mut head = Vec::new();
+        let _ = file.by_ref().take(4096).read_to_end(&mut head);
+        let Ok(header) = header(&mut Cursor::new(&head)) else { continue };
+        header.list(&mut table, &name);
+        if header.structured && !names::wanted(&name) {
+            let fields = header.members.iter().map(|member| member.name.clone());
+            all.extend(fields);
+            chosen.structured.push(name);
+            continue;
+        }
+        if header.may_be_positions() && !names::wanted(&name) {
+            able.push(name.clone());
+        }
+        all.push(name);
+    }
+    // What savez calls arrays without names comes in their order.
+    able.sort();
+    let sure =
+        |able: &[String]| able.len() == 1 || able.first().is_some_and(|name| name == "arr_0");
+    if !names::may_have_positions(&all) && sure(&able) {
+        let others = able.len() - 1;
+        chosen.positions = able.into_iter().next();
+        let name = chosen.positions.clone().unwrap_or_default();
+        let more = if others > 0 {
+            format!(", {others} others of its shape are not read")
+        } else {
+            String::new()
+        };
+        chosen
+            .warnings
+            .push(format!("no array is called positions: `{name}` is taken as them{more}"));
+    }
+    Ok((table, chosen))
+}
+
+/// The name of an array that may be used.
+fn wanted_array(file: &mut zip::read::ZipFile<'_, impl Read>, chosen: &Chosen) -> Option<String> {
+    let name = file.name().ok()?.strip_suffix(".npy")?.to_string();
+    let used = names::wanted(&name)
+        || chosen.structured.contains(&name)
+        || chosen.positions.as_ref() == Some(&name);
+    used.then_some(name)
 }
 
 fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
@@ -230,6 +452,8 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
         Some(text.get(start..)?.trim_start().strip_prefix(':')?.trim_start())
     };
     let descr = value("descr").ok_or_else(|| bad("descr"))?;
+    let (members, size) = members(descr).ok_or_else(|| bad("descr"))?;
+    let structured = descr.starts_with('[');
     let descr = match descr.strip_prefix('\'').and_then(|d| d.split_once('\'')) {
         Some((descr, _)) => descr.to_string(),
         None => "of several fields".to_string(),
@@ -246,13 +470,102 @@ fn header(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
         .map(|n| n.trim_end_matches('L').parse())
         .collect::<Result<Vec<u64>, _>>()
         .map_err(|_| bad("shape"))?;
-    Ok(Header {
-        ty: dtype(descr.trim_start_matches(['<', '>', '=', '|'])),
-        big_endian: descr.starts_with('>'),
-        fortran: fortran.starts_with("True"),
-        shape,
-        descr,
-    })
+    let mut shape = shape;
+    while shape.len() > 2
+        && let Some(one) = shape.iter().position(|extent| *extent == 1)
+    {
+        shape.remove(one);
+    }
+    Ok(Header { members, structured, size, fortran: fortran.starts_with("True"), shape, descr })
+}
+
+/// The attributes of an element by its `descr`, and its bytes.
+fn members(descr: &str) -> Option<(Vec<Member>, u64)> {
+    let mut words = Words { rest: descr };
+    if !descr.starts_with('[') {
+        let (ty, size, big_endian) = scalar(words.text()?);
+        let member = Member { name: String::new(), ty, components: 1, offset: 0, big_endian };
+        return Some((vec![member], size));
+    }
+    words.sign('[')?;
+    let (mut members, mut offset) = (Vec::new(), 0_u64);
+    while words.sign('(').is_some() {
+        // A name may have a title before it.
+        let name = match words.sign('(') {
+            Some(()) => {
+                words.text()?;
+                words.sign(',')?;
+                let name = words.text()?;
+                words.sign(')')?;
+                name
+            }
+            None => words.text()?,
+        };
+        words.sign(',')?;
+        let (ty, size, big_endian) = scalar(words.text()?);
+        let mut components = 1_u64;
+        if words.sign(',').is_some() {
+            if words.sign('(').is_some() {
+                while let Some(extent) = words.number() {
+                    components = components.checked_mul(extent)?;
+                    words.sign(',');
+                }
+                words.sign(')')?;
+            } else if let Some(extent) = words.number() {
+                components = extent;
+            }
+        }
+        words.sign(')')?;
+        words.sign(',');
+        let count = usize::try_from(components).ok()?;
+        members.push(Member { name: name.into(), ty, components: count, offset, big_endian });
+        offset = offset.checked_add(size.checked_mul(components)?)?;
+    }
+    words.sign(']')?;
+    Some((members, offset))
+}
+
+/// Words of a list as Python writes it.
+struct Words<'a> {
+    rest: &'a str,
+}
+
+impl<'a> Words<'a> {
+    fn sign(&mut self, sign: char) -> Option<()> {
+        self.rest = self.rest.trim_start().strip_prefix(sign)?;
+        Some(())
+    }
+
+    fn text(&mut self) -> Option<&'a str> {
+        let rest = self.rest.trim_start();
+        let quote = rest.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
+        let (text, behind) = rest.get(1..)?.split_once(quote)?;
+        self.rest = behind;
+        Some(text)
+    }
+
+    fn number(&mut self) -> Option<u64> {
+        let rest = self.rest.trim_start();
+        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        let (digits, behind) = rest.split_at_checked(end)?;
+        let number = digits.parse().ok()?;
+        self.rest = behind.trim_start_matches('L');
+        Some(number)
+    }
+}
+
+/// The type of a number, its bytes, and whether it is big-endian.
+fn scalar(descr: &str) -> (AttributeType, u64, bool) {
+    let name = descr.trim_start_matches(['<', '>', '=', '|']);
+    let ty = dtype(name);
+    let digits = name.get(1..).unwrap_or_default();
+    let digits = digits
+        .find(|c: char| !c.is_ascii_digit())
+        .and_then(|end| digits.get(..end))
+        .unwrap_or(digits);
+    let size = digits.parse().unwrap_or(0_u64);
+    let size = if name.starts_with('U') { size.saturating_mul(4) } else { size };
+    (ty, ty.size().unwrap_or(size), descr.starts_with('>'))
 }
 
 fn dtype(name: &str) -> AttributeType {
@@ -266,6 +579,7 @@ fn dtype(name: &str) -> AttributeType {
         "u4" => T::U32,
         "i8" => T::I64,
         "u8" => T::U64,
+        "f2" => T::F16,
         "f4" => T::F32,
         "f8" => T::F64,
         _ => T::Other,

@@ -89,6 +89,25 @@ impl Parts<'static> {
     }
 }
 
+/// The [`origin`](Particles::origin) that a file has taken off, by its first particles alone where it can be read in parts: that of
+/// the first frame is a good one for all of a sequence, see [`Particles::move_to`].
+///
+/// # Errors
+/// Those of [`read`](super::read) that come before the particles.
+pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
+    if let Some(pieces) = super::index::Pieces::of(path)? {
+        return Ok(pieces.plan()?.origin());
+    }
+    let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
+    let input = Input::new(std::fs::File::open(path).map_err(io)?)?;
+    let mut start = Vec::new();
+    Source::new(&input, &input.whole(false)).fill(2, &mut start)?;
+    let gzip = super::bytes::is_gzip(&start);
+    let plan =
+        plan(&input, Extension::from_path(path), gzip).map_err(|error| named(path, error))?;
+    plan.map_or_else(|| Ok(super::read(path)?.origin), |plan| Ok(plan.origin()))
+}
+
 /// An error with the file it is about.
 fn named(path: &Path, error: ReadError) -> ReadError {
     let path = path.to_path_buf();
@@ -265,7 +284,11 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
     if format::from_utf16(&start).is_some() {
         return Ok(None);
     }
-    let Ok(reader) = format::detect(&start, hint) else { return Ok(None) };
+    let reader = match format::detect(&start, hint) {
+        Ok(reader) => reader,
+        Err(told @ ReadError::Unsupported { .. }) => return Err(told),
+        Err(_) => return Ok(None),
+    };
     drop(start);
     let mut source = Source::new(input, &piece);
     let layout = match reader {
@@ -278,8 +301,9 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
         format::Reader::Npy => source::header(&mut source, numpy::layout)?,
         format::Reader::Npz if !gzip => {
             let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
-            let numpy::Arrays { rows, attributes } = arrays;
-            return of_rows(input, rows, about(None, attributes, Format::Npz)).map(Some);
+            let numpy::Arrays { rows, placed, attributes, warnings } = arrays;
+            let about = About { placed, attributes, warnings, time: None, format: Format::Npz };
+            return of_rows(input, rows, about).map(Some);
         }
         _ => None,
     };

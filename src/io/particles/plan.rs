@@ -110,7 +110,7 @@ impl<'a> Plan<'a> {
     }
 
     /// What is taken off all positions: told by the first of them, so that parts have one with the whole.
-    fn origin(&self) -> [f64; 3] {
+    pub(super) fn origin(&self) -> [f64; 3] {
         let positions: Vec<usize> = self.roles.positions.columns().collect();
         let all = || self.tracks.iter().flat_map(|track| &track.columns);
         let exact = |(i, column): (usize, &Column)| {

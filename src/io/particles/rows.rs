@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::bytes::Cursor;
-use super::columns::{Attribute, AttributeType, Column, Table};
+use super::columns::{Attribute, AttributeType, Column, Roles, Shape, Table};
 use super::error::ReadError;
 use super::plan::{CHUNK, Stream, Track};
 use super::source::{Source, truncated};
@@ -61,13 +61,13 @@ impl Rows {
     }
 
     /// A column for each field, without numbers yet.
-    fn columns(&self) -> Vec<Column> {
+    pub(super) fn columns(&self) -> Vec<Column> {
         self.fields.iter().map(|f| Column::new(&f.name, f.components, f.ty)).collect()
     }
 
     /// Appends the numbers of some rows to the columns that are used; `coming`: how many there will be in them, these
     /// included.
-    fn decode(&self, raw: &[u8], coming: usize, used: &[bool], columns: &mut [Column]) {
+    pub(super) fn decode(&self, raw: &[u8], coming: usize, used: &[bool], columns: &mut [Column]) {
         let stride = self.stride as usize;
         for ((field, column), used) in self.fields.iter().zip(columns).zip(used) {
             let size = field.size();
@@ -171,6 +171,17 @@ impl Layout {
     /// All particles of a file that lies in memory.
     pub(super) fn read(self, bytes: &[u8]) -> Result<Particles, ReadError> {
         let rows = &self.rows;
+        // Without positions nothing else is of interest.
+        let columns = rows.columns();
+        let shapes: Vec<_> = columns
+            .iter()
+            .map(|c| Shape {
+                name: &c.name,
+                components: c.components,
+                values: rows.count.saturating_mul(c.components as u64),
+            })
+            .collect();
+        Roles::find(&shapes, self.placed.then_some(0), &self.attributes)?;
         let mut cursor = Cursor::new(bytes);
         cursor.take(rows.header, "the header")?;
         for (what, length) in &rows.between {
@@ -180,7 +191,7 @@ impl Layout {
         let mut columns = rows.columns();
         let used = vec![true; columns.len()];
         rows.decode(raw, rows.count as usize, &used, &mut columns);
-        let positions = self.placed.then(|| columns.remove(0).data);
+        let positions = self.placed.then(|| columns.remove(0)).map(|c| (c.components, c.data));
         let Self { attributes, warnings, format, .. } = self;
         Table { positions, columns, attributes, warnings, time: None }.assemble(format)
     }

@@ -523,6 +523,21 @@ fn telling(named: &[Named]) -> Option<Vec<Number>> {
         let differs = |run: &usize| numbers.iter().any(|n| n.get(*run).copied() != first(*run));
         // The last run that differs; the last run where names are built differently.
         let run = (0..runs).rev().find(differs).filter(|_| same);
+        // A hash behind the number, the seconds of an hour: where the last run tells another order than all of them.
+        let values = |run: usize| numbers.iter().map(move |n| n.get(run).map(|n| n.value));
+        let sorted = |run: usize| values(run).is_sorted();
+        let single = |run: usize| {
+            let mut bits: Vec<_> = values(run).map(|v| v.map(f64::to_bits)).collect();
+            bits.sort_unstable();
+            bits.windows(2).all(|pair| pair.first() != pair.last())
+        };
+        let run = match run {
+            Some(last) if !sorted(last) && single(last) => {
+                let first = (0..last).find(differs);
+                Some(first.filter(|first| sorted(*first) && single(*first))?)
+            }
+            run => run,
+        };
         let own = |n: &Vec<&Number>| match run {
             Some(run) => n.get(run).copied().cloned(),
             None => n.last().copied().cloned(),

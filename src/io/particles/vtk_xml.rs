@@ -122,11 +122,14 @@ impl<'a> Grid<'a> {
                 });
             }
             (name, _) => {
-                return Err(ReadError::malformed(
-                    "a VTKFile element",
-                    format!("`{name}`"),
-                    Place::Line(1),
-                ));
+                return Err(ReadError::Unsupported {
+                    what: format!("XML of `{name}`, where a VTKFile element was expected,"),
+                    advice: if name == "Xdmf" {
+                        "it names arrays of HDF5: save them as VTU, or as NPZ with h5py and np.savez"
+                    } else {
+                        "particles are VTK XML: save VTU or VTP"
+                    },
+                });
             }
         };
         let compression = match root.attribute("compressor").unwrap_or_default() {

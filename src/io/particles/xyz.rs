@@ -81,9 +81,16 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
             if row.len() < from + 2 {
                 return Err(bad_line(&line.text, heading.line + 1));
             }
-            names.extend((0..from).map(|_| "element".to_string()));
+            let counts = promised.is_none()
+                && counts(&lines, heading.at, |line| words(line, commas).next().and_then(number));
+            let from = if counts { 1 } else { from };
+            let first = if counts { "id" } else { "element" };
+            names.extend((0..from).map(|_| first.to_string()));
             names.extend((from..row.len()).map(|i| unnamed(i - from)));
-            about.warnings.extend(unnamed_warning(from, row.len()));
+            about.warnings.extend(match counts {
+                true => Some(counted_warning(row.len())),
+                false => unnamed_warning(from, row.len()),
+            });
         }
         _ => {}
     }
@@ -128,6 +135,34 @@ fn unnamed_warning(from: usize, columns: usize) -> Option<String> {
         )),
         _ => None,
     }
+}
+
+/// Lines by which it is judged whether the first column counts them.
+const COUNTED: usize = 8;
+
+/// Whether the first numbers of the lines count these, from 0 or 1, and others stand behind them.
+pub(super) fn counts(lines: &[Line], at: u64, first: impl Fn(&[u8]) -> Option<f64>) -> bool {
+    let rows = lines.iter().filter(|line| line.start >= at && !is_comment(&line.text));
+    let rows: Vec<&Line> = rows.collect();
+    let start = rows.first().and_then(|row| first(&row.text));
+    let columns = rows
+        .first()
+        .map_or(0, |row| heading::fields(&row.text, heading::delimiter(&row.text)).len());
+    let counted =
+        |(i, row): (usize, &&Line)| first(&row.text) == start.map(|start| start + i as f64);
+    rows.len() >= COUNTED
+        && columns > 3
+        && start.is_some_and(|start| start == 0.0 || start == 1.0)
+        && rows.iter().enumerate().all(counted)
+}
+
+/// What is said of them.
+pub(super) fn counted_warning(columns: usize) -> String {
+    let rest = if columns > 4 { ", the others are not read" } else { "" };
+    format!(
+        "no line of names: the first of {columns} columns counts the particles and is taken as the id, the 3 behind it as \
+         positions{rest}"
+    )
 }
 
 /// How many columns are before the position: one of words, or in files with a count one of whole numbers.
@@ -248,6 +283,9 @@ impl RowReader for Lines<'_> {
         while let Some(line) = self.text.line()? {
             self.number += 1;
             let line = line.trim_ascii();
+            if self.rows > 0 && heading::is_zone(line) {
+                return Err(several_frames(self.number));
+            }
             if is_comment(line) {
                 continue;
             }

@@ -54,8 +54,10 @@ pub fn ply(of: &Particles, format: &str, double: bool, lists: bool) -> Vec<u8> {
 
 pub fn npy(descr: &str, shape: &str, fortran: bool, version: u8, raw: &[u8]) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };
-    let header =
-        format!("{{'descr': '{descr}', 'fortran_order': {order}, 'shape': {shape}, }}   \n");
+    let quote = if descr.starts_with('[') { "" } else { "'" };
+    let header = format!(
+        "{{'descr': {quote}{descr}{quote}, 'fortran_order': {order}, 'shape': {shape}, }}   \n"
+    );
     let mut out = b"\x93NUMPY".to_vec();
     out.extend([version, 0]);
     if version == 1 {
@@ -154,6 +156,19 @@ pub fn numpy_samples(list: &mut Vec<Sample>, of: &Particles) {
             Format::Npz,
         ));
     }
+    let particle = |i: usize| {
+        let mut row = floats(&positions(of)[i], 4, false);
+        row.extend(floats(&velocity[i], 8, false));
+        row.extend(floats(&densities(of)[i..=i], 4, false));
+        row.extend(ints(&ids(of)[i..=i], 4, false));
+        row
+    };
+    let raw: Vec<u8> = (0..of.positions.len()).flat_map(particle).collect();
+    let descr = "[('pos', '<f4', (3,)), ('vel', '<f8', 3), ('rho', '<f4'), ('id', '<i4')]";
+    let array = npy(descr, &row, false, 1, &raw);
+    let zipped = npz(&[("particles", array.clone())], true);
+    list.push(sample("npy, structured", Extension::Npy, array, Has::All, Format::Npy));
+    list.push(sample("npz, structured", Extension::Npz, zipped, Has::All, Format::Npz));
     let mut arrays = common.to_vec();
     for (c, (pos, vel)) in [("x", "vx"), ("y", "vy"), ("z", "vz")].into_iter().enumerate() {
         let pick = |v: &[[f32; 3]]| floats(&v.iter().map(|v| v[c]).collect::<Vec<_>>(), 4, false);

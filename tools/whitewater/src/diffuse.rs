@@ -536,7 +536,7 @@ mod tests {
         part.lifetimes = Some(vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -2.0]);
         let mut columns = Columns::default();
         let counted = |columns: &mut Columns, kind, up| {
-            columns.add(&part, kind, Placing { up, scale: 1.0 }, 1.0);
+            columns.add(&part, kind, Placing { up, ..Placing::default() }, 1.0);
             columns.end_frame();
             columns.means()
         };

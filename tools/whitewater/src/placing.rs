@@ -11,16 +11,19 @@ pub struct Placing {
     pub up: Up,
     /// Metres of a unit of the files.
     pub scale: f32,
+    /// What is taken off positions that lie far out, in the unit of the files: one for all frames.
+    pub origin: [f64; 3],
 }
 
 impl Default for Placing {
     fn default() -> Self {
-        Self { up: Up::Y, scale: 1.0 }
+        Self { up: Up::Y, scale: 1.0, origin: [0.0; 3] }
     }
 }
 
 impl Placing {
     pub fn place(&self, particles: &mut Particles) {
+        particles.move_to(self.origin);
         let Particles { positions, velocities, .. } = particles;
         self.scale(positions.iter_mut().chain(velocities.iter_mut().flatten()));
         if self.up == Up::Z {
@@ -98,12 +101,26 @@ mod tests {
         assert_eq!(hint(f32::NAN, None), None);
     }
 
+    /// Frames of which another origin was taken off each lie where they are to each other.
+    #[test]
+    fn frames_have_one_origin() {
+        let placing = Placing { origin: [4096.0, 0.0, -64.0], ..Placing::default() };
+        let mut all = [[4096.0, 0.0, -64.0], [4224.0, 0.0, 0.0], [0.0; 3]].map(|origin| {
+            let mut particles = Particles::from_positions(vec![[1.5, 2.0, -3.0]]);
+            particles.origin = origin;
+            particles
+        });
+        all.iter_mut().for_each(|particles| placing.place(particles));
+        let found = all.map(|particles| particles.positions[0]);
+        assert_eq!(found, [[1.5, 2.0, -3.0], [129.5, 2.0, 61.0], [-4094.5, 2.0, 61.0]]);
+    }
+
     #[test]
     fn what_is_placed_comes_back() {
         let mut particles = Particles::from_positions(vec![[1000.0, 2000.0, 3000.0]]);
         particles.velocities = Some(vec![[10.0, 20.0, 30.0]]);
         let mut other = particles.clone();
-        let placing = Placing { up: Up::Z, scale: 0.001 };
+        let placing = Placing { up: Up::Z, scale: 0.001, ..Placing::default() };
         placing.place(&mut other);
         let near = |a: [f32; 3], b: [f32; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1.0e-5);
         assert!(near(other.positions[0], [1.0, 3.0, -2.0]), "{:?}", other.positions);

@@ -127,14 +127,17 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let moving = made || foams || sequence.motion;
     let fps = moving.then(|| args.fps.unwrap_or(DEFAULT_FPS));
     let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
-    let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale };
+    // One that can't be read tells when its turn comes.
+    let origin = all.first().and_then(|first| particles::find_origin(&first.path).ok());
+    let origin = origin.unwrap_or_default();
+    let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
     let mut reader = Reader::new(&all, placing, fps);
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
     if let (None, Some(why)) = (args.up_axis, upright::is_z(&probes.frames)) {
         progress.say(&format!("z is up in the files: {why} (--up-axis y: not turned)"));
         placing.up = Up::Z;
         reader.turn(Up::Z);
-        let turned = Placing { up: Up::Z, scale: 1.0 };
+        let turned = Placing { up: Up::Z, scale: 1.0, origin };
         probes.frames.iter_mut().for_each(|frame| turned.place(frame));
     }
     if args.unit.is_none() && args.scale.is_none() {

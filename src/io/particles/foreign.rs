@@ -1,0 +1,112 @@
+//! Sound files of formats that are not read, told by their first bytes: what they are, and the way out.
+
+use super::error::ReadError;
+
+/// Bytes that are enough to tell.
+pub(super) const START: usize = 512;
+
+const EXPORT: &str = "export the particles as classic BGEO, VTU, PLY or NPZ";
+
+/// First bytes, what they are those of, and what to do.
+const MAGIC: [(&[u8], &str, &str); 40] = [
+    (
+        b"\x89HDF\r\n\x1a\n",
+        "HDF5",
+        "save its arrays as NPZ, in Python: h = h5py.File('FILE'); \
+         np.savez('out.npz', position=h['POSITIONS'], velocity=h['VELOCITIES'])",
+    ),
+    (b"Ogawa", "Alembic", EXPORT),
+    (b"PXR-USDC", "USD", EXPORT),
+    (b"#usda", "USD", EXPORT),
+    (
+        b"\x20\x42\x44\x56\0\0\0\0",
+        "OpenVDB",
+        "it holds volumes or packed points: export the particles they were made of",
+    ),
+    (
+        b"#FileJBD",
+        "a .bi4 file of DualSPHysics",
+        "run its PartVTK with -savevtk or -savecsv and give what that writes",
+    ),
+    (b"PB01", "particles of Mantaflow (.uni)", EXPORT),
+    (b"PB02", "particles of Mantaflow (.uni)", EXPORT),
+    (b"PD01", "data of particles of Mantaflow (.uni)", EXPORT),
+    (b"MNT1", "a grid of Mantaflow (.uni)", "export the particles, as BGEO, VTU, PLY or NPZ"),
+    (b"MNT2", "a grid of Mantaflow (.uni)", "export the particles, as BGEO, VTU, PLY or NPZ"),
+    (b"MNT3", "a grid of Mantaflow (.uni)", "export the particles, as BGEO, VTU, PLY or NPZ"),
+    (b"BPHYSICS", "a cache of Blender (.bphys)", EXPORT),
+    (b"BLENDER", "a scene of Blender", EXPORT),
+    (b"\xda\xba\xfa\0", "particles of RealFlow (.bin)", EXPORT),
+    (b"\xc0PRT\r\n\x1a\n", "particles of Krakatoa (.prt)", EXPORT),
+    (b"PDC ", "particles of Maya (.pdc)", EXPORT),
+    (b"FOR4", "a cache of Maya (.mc)", EXPORT),
+    (b"FOR8", "a cache of Maya (.mc)", EXPORT),
+    (b"LASF", "a point cloud of a laser scanner (LAS)", EXPORT),
+    (b"ASTM-E57", "a point cloud of a laser scanner (E57)", EXPORT),
+    (
+        b"# .PCD",
+        "a point cloud of PCL (PCD)",
+        "save it as PLY: pcl_pcd2ply, or Open3D's write_point_cloud",
+    ),
+    (b"glTF", "a scene of meshes (glTF)", "give particles here, and meshes with --scene"),
+    (b"Kaydara FBX", "a scene of meshes (FBX)", EXPORT),
+    (b"CDF\x01", "NetCDF", "save its arrays as NPZ: np.savez('out.npz', position=p, velocity=v)"),
+    (b"CDF\x02", "NetCDF", "save its arrays as NPZ: np.savez('out.npz', position=p, velocity=v)"),
+    (b"CDF\x05", "NetCDF", "save its arrays as NPZ: np.savez('out.npz', position=p, velocity=v)"),
+    (
+        b"MATLAB 5.0",
+        "a file of MATLAB",
+        "save its arrays as NPZ: np.savez('out.npz', **scipy.io.loadmat('FILE'))",
+    ),
+    (b"\xdf\x65\xdf\x65\xdf\x65\xdf\x65", "a trajectory of HOOMD (GSD)", EXPORT),
+    (b"PAR1", "Parquet", "save CSV: pandas.read_parquet('FILE').to_csv('out.csv', index=False)"),
+    (b"ARROW1", "Arrow", "save CSV: pandas.read_feather('FILE').to_csv('out.csv', index=False)"),
+    (b"\x80\x03", "a pickle of Python", "save arrays: np.savez('out.npz', position=p, velocity=v)"),
+    (b"\x80\x04", "a pickle of Python", "save arrays: np.savez('out.npz', position=p, velocity=v)"),
+    (b"\x80\x05", "a pickle of Python", "save arrays: np.savez('out.npz', position=p, velocity=v)"),
+    (b"\x28\xb5\x2f\xfd", "a file packed by zstd", "unpack it: zstd -d FILE"),
+    (b"BZh", "a file packed by bzip2", "unpack it: bunzip2 FILE"),
+    (b"\xfd7zXZ\0", "a file packed by xz", "unpack it: unxz FILE"),
+    (
+        b"version https://git-lfs",
+        "a pointer of Git LFS, which stands for the file,",
+        "fetch the file: git lfs pull",
+    ),
+    (b"<!DOCTYPE html", "a web page", "fetch the file itself (its raw form)"),
+    (b"<html", "a web page", "fetch the file itself (its raw form)"),
+];
+
+/// What a file of no format that is read is.
+pub(super) fn told(bytes: &[u8]) -> Option<ReadError> {
+    let head = bytes.get(..bytes.len().min(START)).unwrap_or(bytes);
+    let unsupported =
+        |what: &str, advice| Some(ReadError::Unsupported { what: what.into(), advice });
+    if let Some((_, what, advice)) = MAGIC.iter().find(|(magic, ..)| head.starts_with(magic)) {
+        return unsupported(what, advice);
+    }
+    // The first name in a zip.
+    if let (true, Some(rest)) = (head.starts_with(b"PK\x03\x04"), head.get(30..)) {
+        let length =
+            head.get(26..28).and_then(|l| l.first_chunk::<2>()).map(|l| u16::from_le_bytes(*l));
+        let name = rest.get(..usize::from(length.unwrap_or(0))).unwrap_or_default();
+        let ends = |end: &[u8]| name.to_ascii_lowercase().ends_with(end);
+        if [&b".usd"[..], b".usda", b".usdc"].iter().any(|end| ends(end)) {
+            return unsupported("USD (.usdz)", EXPORT);
+        }
+        if name.starts_with(b"[Content_Types]") || name.starts_with(b"_rels/") {
+            return unsupported("a spreadsheet", "save it as CSV");
+        }
+    }
+    // OpenFOAM's headers may have a banner above them.
+    let text = head.trim_ascii_start();
+    if text.starts_with(b"FoamFile")
+        || (text.starts_with(b"/*")
+            && head.windows(8).any(|w| w == b"OpenFOAM" || w == b"FoamFile"))
+    {
+        return unsupported(
+            "a file of OpenFOAM",
+            "run foamToVTK and give the VTK files of the cloud that it writes",
+        );
+    }
+    None
+}

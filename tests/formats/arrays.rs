@@ -1,0 +1,332 @@
+//! Arrays of NumPy and JSON in the shapes that people save.
+
+use super::samples::{self, floats, npz};
+use whitewater::io::particles::{Extension, Format, Particles, Parts, read_bytes};
+
+fn npy(descr: &str, shape: &str, fortran: bool, raw: &[u8]) -> Vec<u8> {
+    samples::npy(descr, shape, fortran, 1, raw)
+}
+
+fn read(name: &str, bytes: &[u8], hint: Extension) -> Particles {
+    let whole = read_bytes(bytes, hint).unwrap_or_else(|e| panic!("{name}: {e}"));
+    // In parts they are the same.
+    for most in [1, 3, 100] {
+        let parts = Parts::of_bytes(bytes, hint, most).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(parts.about().warnings, whole.warnings, "{name}");
+        let positions: Vec<_> = parts.flat_map(|part| part.unwrap().positions).collect();
+        assert_eq!(positions, whole.positions, "{name}");
+    }
+    whole
+}
+
+fn error(bytes: &[u8], hint: Extension, parts: &[&str]) {
+    let error = match read_bytes(bytes, hint) {
+        Ok(p) => panic!("{} particles read", p.positions.len()),
+        Err(error) => error.to_string(),
+    };
+    assert!(!error.contains("damaged"), "{error}");
+    for part in parts {
+        assert!(error.contains(part), "`{part}` is not in: {error}");
+    }
+}
+
+/// The values of a list of vectors, all of a component together.
+fn columns(v: &[[f32; 3]]) -> Vec<f32> {
+    (0..3).flat_map(|c| v.iter().map(move |v| v[c])).collect()
+}
+
+/// `f4` values of rows of the cloud, so many of position and velocity and then zeros.
+fn rows(columns: usize) -> Vec<u8> {
+    let cloud = samples::cloud();
+    let row = |(p, v): (&[f32; 3], &[f32; 3])| {
+        let mut row = [p.to_vec(), v.to_vec(), vec![0.0; columns]].concat();
+        row.truncate(columns);
+        row
+    };
+    let velocities = cloud.velocities.unwrap();
+    let all: Vec<f32> = cloud.positions.iter().zip(&velocities).flat_map(row).collect();
+    floats(&all, 4, false)
+}
+
+#[test]
+fn arrays_of_other_shapes() {
+    let cloud = samples::cloud();
+    let plain = floats(cloud.positions.as_flattened(), 4, false);
+    let turned = floats(&columns(&cloud.positions), 4, false);
+    for (name, shape, fortran, raw) in [
+        ("rows", "(11, 3)", false, &plain),
+        ("columns of Fortran", "(11, 3)", true, &turned),
+        ("columns", "(3, 11)", false, &turned),
+        ("columns of Fortran, turned", "(3, 11)", true, &plain),
+        ("one frame", "(1, 11, 3)", false, &plain),
+        ("an axis more", "(11, 3, 1)", false, &plain),
+        ("an axis among them", "(11, 1, 3)", false, &plain),
+    ] {
+        let array = npy("<f4", shape, fortran, raw);
+        let p = read(name, &array, Extension::Npy);
+        assert_eq!((p.positions, p.warnings.len()), (cloud.positions.clone(), 0), "{name}");
+        let p = read(name, &npz(&[("pos", array)], true), Extension::Npz);
+        assert_eq!((p.positions, p.warnings.len()), (cloud.positions.clone(), 0), "{name}");
+    }
+}
+
+#[test]
+fn arrays_of_more_columns_or_fewer() {
+    let cloud = samples::cloud();
+    for (columns, velocities, told) in
+        [(4, false, "not read"), (6, true, "velocities"), (7, false, "not read")]
+    {
+        let p = read(
+            "more",
+            &npy("<f4", &format!("(11, {columns})"), false, &rows(columns)),
+            Extension::Npy,
+        );
+        assert_eq!(p.positions, cloud.positions);
+        assert_eq!(p.velocities, cloud.velocities.clone().filter(|_| velocities), "{columns}");
+        assert!(p.warnings.len() == 1 && p.warnings[0].contains(told), "{:?}", p.warnings);
+    }
+    let p = read("two", &npy("<f4", "(11, 2)", false, &rows(2)), Extension::Npy);
+    assert_eq!(p.positions[3], [cloud.positions[3][0], cloud.positions[3][1], 0.0]);
+    assert!(p.warnings[0].contains("two components"), "{:?}", p.warnings);
+    let two = [
+        ("position", npy("<f4", "(11, 2)", false, &rows(2))),
+        ("velocity", npy("<f4", "(11, 2)", false, &rows(2))),
+    ];
+    let p = read("two", &npz(&two, false), Extension::Npz);
+    assert_eq!(p.velocities.unwrap()[5][2], 0.0);
+}
+
+#[test]
+fn arrays_of_frames_are_refused_in_their_words() {
+    let raw = vec![0; 4 * 6 * 5 * 3];
+    let frames = npy("<f4", "(6, 5, 3)", false, &raw);
+    let words = ["(6, 5, 3)", "6 frames of 5 particles", "enumerate"];
+    error(&frames, Extension::Npy, &words);
+    error(&npz(&[("positions", frames)], true), Extension::Npz, &words);
+    error(&npy("<f4", "(90,)", false, &raw), Extension::Npy, &["(90,)", "reshape(-1, 3)"]);
+    error(&npy("<f4", "()", false, &raw[..4]), Extension::Npy, &["reshape(-1, 3)"]);
+    error(&npy("|O", "(30, 3)", false, &raw), Extension::Npy, &["Python objects", "np.savez"]);
+    error(&npy("<c8", "(30, 3)", false, &raw), Extension::Npy, &["<c8", "astype"]);
+    let frames = npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", "(6, 5)", false, &raw);
+    error(&frames, Extension::Npy, &["6 frames of 5"]);
+}
+
+#[test]
+fn structured_arrays() {
+    let cloud = samples::cloud();
+    let (v, ids) = (cloud.velocities.clone().unwrap(), cloud.ids.clone().unwrap());
+    for big in [false, true] {
+        let order = if big { '>' } else { '<' };
+        let row = |i: usize| {
+            let mut row = floats(&cloud.positions[i], 4, big);
+            row.extend([9; 9]);
+            row.extend(floats(&v[i], 8, big));
+            row.extend(samples::ints(&ids[i..=i], 4, big));
+            row
+        };
+        let raw: Vec<u8> = (0..11).flat_map(row).collect();
+        let descr = format!(
+            "[('pos', '{order}f4', (3,)), ('', '|V4'), ('tag', '|S5'), (('long name', 'vel'), '{order}f8', (3,)), ('id', '{order}i4')]"
+        );
+        let array = npy(&descr, "(11,)", false, &raw);
+        for (bytes, format) in [
+            (array.clone(), Format::Npy),
+            (
+                npz(
+                    &[("particles", array.clone()), ("box", npy("<f4", "(3,)", false, &[0; 12]))],
+                    true,
+                ),
+                Format::Npz,
+            ),
+        ] {
+            let p = read("structured", &bytes, Extension::Unknown);
+            assert_eq!((p.format, &p.positions), (format, &cloud.positions));
+            assert_eq!((p.velocities, p.ids), (cloud.velocities.clone(), cloud.ids.clone()));
+            assert!(p.warnings.is_empty() && p.attributes.iter().any(|a| a.name == "tag"));
+        }
+    }
+    let scalars = npy(
+        "[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]",
+        "(11,)",
+        false,
+        &floats(cloud.positions.as_flattened(), 4, false),
+    );
+    assert_eq!(read("scalars", &scalars, Extension::Npy).positions, cloud.positions);
+    for descr in ["[('x'", "[('x', '<f4'", "[]", "[('x', [('y', '<f4')])]", "[(", "['x']"] {
+        let _ = read_bytes(&npy(descr, "(11,)", false, &[0; 132]), Extension::Npy).unwrap_err();
+    }
+}
+
+#[test]
+fn half_precision() {
+    let cloud = samples::cloud();
+    for big in [false, true] {
+        let bytes = |v: &f32| {
+            let half = half::f16::from_f32(*v);
+            if big { half.to_be_bytes() } else { half.to_le_bytes() }
+        };
+        let raw: Vec<u8> = cloud.positions.as_flattened().iter().flat_map(bytes).collect();
+        let descr = if big { ">f2" } else { "<f2" };
+        let p = read("half", &npy(descr, "(11, 3)", false, &raw), Extension::Npy);
+        assert_eq!(p.positions, cloud.positions, "all of them have eight digits or fewer");
+    }
+}
+
+#[test]
+fn the_only_array_is_the_positions() {
+    let cloud = samples::cloud();
+    let array = |v: &[[f32; 3]]| npy("<f4", "(11, 3)", false, &floats(v.as_flattened(), 4, false));
+    let positions = array(&cloud.positions);
+    let other = array(cloud.velocities.as_ref().unwrap());
+    let scalar = npy("<f4", "(11,)", false, &floats(cloud.densities.as_ref().unwrap(), 4, false));
+    for (arrays, told) in [
+        (vec![("arr_0", positions.clone())], "`arr_0` is taken"),
+        (vec![("data", positions.clone()), ("rho", scalar.clone())], "`data` is taken"),
+        (vec![("arr_1", other.clone()), ("arr_0", positions.clone())], "1 others"),
+    ] {
+        let p = read(told, &npz(&arrays, true), Extension::Npz);
+        assert_eq!(p.positions, cloud.positions);
+        assert!(p.warnings.len() == 1 && p.warnings[0].contains(told), "{:?}", p.warnings);
+    }
+    error(
+        &npz(&[("a", positions.clone()), ("b", other.clone())], true),
+        Extension::Npz,
+        &["expected positions", "a: 3 x f32, b: 3 x f32"],
+    );
+    let p = read(
+        "pairs",
+        &npz(&[("x_p", positions), ("v_p", other.clone()), ("arr_0", other)], true),
+        Extension::Npz,
+    );
+    assert_eq!((&p.positions, &p.velocities), (&cloud.positions, &cloud.velocities));
+}
+
+#[test]
+fn shapes_of_json() {
+    let cloud = samples::cloud();
+    let velocities = cloud.velocities.clone().unwrap();
+    let ids = cloud.ids.clone().unwrap();
+    let vector = |v: &[f32; 3]| format!("[{},{},{}]", v[0], v[1], v[2]);
+    let join = |list: Vec<String>, with: &str| list.join(with);
+    let all = |f: &dyn Fn(usize) -> String, with: &str| join((0..11).map(f).collect(), with);
+    let object = |i: usize| {
+        format!(
+            "{{\"position\":{},\"velocity\":{},\"id\":{},\"name\":\"a\"}}",
+            vector(&cloud.positions[i]),
+            vector(&velocities[i]),
+            ids[i]
+        )
+    };
+    let scalars = |i: usize| {
+        let ([x, y, z], [u, v, w]) = (cloud.positions[i], velocities[i]);
+        format!(
+            "{{\"x\":{x},\"y\":{y},\"z\":{z},\"vx\":{u},\"vy\":{v},\"vz\":{w},\"id\":{}}}",
+            ids[i]
+        )
+    };
+    let position = |i: usize| vector(&cloud.positions[i]);
+    let flat =
+        |v: &[[f32; 3]]| v.as_flattened().iter().map(f32::to_string).collect::<Vec<_>>().join(",");
+    for (name, text, full) in [
+        ("records", format!("[{}]", all(&object, ",")), true),
+        ("records of pandas", format!("[{}]", all(&scalars, ",")), true),
+        ("named", format!("{{\"time\":0.5,\"particles\":[{}]}}", all(&object, ",")), true),
+        (
+            "deeper",
+            format!("{{\"meta\":[1],\"frame\":{{\"x\":[{}]}}}}", all(&position, ",")),
+            false,
+        ),
+        ("lines", all(&object, "\n"), true),
+        ("lines of vectors", all(&position, "\n") + "\n", false),
+        (
+            "flat",
+            format!(
+                "{{\"positions\":[{}],\"velocity\":[{}],\"id\":{ids:?}}}",
+                flat(&cloud.positions),
+                flat(&velocities)
+            ),
+            true,
+        ),
+        ("flat and bare", format!("[{}]", flat(&cloud.positions)), false),
+        (
+            "split of pandas",
+            format!(
+                "{{\"columns\":[\"id\",\"x\",\"y\",\"z\"],\"index\":[0],\"data\":[{}]}}",
+                all(
+                    &|i| {
+                        let [x, y, z] = cloud.positions[i];
+                        format!("[{},{x},{y},{z}]", ids[i])
+                    },
+                    ","
+                )
+            ),
+            false,
+        ),
+        (
+            "columns of pandas",
+            format!(
+                "{{{}}}",
+                join(
+                    ["x", "y", "z"]
+                        .iter()
+                        .enumerate()
+                        .map(|(c, name)| {
+                            format!(
+                                "\"{name}\":{{{}}}",
+                                all(&|i| format!("\"{}\":{}", 10 + i, cloud.positions[i][c]), ",")
+                            )
+                        })
+                        .collect(),
+                    ","
+                )
+            ),
+            false,
+        ),
+        (
+            "rows of pandas",
+            format!("{{{}}}", all(&|i| format!("\"{}\":{}", 10 + i, scalars(i)), ",")),
+            true,
+        ),
+        ("rows of six", format!("[{}]", all(&|i| position(i).replace(']', ",7,8,9]"), ",")), false),
+        ("particles are vectors", format!("{{\"particles\":[{}]}}", all(&position, ",")), false),
+    ] {
+        let p = read(name, text.as_bytes(), Extension::Json);
+        assert_eq!(p.positions, cloud.positions, "{name}");
+        assert_eq!(p.velocities, cloud.velocities.clone().filter(|_| full), "{name}");
+        assert_eq!(
+            p.ids,
+            cloud.ids.clone().filter(|_| full || name.starts_with("split")),
+            "{name}"
+        );
+        assert_eq!(
+            p.warnings.len(),
+            usize::from(name == "rows of six"),
+            "{name}: {:?}",
+            p.warnings
+        );
+    }
+    let text = "[[NaN, 1, 2], [3, Infinity, -Infinity], [5, 6, 7]]";
+    let p = read_bytes(text.as_bytes(), Extension::Json).unwrap();
+    assert_eq!(p.positions[2], [5.0, 6.0, 7.0]);
+    assert!(p.warnings[0].contains("2 of 3 positions are not finite"), "{:?}", p.warnings);
+    let text = "{\"NaN \\\" is no number\": 1, \"position\": [[1, 2, NaN]]}";
+    assert!(read_bytes(text.as_bytes(), Extension::Json).unwrap().positions[0][2].is_nan());
+}
+
+#[test]
+fn shapes_of_json_that_are_refused() {
+    for (text, parts) in [
+        (
+            "{\"frames\":[{\"time\":0,\"particles\":[[1,2,3]]},{\"particles\":[[1,2,3]]}]}",
+            ["2 frames", "a file for each"],
+        ),
+        ("[[[1,2,3],[4,5,6]],[[1,2,3],[4,5,6]]]", ["several frames", "a file for each"]),
+        ("{\"positions\":[[[1,2,3]],[[4,5,6]]]}", ["several frames", "2 lists"]),
+        ("[1,2,3,4]", ["4 numbers", "[x, y, z]"]),
+        ("{\"water\":{\"a\":[1]},\"walls\":{\"a\":[1]}}", ["expected positions", "walls"]),
+        ("[{\"x\":1,\"y\":2,\"z\":3},{\"x\":1,\"y\":2}]", ["attribute `z`", "expected 2"]),
+        ("{\"file-series-version\":\"1.0\",\"files\":[]}", ["files of a sequence", ".series"]),
+    ] {
+        error(text.as_bytes(), Extension::Json, &parts);
+    }
+}
