@@ -459,7 +459,7 @@ pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32) {
         size: 0.4,
         spread: 3.5,
         stretch: (0.25 * (spacing / 9.81).sqrt()).min(1.0),
-        mist: 0.03,
+        mist: 0.015,
         mist_size: 2.0,
         ..*spray
     };
