@@ -113,7 +113,11 @@ pub(super) fn rows<'a>(
     let mut rows = Lines { text, number, rows: 0, promised, commas, columns: Vec::new() };
     let mut columns = Vec::new();
     for name in names {
-        let keep = columns::list(&mut about.attributes, name, 1, AttributeType::Number);
+        let (name, ty) = match name.strip_suffix(TEXT) {
+            Some(name) => (name, AttributeType::Text),
+            None => (name.as_str(), AttributeType::Number),
+        };
+        let keep = columns::list(&mut about.attributes, name, 1, ty) && ty == AttributeType::Number;
         rows.columns.push(keep.then_some(columns.len()));
         if keep {
             columns.push(Column::new(name, 1, AttributeType::Number));
@@ -229,6 +233,9 @@ impl Counted {
     }
 }
 
+/// What marks the name of a column that is no numbers.
+const TEXT: &str = "\0";
+
 /// Names of the columns as the comment of extended XYZ has them, a component each.
 fn properties(comment: &[u8]) -> Option<Vec<String>> {
     let text = std::str::from_utf8(comment).ok()?;
@@ -243,7 +250,7 @@ fn properties(comment: &[u8]) -> Option<Vec<String>> {
         let numbers = matches!(*kind, "R" | "I");
         for i in 0..count {
             names.push(match (numbers, count) {
-                (false, _) => format!("{name} (text)"),
+                (false, _) => format!("{name}{TEXT}"),
                 (true, 1) => (*name).to_string(),
                 (true, _) => format!("{name}:{i}"),
             });
