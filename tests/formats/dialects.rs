@@ -210,7 +210,9 @@ fn text_in_other_encodings() {
     check("a mark", &read(&format!("\u{feff}{text}"), Extension::Csv));
     // Latin-1: a superscript in a unit.
     let bytes: Vec<u8> = text.replace("^3", "\u{b3}").chars().map(|c| c as u32 as u8).collect();
-    check("Latin-1", &read_bytes(&bytes, Extension::Csv).unwrap());
+    for hint in [Extension::Csv, Extension::Xyz, Extension::Text] {
+        check("Latin-1", &read_bytes(&bytes, hint).unwrap());
+    }
 }
 
 #[test]

@@ -195,7 +195,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
             });
         }
         for (name, value) in first {
-            let components = value.as_array().map_or(1, Vec::len);
+            let components = components(value).map_or(1, |vector| vector.len());
             let ty = if value.is_string() { AttributeType::Text } else { AttributeType::Number };
             if table.list(name, components, ty) && !value.is_string() {
                 columns.push((name.clone(), Vec::new()));
@@ -289,6 +289,19 @@ fn shape(name: &str, expected: &str, components: usize) -> ReadError {
     ReadError::malformed(format!("{expected} in `{name}`"), format!("{components}"), Place::Unknown)
 }
 
+/// A vector: an array, or an object of its components.
+fn components(value: &Value) -> Option<Vec<&Value>> {
+    match value {
+        Value::Array(all) => Some(all.iter().collect()),
+        Value::Object(all) => {
+            let component = |lower: &str, upper: &str| all.get(lower).or_else(|| all.get(upper));
+            let [x, y, z] = [("x", "X"), ("y", "Y"), ("z", "Z")].map(|(l, u)| component(l, u));
+            Some([Some(x?), Some(y?), z].into_iter().flatten().collect())
+        }
+        _ => None,
+    }
+}
+
 /// The numbers of an array, and how many there are in each row.
 fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
     let number = |value: &Value| match value {
@@ -301,12 +314,13 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
             )
         }),
     };
-    let components = rows.first().and_then(Value::as_array).map(Vec::len);
+    let components = rows.first().and_then(components).map(|first| first.len());
     // Grown, not set aside: the first row may be the only long one.
     let mut values = Vec::new();
     for row in rows {
-        match (row, components) {
-            (Value::Array(row), Some(components)) => {
+        let vector = components.and_then(|_| self::components(row));
+        match (vector, components) {
+            (Some(row), Some(components)) => {
                 if row.len() != components {
                     let expected = format!("{components} numbers in each row, as in the first,");
                     return Err(shape(name, &expected, row.len()));
@@ -315,8 +329,8 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
                     values.push(number(value)?);
                 }
             }
-            (row, None) => values.push(number(row)?),
-            (row, Some(_)) => {
+            (_, None) => values.push(number(row)?),
+            (None, Some(_)) => {
                 return Err(ReadError::malformed(
                     format!("arrays in `{name}`, as the first is one,"),
                     show(row.to_string().as_bytes()),
