@@ -355,6 +355,7 @@ fn shapes_of_json_that_are_refused() {
             "{\"frames\":[{\"time\":0,\"particles\":[[1,2,3]]},{\"particles\":[[1,2,3]]}]}",
             ["2 frames", "a file for each"],
         ),
+        ("[[1,2,3],\"a\"]", ["[[x, y, z], ...]", "found \"\\\"a\\\"\""]),
         ("[[[1,2,3],[4,5,6]],[[1,2,3],[4,5,6]]]", ["several frames", "a file for each"]),
         ("{\"positions\":[[[1,2,3]],[[4,5,6]]]}", ["several frames", "2 lists"]),
         ("[1,2,3,4]", ["4 numbers", "[x, y, z]"]),

@@ -29,10 +29,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
         Value::Array(rows) => list(rows, &mut table)?,
         Value::Object(map) => object(map, &mut table)?,
         other => {
-            return Err(ReadError::malformed(
+            return Err(ReadError::json(
                 "an array of positions or an object of arrays",
                 show(other.to_string().as_bytes()),
-                Place::Line(1),
             ));
         }
     }
@@ -89,7 +88,14 @@ fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// Rows: of positions, or of particles by the names of what they have.
-fn list(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+    // A list of one frame.
+    while let [Value::Array(inner)] = rows.as_mut_slice() {
+        if !inner.first().is_some_and(|first| first.is_array() || first.is_object()) {
+            break;
+        }
+        rows = std::mem::take(inner);
+    }
     if rows.first().and_then(Value::as_str) == Some("fileversion") {
         return Err(ReadError::Unsupported {
             what: "Houdini's JSON geometry (GEO of Houdini 12 and later)".into(),
@@ -204,10 +210,9 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     }
     for (i, row) in rows.into_iter().enumerate() {
         let Value::Object(mut row) = row else {
-            return Err(ReadError::malformed(
+            return Err(ReadError::json(
                 "an object for each particle, as the first is one,",
                 show(row.to_string().as_bytes()),
-                Place::Unknown,
             ));
         };
         for (name, values) in &mut columns {
@@ -256,7 +261,7 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
                     list(rows, table)
                 }
                 Value::Array(rows) => list(rows, table),
-                Value::Object(map) if !map.values().any(Value::is_object) => object(map, table),
+                Value::Object(map) => object(map, table),
                 _ => Ok(()),
             };
         }
@@ -286,7 +291,7 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
 }
 
 fn shape(name: &str, expected: &str, components: usize) -> ReadError {
-    ReadError::malformed(format!("{expected} in `{name}`"), format!("{components}"), Place::Unknown)
+    ReadError::json(format!("{expected} in `{name}`"), format!("{components}"))
 }
 
 /// A vector: an array, or an object of its components.
@@ -307,11 +312,7 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
     let number = |value: &Value| match value {
         Value::Null => Ok(f64::NAN),
         value => value.as_f64().ok_or_else(|| {
-            ReadError::malformed(
-                format!("numbers in `{name}`"),
-                show(value.to_string().as_bytes()),
-                Place::Unknown,
-            )
+            ReadError::json(format!("numbers in `{name}`"), show(value.to_string().as_bytes()))
         }),
     };
     let components = rows.first().and_then(components).map(|first| first.len());
@@ -331,10 +332,9 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
             }
             (_, None) => values.push(number(row)?),
             (None, Some(_)) => {
-                return Err(ReadError::malformed(
+                return Err(ReadError::json(
                     format!("arrays in `{name}`, as the first is one,"),
                     show(row.to_string().as_bytes()),
-                    Place::Unknown,
                 ));
             }
         }
