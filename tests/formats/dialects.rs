@@ -338,6 +338,15 @@ fn ids_that_repeat_are_dropped_and_told() {
 }
 
 #[test]
+fn copies_at_the_same_place_keep_their_ids() {
+    for (count, times) in [(300, 4), (30_000, 3)] {
+        let block: String = (0..count).map(|i| format!("{i},{},0,{i}\n", i % 7)).collect();
+        let p = read(&format!("x,y,z,id\n{}", block.repeat(times)), Extension::Csv);
+        assert!(p.ids.is_some() && p.warnings.len() == 1, "{:?}", p.warnings);
+    }
+}
+
+#[test]
 fn ids_that_repeat_are_found_among_many() {
     let positions: String = (0..60_000).map(|i| format!("{i},0,0,{}\n", i % 40_000)).collect();
     let p = read(&format!("x,y,z,id\n{positions}"), Extension::Csv);

@@ -325,9 +325,10 @@ impl Survey {
         particles
     }
 
-    /// Whether ids repeat, so that they follow no particle.
+    /// Whether ids repeat, so that they follow no particle. A copy at the same place has the same one by right; the shares are those
+    /// of some thousand samples.
     fn repeated_ids(&self) -> bool {
-        self.numbers.share() > REPEATED_IDS
+        self.numbers.share() > REPEATED_IDS + 1.2 * self.places.share()
     }
 
     /// Takes out of a part, or of all of them, what the particles as a whole have not.
