@@ -6,5 +6,12 @@ use whitewater::io::particles::{Extension, read_bytes};
 
 fuzz_target!(|data: &[u8]| {
     let _ = read_bytes(data, Extension::Json);
-    let _ = read_bytes(&[&b"["[..], data].concat(), Extension::Json);
+    for start in [
+        "[",
+        "[{\"x\":1,\"y\":2,\"z\":",
+        "{\"particles\":[{\"position\":[",
+        "{\"columns\":[\"x\",\"y\",\"z\"],\"data\":[",
+    ] {
+        let _ = read_bytes(&[start.as_bytes(), data].concat(), Extension::Json);
+    }
 });

@@ -249,6 +249,41 @@ fn shapes_of_json() {
         ),
         ("flat and bare", format!("[{}]", flat(&cloud.positions)), false),
         (
+            "vectors as objects",
+            format!(
+                "[{}]",
+                all(
+                    &|i| {
+                        let object = |v: &[f32; 3]| {
+                            format!("{{\"x\":{},\"y\":{},\"z\":{}}}", v[0], v[1], v[2])
+                        };
+                        format!(
+                            "{{\"position\":{},\"velocity\":{},\"id\":{}}}",
+                            object(&cloud.positions[i]),
+                            object(&velocities[i]),
+                            ids[i]
+                        )
+                    },
+                    ","
+                )
+            ),
+            true,
+        ),
+        (
+            "a list of such",
+            format!(
+                "{{\"positions\":[{}]}}",
+                all(
+                    &|i| {
+                        let v = cloud.positions[i];
+                        format!("{{\"x\":{},\"y\":{},\"z\":{}}}", v[0], v[1], v[2])
+                    },
+                    ","
+                )
+            ),
+            false,
+        ),
+        (
             "split of pandas",
             format!(
                 "{{\"columns\":[\"id\",\"x\",\"y\",\"z\"],\"index\":[0],\"data\":[{}]}}",
@@ -320,6 +355,7 @@ fn shapes_of_json_that_are_refused() {
             "{\"frames\":[{\"time\":0,\"particles\":[[1,2,3]]},{\"particles\":[[1,2,3]]}]}",
             ["2 frames", "a file for each"],
         ),
+        ("[[1,2,3],\"a\"]", ["[[x, y, z], ...]", "found \"\\\"a\\\"\""]),
         ("[[[1,2,3],[4,5,6]],[[1,2,3],[4,5,6]]]", ["several frames", "a file for each"]),
         ("{\"positions\":[[[1,2,3]],[[4,5,6]]]}", ["several frames", "2 lists"]),
         ("[1,2,3,4]", ["4 numbers", "[x, y, z]"]),

@@ -176,6 +176,10 @@ fn head_lines_of_other_kinds_are_passed_over_and_told() {
         Extension::Csv,
         &["line 7", "8 fields"],
     );
+    let error_of = error("a|b|c\nd|e|f\n", Extension::Csv, &["line of names"]);
+    assert!(!error_of.contains("damaged"), "{error_of}");
+    let p = read("x|y|z\n1|2|3\n", Extension::Csv);
+    assert_eq!(p.positions, [[1.0, 2.0, 3.0]]);
     // Names of which none is a position are told.
     error("a,b,c\n1,2,3\n", Extension::Csv, &["expected positions", "a: 1 x number, b"]);
 }
@@ -210,7 +214,9 @@ fn text_in_other_encodings() {
     check("a mark", &read(&format!("\u{feff}{text}"), Extension::Csv));
     // Latin-1: a superscript in a unit.
     let bytes: Vec<u8> = text.replace("^3", "\u{b3}").chars().map(|c| c as u32 as u8).collect();
-    check("Latin-1", &read_bytes(&bytes, Extension::Csv).unwrap());
+    for hint in [Extension::Csv, Extension::Xyz, Extension::Text] {
+        check("Latin-1", &read_bytes(&bytes, hint).unwrap());
+    }
 }
 
 #[test]
@@ -298,7 +304,13 @@ fn dumps_of_lammps() {
     );
     let two = dump(800, "x y z vx vy vz id rho") + &dump(900, "x y z vx vy vz id rho");
     error(&two, Extension::Unknown, &["several frames", "line 12"]);
-    error(&dump(1, "xs ys zs vx vy vz id rho"), Extension::Unknown, &["scaled", "dump x y z"]);
+    // Parts of the sides of the box, which are 2, 1 and 1 long.
+    let scaled = read(&dump(1, "xs ys zs vx vy vz id rho"), Extension::Unknown);
+    assert_eq!(scaled.positions, [[3.0, 2.5, -3.0], [20.0, 0.125, 2.0]]);
+    let moved = dump(1, "zsu vx xsu vy ysu vz id rho").replace("mm\n0 2", "mm\n-1 3");
+    assert_eq!(read(&moved, Extension::Unknown).positions[0], [-13.0, -0.5, 1.5]);
+    let tilted = dump(1, "xs ys zs vx vy vz id rho").replace("BOUNDS", "BOUNDS xy xz yz");
+    error(&tilted, Extension::Unknown, &["scaled", "dump x y z"]);
     let cut = dump(800, "x y z vx vy vz id rho");
     error(
         cut.trim_end().rsplit_once('\n').unwrap().0,
@@ -322,6 +334,15 @@ fn ids_that_repeat_are_dropped_and_told() {
     for id in [&(|i: usize| i + 7) as &dyn Fn(usize) -> usize, &|i| i.max(1)] {
         let p = table(id);
         assert!(p.ids.is_some() && p.warnings.is_empty(), "{:?}", p.warnings);
+    }
+}
+
+#[test]
+fn copies_at_the_same_place_keep_their_ids() {
+    for (count, times) in [(300, 4), (30_000, 3)] {
+        let block: String = (0..count).map(|i| format!("{i},{},0,{i}\n", i % 7)).collect();
+        let p = read(&format!("x,y,z,id\n{}", block.repeat(times)), Extension::Csv);
+        assert!(p.ids.is_some() && p.warnings.len() == 1, "{:?}", p.warnings);
     }
 }
 

@@ -92,6 +92,39 @@ fn pieces_of_ranks_are_one_frame() {
 }
 
 #[test]
+fn damaged_lists_are_no_reason_to_panic() {
+    let folder = Folder::new("damaged");
+    folder.put("p_0.vtu", vtu(&some(0, 4), Storage::Ascii, false));
+    let lists = [
+        ("a.pvtu", pvtu(&["p_0.vtu", "p_0.vtu"])),
+        ("a.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0.5\" file=\"p_0.vtu\"/></Collection></VTKFile>".into()),
+        ("a.vtk.series", "{\"files\": [{\"name\": \"p_0.vtu\", \"time\": 1}]}".into()),
+    ];
+    let mut seed = 7_u32;
+    let mut next = |below: usize| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (seed >> 8) as usize % below
+    };
+    for (name, text) in lists {
+        for _ in 0..300 {
+            let mut bytes = text.clone().into_bytes();
+            for _ in 0..=next(3) {
+                let at = next(bytes.len());
+                match next(3) {
+                    0 => bytes[at] = next(256) as u8,
+                    1 => bytes.truncate(at.max(1)),
+                    _ => drop(bytes.remove(at)),
+                }
+                bytes.push(b'>');
+            }
+            let path = folder.put(name, bytes);
+            let _ = (read(&path), Parts::open(&path, 2).map(Iterator::count));
+            let _ = expand(&[path.display().to_string()], None);
+        }
+    }
+}
+
+#[test]
 fn what_not_all_pieces_have_is_dropped_and_told() {
     let folder = Folder::new("unlike");
     folder.put("a_0.vtp", vtu(&some(0, 4), Storage::Ascii, true));

@@ -227,6 +227,13 @@ impl Data {
         true
     }
 
+    /// Makes the last number, a part of a side, one of a place.
+    pub(super) fn stretch_last(&mut self, from: f64, side: f64) {
+        if let Self::F64(v) = self {
+            v.last_mut().into_iter().for_each(|x| *x = from + *x * side);
+        }
+    }
+
     /// Appends values that lie together in memory. False for a type without a size.
     pub(super) fn push_bytes(&mut self, ty: AttributeType, raw: &[u8], big_endian: bool) -> bool {
         /// One arm per type: cut into chunks, convert.

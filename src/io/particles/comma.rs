@@ -128,7 +128,7 @@ impl Records<'_> {
             let text = e.to_string();
             match e.into_kind() {
                 csv::ErrorKind::Io(reason) => inner_error(reason),
-                _ => ReadError::malformed(expected, text, line),
+                _ => ReadError::table(expected, text, line),
             }
         })
     }
@@ -146,7 +146,7 @@ impl RowReader for Records<'_> {
         // A separator may end the line.
         let more = self.record.iter().skip(self.names.len());
         if self.record.len() < self.names.len() || more.into_iter().any(|f| !f.is_empty()) {
-            return Err(ReadError::malformed(
+            return Err(ReadError::table(
                 format!("{} fields in each line", self.names.len()),
                 format!("{}", self.record.len()),
                 self.place(),
@@ -161,7 +161,7 @@ impl RowReader for Records<'_> {
             let number = number_with_comma(field).filter(|_| self.decimal_comma);
             let number = number.or_else(|| is_step(name).then_some(f64::NAN));
             if !number.is_some_and(|number| column.data.push_number(number)) {
-                return Err(ReadError::malformed(
+                return Err(ReadError::table(
                     format!("a number in column `{name}`"),
                     show(field),
                     self.place(),

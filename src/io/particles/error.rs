@@ -97,6 +97,18 @@ pub enum ReadError {
         /// Where.
         place: Place,
     },
+    /// Text that is no table, or no list, of particles as far as it is understood.
+    #[error("expected {expected}, found {found}{place}; {advice}")]
+    Unclear {
+        /// What was looked for.
+        expected: String,
+        /// What is there.
+        found: String,
+        /// Where.
+        place: Place,
+        /// What to do.
+        advice: &'static str,
+    },
     /// An attribute has more or fewer values than there are particles.
     #[error(
         "attribute `{attribute}`: expected {expected} values, one per particle and component, found {found}; \
@@ -137,6 +149,30 @@ impl ReadError {
         place: Place,
     ) -> Self {
         Self::Malformed { expected: expected.into(), found: found.into(), place }
+    }
+
+    /// Of a table in text.
+    pub(super) fn table(
+        expected: impl Into<String>,
+        found: impl Into<String>,
+        place: Place,
+    ) -> Self {
+        Self::Unclear {
+            expected: expected.into(),
+            found: found.into(),
+            place,
+            advice: "a table has a line of names, such as x,y,z,vx,vy,vz, and then a line of as many numbers for each particle",
+        }
+    }
+
+    /// Of JSON.
+    pub(super) fn json(expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::Unclear {
+            expected: expected.into(),
+            found: found.into(),
+            place: Place::Unknown,
+            advice: "write [[x, y, z], ...], {\"position\": [[x, y, z], ...], \"velocity\": ...} or [{\"x\": x, \"y\": y, \"z\": z}, ...]",
+        }
     }
 
     pub(super) fn truncated(

@@ -295,8 +295,11 @@ pub(super) fn detect(bytes: &[u8], hint: Extension) -> Result<Reader, ReadError>
             Extension::Xyz | Extension::Text => return Ok(Reader::XyzText),
             _ => {}
         }
-    } else if hint == Extension::Csv && is_readable(bytes) {
-        return Ok(Reader::Csv);
+    } else if is_readable(bytes)
+        && matches!(hint, Extension::Csv | Extension::Xyz | Extension::Text)
+    {
+        // Text in another encoding; among raw numbers there are control characters.
+        return Ok(if hint == Extension::Csv { Reader::Csv } else { Reader::XyzText });
     } else if hint == Extension::Xyz {
         return Ok(Reader::XyzRaw);
     }

@@ -93,7 +93,7 @@ pub(super) fn delimiter(line: &[u8]) -> Option<u8> {
     if comma && !(words().count() > 1 && words().all(decimal)) {
         return Some(b',');
     }
-    line.contains(&b'\t').then_some(b'\t')
+    [b'\t', b'|'].into_iter().find(|d| line.contains(d))
 }
 
 /// The fields of a line, without those behind the last separator.
@@ -170,7 +170,7 @@ impl Heading {
             let separator = row.map_or_else(|| delimiter(names_line), |row| delimiter(&row.text));
             let count = row.map(|row| fields(&row.text, separator).len());
             let mut separators = vec![separator];
-            separators.extend([b';', b'\t', b','].map(Some));
+            separators.extend([b';', b'\t', b'|', b','].map(Some));
             separators.push(None);
             let names = separators.into_iter().map(|d| fields(names_line, d)).find(|names| {
                 let words = names.iter().any(|name| !is_number(name, None));

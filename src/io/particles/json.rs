@@ -29,10 +29,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
         Value::Array(rows) => list(rows, &mut table)?,
         Value::Object(map) => object(map, &mut table)?,
         other => {
-            return Err(ReadError::malformed(
+            return Err(ReadError::json(
                 "an array of positions or an object of arrays",
                 show(other.to_string().as_bytes()),
-                Place::Line(1),
             ));
         }
     }
@@ -89,7 +88,14 @@ fn without_python(bytes: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// Rows: of positions, or of particles by the names of what they have.
-fn list(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
+    // A list of one frame.
+    while let [Value::Array(inner)] = rows.as_mut_slice() {
+        if !inner.first().is_some_and(|first| first.is_array() || first.is_object()) {
+            break;
+        }
+        rows = std::mem::take(inner);
+    }
     if rows.first().and_then(Value::as_str) == Some("fileversion") {
         return Err(ReadError::Unsupported {
             what: "Houdini's JSON geometry (GEO of Houdini 12 and later)".into(),
@@ -195,7 +201,7 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
             });
         }
         for (name, value) in first {
-            let components = value.as_array().map_or(1, Vec::len);
+            let components = components(value).map_or(1, |vector| vector.len());
             let ty = if value.is_string() { AttributeType::Text } else { AttributeType::Number };
             if table.list(name, components, ty) && !value.is_string() {
                 columns.push((name.clone(), Vec::new()));
@@ -204,10 +210,9 @@ fn particles(rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
     }
     for (i, row) in rows.into_iter().enumerate() {
         let Value::Object(mut row) = row else {
-            return Err(ReadError::malformed(
+            return Err(ReadError::json(
                 "an object for each particle, as the first is one,",
                 show(row.to_string().as_bytes()),
-                Place::Unknown,
             ));
         };
         for (name, values) in &mut columns {
@@ -256,7 +261,7 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
                     list(rows, table)
                 }
                 Value::Array(rows) => list(rows, table),
-                Value::Object(map) if !map.values().any(Value::is_object) => object(map, table),
+                Value::Object(map) => object(map, table),
                 _ => Ok(()),
             };
         }
@@ -286,7 +291,20 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
 }
 
 fn shape(name: &str, expected: &str, components: usize) -> ReadError {
-    ReadError::malformed(format!("{expected} in `{name}`"), format!("{components}"), Place::Unknown)
+    ReadError::json(format!("{expected} in `{name}`"), format!("{components}"))
+}
+
+/// A vector: an array, or an object of its components.
+fn components(value: &Value) -> Option<Vec<&Value>> {
+    match value {
+        Value::Array(all) => Some(all.iter().collect()),
+        Value::Object(all) => {
+            let component = |lower: &str, upper: &str| all.get(lower).or_else(|| all.get(upper));
+            let [x, y, z] = [("x", "X"), ("y", "Y"), ("z", "Z")].map(|(l, u)| component(l, u));
+            Some([Some(x?), Some(y?), z].into_iter().flatten().collect())
+        }
+        _ => None,
+    }
 }
 
 /// The numbers of an array, and how many there are in each row.
@@ -294,19 +312,16 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
     let number = |value: &Value| match value {
         Value::Null => Ok(f64::NAN),
         value => value.as_f64().ok_or_else(|| {
-            ReadError::malformed(
-                format!("numbers in `{name}`"),
-                show(value.to_string().as_bytes()),
-                Place::Unknown,
-            )
+            ReadError::json(format!("numbers in `{name}`"), show(value.to_string().as_bytes()))
         }),
     };
-    let components = rows.first().and_then(Value::as_array).map(Vec::len);
+    let components = rows.first().and_then(components).map(|first| first.len());
     // Grown, not set aside: the first row may be the only long one.
     let mut values = Vec::new();
     for row in rows {
-        match (row, components) {
-            (Value::Array(row), Some(components)) => {
+        let vector = components.and_then(|_| self::components(row));
+        match (vector, components) {
+            (Some(row), Some(components)) => {
                 if row.len() != components {
                     let expected = format!("{components} numbers in each row, as in the first,");
                     return Err(shape(name, &expected, row.len()));
@@ -315,12 +330,11 @@ fn numbers(name: &str, rows: &[Value]) -> Result<(usize, Data), ReadError> {
                     values.push(number(value)?);
                 }
             }
-            (row, None) => values.push(number(row)?),
-            (row, Some(_)) => {
-                return Err(ReadError::malformed(
+            (_, None) => values.push(number(row)?),
+            (None, Some(_)) => {
+                return Err(ReadError::json(
                     format!("arrays in `{name}`, as the first is one,"),
                     show(row.to_string().as_bytes()),
-                    Place::Unknown,
                 ));
             }
         }

@@ -1,7 +1,7 @@
 //! Dumps of LAMMPS and LIGGGHTS in text: `ITEM:` lines with what follows them, of which `ITEM: ATOMS` names the columns.
 
 use super::Format;
-use super::bytes::show;
+use super::bytes::{parse_number, show};
 use super::error::{Place, ReadError};
 use super::names::have_positions;
 use super::plan::About;
@@ -21,6 +21,8 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     let mut number = 0;
     let mut count = None;
     let mut counts = false;
+    let (mut corners, mut bounds_left, mut tilted) = (Vec::new(), 0, false);
+    let mut sides = Vec::new();
     let bad = |line: &[u8], number| {
         ReadError::malformed(
             "the items of a dump, ATOMS after their number",
@@ -38,6 +40,17 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
             continue;
         }
         counts = line == b"ITEM: NUMBER OF ATOMS";
+        if let Some(bounds) = line.strip_prefix(b"ITEM: BOX BOUNDS") {
+            tilted = bounds.windows(2).any(|w| w == b"xy");
+            bounds_left = 3;
+            continue;
+        }
+        if bounds_left > 0 {
+            bounds_left -= 1;
+            let mut words = line.split(u8::is_ascii_whitespace).filter_map(parse_number);
+            corners.extend(words.next().zip(words.next()));
+            continue;
+        }
         let Some(names) = line.strip_prefix(b"ITEM: ATOMS") else { continue };
         let count = count.ok_or_else(|| bad(&line, number))?;
         let names = String::from_utf8_lossy(names);
@@ -49,13 +62,22 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
                     name.pop();
                 }
             }
-            if names.iter().any(|name| matches!(name.as_str(), "xs" | "xsu"))
-                && !have_positions(&names)
-            {
-                return Err(ReadError::Unsupported {
-                    what: "a dump of scaled positions (xs ys zs)".into(),
-                    advice: "dump x y z, or xu yu zu",
-                });
+            // Scaled ones are parts of the sides of the box.
+            for (name, side) in names.iter_mut().flat_map(|name| {
+                let scaled = ["xs", "ys", "zs", "xsu", "ysu", "zsu"].iter().position(|n| n == name);
+                scaled.map(|side| (name, side % 3))
+            }) {
+                let axis = ["x", "y", "z"].get(side).copied().unwrap_or_default();
+                *name = axis.to_string();
+                match corners.get(side) {
+                    Some((from, to)) if !tilted => sides.push((axis, *from, *to)),
+                    _ => {
+                        return Err(ReadError::Unsupported {
+                            what: "a dump of scaled positions (xs ys zs) in a box that is not straight".into(),
+                            advice: "dump x y z, or xu yu zu",
+                        });
+                    }
+                }
             }
         }
         let about = About {
@@ -67,6 +89,6 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         };
         let start = text.at();
         let text = Text::new(content.open(start, content.length())?);
-        return Ok(xyz::rows(text, number, Some(count), false, &names, about));
+        return Ok(xyz::rows(text, number, Some(count), false, (&names, &sides), about));
     }
 }

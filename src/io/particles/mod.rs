@@ -13,15 +13,20 @@
 //! | PVTU, PVTP, VTM: their pieces, as one frame; PVD, `.series`: see [`sequence`] | yes | |
 //! | VTU, VTP: ASCII, inline base64, appended base64 or raw; none, zlib, LZ4, LZMA | points and point data | VTU, appended raw, zlib |
 //! | PLY: ASCII, binary little and big endian | vertices | binary little endian |
-//! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders | yes | NPZ |
-//! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), XYZ text, extended XYZ, XYZ raw `f32` triples, JSON | yes | |
+//! | NPY, NPZ: integers and floats of 1 to 8 bytes, both orders, structured, (n, 3) and (3, n) | yes | NPZ |
+//! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), Tecplot, XYZ text, extended XYZ, XYZ raw `f32` triples | yes | |
+//! | JSON: arrays, objects of arrays, arrays of objects, lines | yes | |
 //! | dumps of LAMMPS and LIGGGHTS, text | yes | |
 //!
 //! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
 //! formats but JSON.
 //!
 //! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
-//! Lengths and times are taken as they are; nothing is scaled, recentred or reordered.
+//! Names may have any case, blanks and units: `Pos.x [m]` is `pos_x`. A sound file that can't be taken for one frame of particles is
+//! refused with what it is and what to do; what is taken in one of several ways is told in [`Particles::warnings`].
+//!
+//! Lengths and times are taken as they are; nothing is scaled or reordered. Ghosts are left out. An origin is taken off only
+//! positions in double precision that lie very far out ([`Particles::origin`]).
 //!
 //! A reader never panics and trusts no count in a header: it allocates in proportion to the bytes that are
 //! there. What decompresses to more than 16 MiB + 64 times the file's size is refused.

@@ -221,7 +221,7 @@ impl Header {
 
     /// Whether it may be positions, whatever its name.
     fn may_be_positions(&self) -> bool {
-        let vectors = matches!(*self.shape.as_slice(), [_, 3])
+        let vectors = matches!(*self.shape.as_slice(), [_, 3 | 6])
             || matches!(*self.shape.as_slice(), [3, n] if n >= WIDE);
         !self.structured
             && vectors

@@ -209,7 +209,7 @@ impl<'a> Parts<'a> {
                 let (plan, pass) = file.as_mut();
                 let pass = match pass {
                     Some(pass) => pass,
-                    none => none.insert(plan.start()?),
+                    none => none.insert(plan.again()?),
                 };
                 let Some(mut part) = pass.part(plan, self.most)? else { return Ok(None) };
                 if (self.about.ids.is_some() && part.ids.is_none())

@@ -139,7 +139,7 @@ impl<'a> Plan<'a> {
     }
 
     /// From the first particle on.
-    pub(super) fn start(&self) -> Result<Pass<'a>, ReadError> {
+    fn start(&self) -> Result<Pass<'a>, ReadError> {
         let streams = self.tracks().map(|(track, used)| (track.open)(used));
         Ok(Pass {
             streams: streams.collect::<Result<_, _>>()?,
@@ -147,6 +147,12 @@ impl<'a> Plan<'a> {
             survey: Survey::new(self.origin()),
             room: Vec::new(),
         })
+    }
+
+    /// The same, after all were seen.
+    pub(super) fn again(&self) -> Result<Pass<'a>, ReadError> {
+        let Pass { streams, left, survey, room } = self.start()?;
+        Ok(Pass { streams, left, survey: survey.again(), room })
     }
 
     /// All particles, track after track.

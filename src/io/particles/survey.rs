@@ -55,21 +55,19 @@ impl Columns {
 
     /// Vectors less an origin, which is taken off before they are rounded.
     fn take_vectors(&mut self, vector: Vector, origin: [f64; 3]) -> Vec<[f32; 3]> {
-        let all = match vector {
-            Vector::Whole(column, 3) => match self.0.get(column) {
-                Some(Column { data: Data::F32(v), .. }) => Some(v.as_chunks::<3>().0.to_vec()),
-                _ => None,
-            },
-            _ => None,
-        };
-        let all = all.filter(|_| origin == [0.0; 3]);
         let less = |p: [f64; 3]| {
             let ([x, y, z], [a, b, c]) = (p, origin);
             [(x - a) as f32, (y - b) as f32, (z - c) as f32]
         };
-        let all = all.unwrap_or_else(|| {
-            (0..self.rows(vector)).map(|i| less(self.vector(vector, i))).collect()
-        });
+        let whole = match vector {
+            Vector::Whole(column, 3) => self.0.get(column).map(|column| &column.data),
+            _ => None,
+        };
+        let all = match whole {
+            Some(Data::F32(v)) if origin == [0.0; 3] => v.as_chunks::<3>().0.to_vec(),
+            Some(Data::F64(v)) => v.as_chunks::<3>().0.iter().map(|p| less(*p)).collect(),
+            _ => (0..self.rows(vector)).map(|i| less(self.vector(vector, i))).collect(),
+        };
         vector.columns().for_each(|column| drop(self.take(column)));
         all
     }
@@ -105,28 +103,29 @@ pub(super) const DOUBLED: f64 = 0.05;
 /// The most times that are told apart.
 const STEPS: usize = 1 << 12;
 
-/// How often values repeat, by those of them whose hash ends in zeros: all, or of many a part.
+/// How often values repeat, by those of them whose hash begins with so many zeros: all, or of many a part.
 #[derive(Debug, Default)]
 pub(super) struct Repeats {
-    mask: u64,
+    zeros: u32,
     counts: HashMap<u64, usize>,
 }
 
 impl Repeats {
     fn add(&mut self, value: u64) {
-        // A mix of all bits (the finalizer of SplitMix64).
-        let mut hash = value.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        hash ^= hash >> 31;
-        if hash & self.mask != 0 {
-            return;
+        // All bits reach the first ones (Fibonacci hashing).
+        let hash = value.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        if hash.leading_zeros() >= self.zeros {
+            self.count(hash);
         }
+    }
+
+    #[cold]
+    fn count(&mut self, hash: u64) {
         *self.counts.entry(hash).or_default() += 1;
         while self.counts.len() > COUNTED {
-            self.mask = self.mask << 1 | 1;
-            let mask = self.mask;
-            self.counts.retain(|hash, _| hash & mask == 0);
+            self.zeros += 1;
+            let zeros = self.zeros;
+            self.counts.retain(|hash, _| hash.leading_zeros() >= zeros);
         }
     }
 
@@ -136,7 +135,7 @@ impl Repeats {
             // The sign of zero is no place either.
             let bits = |c: f32| u64::from((c + 0.0).to_bits());
             let place = bits(x) | bits(y) << 32;
-            self.add(place ^ bits(z).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            self.add(place ^ bits(z).wrapping_mul(0xbf58_476d_1ce4_e5b9));
         }
     }
 
@@ -179,6 +178,8 @@ impl Steps {
 /// What was seen until now.
 #[derive(Debug)]
 pub(super) struct Survey {
+    /// Whether nothing is known yet of the whole.
+    asks: bool,
     origin: [f64; 3],
     seen: usize,
     ghosts: usize,
@@ -199,6 +200,7 @@ impl Survey {
     /// `origin`: what is taken off the positions.
     pub(super) fn new(origin: [f64; 3]) -> Self {
         Self {
+            asks: true,
             origin,
             seen: 0,
             ghosts: 0,
@@ -212,6 +214,11 @@ impl Survey {
             numbered: None,
             steps: Steps::default(),
         }
+    }
+
+    /// Of particles that were all seen before.
+    pub(super) fn again(self) -> Self {
+        Self { asks: false, ..self }
     }
 
     pub(super) fn origin(&self) -> [f64; 3] {
@@ -270,7 +277,7 @@ impl Survey {
             let copy = |bits: i64| if levels { bits > 0 } else { bits & 3 != 0 };
             (0..rows).map(|i| !copy(bits(i))).collect()
         });
-        if let Some(column) = roles.steps {
+        if let Some(column) = roles.steps.filter(|_| self.asks) {
             if self.steps.name.is_empty() {
                 self.steps.name = columns.0.get(column).map_or(String::new(), |c| c.name.clone());
             }
@@ -310,15 +317,18 @@ impl Survey {
             self.ghosts += kept.iter().filter(|kept| !**kept).count();
             retain(&mut particles, &kept);
         }
-        self.not_finite += super::count_non_finite(&particles.positions);
-        particles.positions.iter().for_each(|p| self.places.add_place(*p));
-        particles.ids.iter().flatten().for_each(|id| self.numbers.add(u64::from(*id)));
+        if self.asks {
+            self.not_finite += super::count_non_finite(&particles.positions);
+            particles.positions.iter().for_each(|p| self.places.add_place(*p));
+            particles.ids.iter().flatten().for_each(|id| self.numbers.add(u64::from(*id)));
+        }
         particles
     }
 
-    /// Whether ids repeat, so that they follow no particle.
+    /// Whether ids repeat, so that they follow no particle. A copy at the same place has the same one by right; the shares are those
+    /// of some thousand samples.
     fn repeated_ids(&self) -> bool {
-        self.numbers.share() > REPEATED_IDS
+        self.numbers.share() > REPEATED_IDS + 1.2 * self.places.share()
     }
 
     /// Takes out of a part, or of all of them, what the particles as a whole have not.

@@ -73,7 +73,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     let commas = heading.delimiter == Some(b',');
     match first {
         None if promised.is_none() && !named => {
-            return Err(ReadError::malformed("lines of three numbers", "none", Place::Unknown));
+            return Err(ReadError::table("lines of three numbers", "none", Place::Unknown));
         }
         Some(line) if !named => {
             let row: Vec<_> = words(&line.text, commas).collect();
@@ -98,8 +98,11 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         names.extend((0..3).map(unnamed));
     }
     let text = Text::new(content.open(heading.at, content.length())?);
-    Ok(rows(text, heading.line, promised, commas, &names, about))
+    Ok(rows(text, heading.line, promised, commas, (&names, &[]), about))
 }
+
+/// A column that is parts of the side of a box, and where that begins and ends.
+pub(super) type Side<'a> = (&'a str, f64, f64);
 
 /// Rows of columns of these names, behind so many lines.
 pub(super) fn rows<'a>(
@@ -107,15 +110,22 @@ pub(super) fn rows<'a>(
     number: u64,
     promised: Option<u64>,
     commas: bool,
-    names: &[String],
+    (names, sides): (&[String], &[Side<'_>]),
     mut about: About,
 ) -> Table<'a> {
-    let mut rows = Lines { text, number, rows: 0, promised, commas, columns: Vec::new() };
+    let mut rows =
+        Lines { text, number, rows: 0, promised, commas, columns: Vec::new(), box_of: Vec::new() };
     let mut columns = Vec::new();
     for name in names {
-        let keep = columns::list(&mut about.attributes, name, 1, AttributeType::Number);
+        let (name, ty) = match name.strip_suffix(TEXT) {
+            Some(name) => (name, AttributeType::Text),
+            None => (name.as_str(), AttributeType::Number),
+        };
+        let keep = columns::list(&mut about.attributes, name, 1, ty) && ty == AttributeType::Number;
         rows.columns.push(keep.then_some(columns.len()));
         if keep {
+            let side = sides.iter().find(|(side, ..)| *side == name);
+            rows.box_of.extend(side.map(|(_, from, to)| (columns.len(), *from, to - from)));
             columns.push(Column::new(name, 1, AttributeType::Number));
         }
     }
@@ -229,6 +239,9 @@ impl Counted {
     }
 }
 
+/// What marks the name of a column that is no numbers.
+const TEXT: &str = "\0";
+
 /// Names of the columns as the comment of extended XYZ has them, a component each.
 fn properties(comment: &[u8]) -> Option<Vec<String>> {
     let text = std::str::from_utf8(comment).ok()?;
@@ -243,7 +256,7 @@ fn properties(comment: &[u8]) -> Option<Vec<String>> {
         let numbers = matches!(*kind, "R" | "I");
         for i in 0..count {
             names.push(match (numbers, count) {
-                (false, _) => format!("{name} (text)"),
+                (false, _) => format!("{name}{TEXT}"),
                 (true, 1) => (*name).to_string(),
                 (true, _) => format!("{name}:{i}"),
             });
@@ -263,6 +276,8 @@ struct Lines<'a> {
     commas: bool,
     /// For each word of a line the column that takes it.
     columns: Vec<Option<usize>>,
+    /// Columns that are parts of the sides of a box: where it begins, and how long it is.
+    box_of: Vec<(usize, f64, f64)>,
 }
 
 impl Lines<'_> {
@@ -294,6 +309,12 @@ impl RowReader for Lines<'_> {
                 return Err(several_frames(self.number));
             }
             row(line, self.number, self.commas, &self.columns, columns)?;
+            for (column, origin, side) in &self.box_of {
+                columns
+                    .get_mut(*column)
+                    .into_iter()
+                    .for_each(|c| c.data.stretch_last(*origin, *side));
+            }
             self.rows += 1;
             return Ok(true);
         }
@@ -335,7 +356,7 @@ fn row(
 }
 
 fn bad_line(line: &[u8], number: u64) -> ReadError {
-    ReadError::malformed(
+    ReadError::table(
         "as many numbers as in the lines before, three at least",
         show(line),
         Place::Line(number),
