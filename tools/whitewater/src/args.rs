@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
+use crate::extras::Condition;
 use crate::pattern::Source;
 use crate::settings::{LookWord, MediumName};
 use crate::shore::Which as Shore;
@@ -107,7 +108,7 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the spacing at rest, in metres (as --unit or --scale makes them) [default:
-    /// estimated]
+    /// that of the files, or estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
     /// Frames a second of the sequence, by which foam comes and goes and the motion layer is made
@@ -131,6 +132,10 @@ pub struct RenderArgs {
     /// the lower end of z and is open above, or comes down along it, which is said; else y]
     #[arg(long, value_enum)]
     pub up_axis: Option<Up>,
+    /// Draws the particles for which a comparison of an attribute holds, such as Type=3 (= != < > <= >=); of several, those
+    /// for which all hold. Case and units in names say nothing. So walls that lie in the same files are left out
+    #[arg(long = "where", value_name = "NAME=VALUE", value_parser = crate::extras::condition)]
+    pub conditions: Vec<Condition>,
     /// Unit of lengths in the particle files, velocities too. All other lengths (--radius, --eye, --scene) are in metres
     /// [default: m]
     #[arg(long, value_enum, conflicts_with = "scale")]

@@ -11,6 +11,8 @@ use crate::bounds::Bounds;
 const COLUMN: f32 = 3.0;
 /// Particles so many spacings from an end of an axis lie at it.
 const NEAR: f32 = 2.0;
+/// What is no thicker than so many spacings is one layer.
+const LAYER: f32 = 0.6;
 /// How much more of the water lies on a floor than under a lid of the same kind, so that it is taken for one.
 const OPEN: f32 = 0.35;
 /// Of the root mean square speed: how fast water as a whole goes up, or down.
@@ -40,6 +42,19 @@ pub fn is_z(frames: &[Particles]) -> Option<&'static str> {
         return Some("the water comes down along z");
     }
     None
+}
+
+/// Across which axis all particles of all frames lie in one layer: they are two-dimensional.
+pub fn flat(frames: &[Particles]) -> Option<usize> {
+    let mut found = [true; 3];
+    for frame in frames {
+        let spacing = particles::estimate_spacing(&crate::bounds::together(&frame.positions))?;
+        let size = Bounds::of_bulk(&frame.positions)?.size();
+        (0..3).for_each(|axis| found[axis] &= size[axis] < LAYER * spacing);
+    }
+    // A line, or a point, lies in many planes.
+    let mut flat = (0..3).filter(|axis| found[*axis] && !frames.is_empty());
+    flat.next().filter(|_| flat.next().is_none())
 }
 
 fn look(frames: &[Particles], axis: usize) -> Option<Axis> {
@@ -92,6 +107,28 @@ mod tests {
         let mut dam = Particles::from_positions(at.map(&turn).collect());
         dam.velocities = moves.then(|| vec![turn([1.0, 0.0, -0.6]); dam.positions.len()]);
         dam
+    }
+
+    #[test]
+    fn sheets_are_told() {
+        let sheet = |across: usize| {
+            let at = |i: usize| {
+                let mut p = [SPACING * (i % 30) as f32, SPACING * (i / 30) as f32, 0.0];
+                p.swap(across, 2);
+                p
+            };
+            [Particles::from_positions((0..600).map(at).collect())]
+        };
+        for across in 0..3 {
+            assert_eq!(flat(&sheet(across)), Some(across));
+        }
+        let [mut thick] = sheet(2);
+        thick.positions.push([0.3, 0.3, SPACING]);
+        thick.positions.extend((0..20).map(|i| [0.3, SPACING * i as f32, SPACING]));
+        assert_eq!(flat(&[thick]), None);
+        let line = (0..50).map(|i| [SPACING * i as f32, 0.0, 0.0]).collect();
+        assert_eq!(flat(&[Particles::from_positions(line)]), None);
+        assert_eq!(flat(&[]), None);
     }
 
     #[test]
