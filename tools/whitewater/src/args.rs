@@ -75,7 +75,8 @@ pub enum Command {
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Particle files: names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
+    /// Particle files: a folder with one sequence in it, names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
+    /// (%d where numbers have no zeros in front). 'whitewater info' says what they hold
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
@@ -111,7 +112,7 @@ pub struct RenderArgs {
     /// that of the files, or estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
-    /// Frames a second of the sequence, by which foam comes and goes and the motion layer is made
+    /// Frames a second of the sequence (of its files, whatever their numbers are apart), by which foam comes and goes and the motion layer is made
     /// [default: found from positions and velocities; without velocities, which are found by it, 30]
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,

@@ -15,7 +15,9 @@ use crate::reader::Has;
 use crate::upright;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
-    let frames = expand(&args.inputs).map_err(frames::advised)?;
+    let inputs = args.inputs.iter().map(|input| frames::in_folder(input));
+    let inputs = inputs.collect::<Outcome<Vec<_>>>()?;
+    let frames = expand(&inputs).map_err(frames::advised)?;
     let mut all = Vec::new();
     let mut failed = Vec::new();
     for frame in &frames {

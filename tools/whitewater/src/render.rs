@@ -53,9 +53,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         None => None,
     };
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let all = frames::expand(&args.inputs, None).map_err(frames::advised)?;
+    let all = frames::expand(&args.inputs, None)?;
     let frames = match range {
-        Some(range) => frames::expand(&args.inputs, Some(range)).map_err(frames::advised)?,
+        Some(range) => frames::expand(&args.inputs, Some(range))?,
         None => all.clone(),
     };
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
@@ -121,11 +121,16 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         film: session::has_film(&checked.0).then(|| steps_of(&left).max(1.0)),
         turning,
         still: still.and(all.first()).map(|frame| frame.number),
+        said: args.fps.map(|fps| fps * step_of(&all)),
+        step: step_of(&all),
     };
     let made = args.whitewater == [Whitewater::Generate];
     let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
     let moving = made || foams || sequence.motion;
-    let fps = moving.then(|| args.fps.unwrap_or(DEFAULT_FPS));
+    // Numbers may be those of steps: a second has so many numbers.
+    let step = step_of(&all);
+    let said = args.fps.map(|fps| fps * step);
+    let fps = moving.then(|| said.unwrap_or(DEFAULT_FPS * step));
     let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
     // One that can't be read tells when its turn comes.
     let origin = all.first().and_then(|first| particles::find_origin(&first.path).ok());
@@ -565,6 +570,17 @@ struct Sequence {
     turning: Option<Turning>,
     /// All pictures are of this frame.
     still: Option<u64>,
+    /// Numbers a second, where it was said.
+    said: Option<f32>,
+    /// Numbers from a frame to the next.
+    step: f32,
+}
+
+/// Numbers from one frame to the next, as they are for most.
+fn step_of(all: &[Frame]) -> f32 {
+    let apart: Vec<f32> =
+        all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();
+    foam::quantile(apart, 0.5).unwrap_or(1.0).max(1.0)
 }
 
 /// How the camera goes round.
@@ -756,7 +772,7 @@ fn look(
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
         frame.densities = session::guessed_densities(spray, frame, &settings.water);
     }
-    let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
+    let fps = sequence.said.or(probes.fps).unwrap_or(DEFAULT_FPS * sequence.step);
     let camera = match sequence.turning {
         Some(turning) => camera.turned(turning.turn(fps))?,
         None => camera,
@@ -800,7 +816,8 @@ fn look(
     let fps = (remembers || vectors || sequence.is && sequence.film.is_some()).then(|| {
         if args.fps.is_none() {
             let found = if probes.fps.is_some() { "found; " } else { "" };
-            progress.say(&format!("{} frames a second ({found}--fps sets it)", round(fps)));
+            let fps = round(fps / sequence.step);
+            progress.say(&format!("{fps} frames a second ({found}--fps sets it)"));
         }
         fps
     });

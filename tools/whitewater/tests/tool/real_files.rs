@@ -195,3 +195,35 @@ fn two_dimensions_are_told_and_seen_from_the_front() {
     let wet = depth.iter().filter(|z| **z < whitewater::io::picture::EMPTY).count();
     assert!(wet > 600, "{wet} of {} pixels", depth.len());
 }
+
+/// A folder is the sequence in it, and numbers of steps are no times: frames a second are those of the files.
+#[test]
+fn a_folder_of_steps_becomes_a_film() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    for (i, step) in [0, 500, 1000, 1500].into_iter().enumerate() {
+        let moved = 0.02 * i as f32;
+        let mut rows = String::from("ITEM: TIMESTEP\n");
+        rows += &format!("{step}\nITEM: NUMBER OF ATOMS\n{}\n", slope().len());
+        rows += "ITEM: BOX BOUNDS ff ff ff\n0 2\n0 2\n0 2\nITEM: ATOMS id x y z vx vy vz\n";
+        for (id, [[x, y, z], _]) in slope().into_iter().enumerate() {
+            rows += &format!("{id} {} {} {y} 0.5 0 0\n", x + moved, -z);
+        }
+        folder.text(&format!("out/dump.{step}"), &rows);
+    }
+    let common = format!("render out {SMALL} -o film.mp4 --overwrite");
+    let said = folder.run(&common).ok().stderr();
+    assert!(said.contains("25 frames a second (found"), "{said}");
+    assert_eq!(folder.film("film.mp4"), (4, 25.0));
+    folder.run(&format!("{common} --fps 12")).ok();
+    assert_eq!(folder.film("film.mp4"), (4, 12.0));
+    folder.run(&format!("{common} --fps 12 --every 2")).ok();
+    assert_eq!(folder.film("film.mp4"), (2, 6.0));
+    folder.run("info out").ok();
+    folder.text("out/foam_1.csv", "x,y,z\n0,0,0\n");
+    folder
+        .run("render out -o a.png")
+        .fails(3, &["several sequences", "'out/dump.*' (4 files)", "'out/foam_*.csv' (1 file)"]);
+    folder.text("a.bi4", "DATA");
+    folder.run("render a.bi4 -o a.png").fails(3, &["a.bi4", "PartVTK"]);
+}
