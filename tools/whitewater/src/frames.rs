@@ -106,8 +106,10 @@ pub fn in_folder(input: &str) -> Outcome<String> {
     let found = match (inner.is_empty(), others.first()) {
         (false, _) => format!("; there are some in {}", inner.join(", ")),
         (true, Some(first)) => {
-            let advice = unread(first).map_or(String::new(), |advice| format!("; {advice}"));
-            format!(", found {} others, the first {first}{advice}", others.len())
+            let known = others.iter().find_map(|name| Some((name, unread(name)?)));
+            let first = known.map_or(first, |(name, _)| name);
+            let advice = known.map_or(String::new(), |(_, advice)| format!("; {advice}"));
+            format!(", found {} others, such as {first}{advice}", others.len())
         }
         (true, None) => String::new(),
     };
@@ -147,9 +149,7 @@ pub fn unread(name: &str) -> Option<&'static str> {
         "bi4" | "ibi4" | "obi4" => {
             "DualSPHysics' own format: PartVTK -dirin FOLDER -savevtk PartFluid -onlytype:-all,+fluid writes VTK"
         }
-        "hdf5" | "h5" => {
-            "HDF5: of PySPH 'pysph dump_vtk FOLDER' writes VTU; else save positions and velocities by numpy.savez"
-        }
+        "hdf5" | "h5" => "of HDF5 that PySPH wrote 'pysph dump_vtk FOLDER' makes VTU",
         "pkl" | "pickle" => "a pickle: save positions and velocities by numpy.savez",
         "abc" | "usd" | "usdc" | "vdb" | "bhclassic" => {
             "save the points as BGEO (Houdini's .bhclassic), PLY, VTU or CSV"
@@ -249,6 +249,7 @@ mod tests {
             text.contains("Fluid_*.bgeo' (3 files), '") && text.contains("Foam_*.bgeo' (1 file)"),
             "{text}"
         );
+        write("bi4/log.out~");
         assert!(said("bi4").contains("PartVTK"), "{}", said("bi4"));
         assert!(said("none").contains("expected particle files"), "{}", said("none"));
     }
