@@ -119,10 +119,10 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
-    /// Frames a second by the times that the first files say, where these are no numbers of steps.
+    /// Frames a second by the times that the first files say, or their names, where these are no numbers of steps.
     pub fn rate(&self) -> Option<f32> {
         let [a, b, ..] = self.all else { return None };
-        let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time);
+        let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time.or(frame.time));
         let seconds = (second? - first?) as f32;
         // Steps are a whole number apart.
         (seconds > LEAST && seconds < 1.0).then(|| (b.number - a.number) as f32 / seconds)

@@ -17,6 +17,10 @@ const LAYER: f32 = 0.6;
 const OPEN: f32 = 0.35;
 /// Of the root mean square speed: how fast water as a whole goes up, or down.
 const MOVES: f32 = 0.1;
+/// The same of water that falls as a whole.
+const FALLS: f32 = 0.25;
+/// What little of a surface there is, of such water.
+const SOME: f32 = 0.03;
 
 /// What an axis looks like as the one that points up.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +41,11 @@ pub fn is_z(frames: &[Particles]) -> Option<&'static str> {
     if lies && z.open - y.open >= OPEN {
         return Some("the water lies at the lower end of z, and is open above");
     }
-    // Against a wall it lies as on a floor: it goes away from one, and down on the other.
-    if lies && z.moves < -MOVES && y.moves > MOVES {
+    // Against a wall it lies as on a floor: it goes away from one, and down on the other. Of a block that has just begun to
+    // fall the surface is nearly a lid.
+    let from_wall = lies && z.moves < -MOVES && y.moves > MOVES;
+    let falls = z.moves < -FALLS && y.moves.abs() < MOVES && z.open - y.open > SOME;
+    if from_wall || falls {
         return Some("the water comes down along z");
     }
     None
@@ -146,6 +153,16 @@ mod tests {
         assert_eq!(is_z(&[dam(y_up, true)]), None);
         assert_eq!(is_z(&[dam(z_up, false)]), None, "nothing tells: y");
         assert_eq!(is_z(&[dam(y_up, false)]), None);
+        // A block that falls, of whose surface a part has sunk.
+        let sunk = |turn: &dyn Fn([f32; 3]) -> [f32; 3]| {
+            let at = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
+            let at = at.filter(|[x, _, z]| *x < 0.33 || *z < 0.33);
+            let mut block = Particles::from_positions(at.map(turn).collect());
+            block.velocities = Some(vec![turn([0.3, 0.0, -0.5]); block.positions.len()]);
+            is_z(&[block]).is_some()
+        };
+        assert!(sunk(&|p| p));
+        assert!(!sunk(&|[x, y, z]| [x, z, -y]));
         // A block, and nothing.
         let block = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
         assert_eq!(is_z(&[Particles::from_positions(block.collect())]), None);

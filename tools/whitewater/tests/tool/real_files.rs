@@ -219,6 +219,12 @@ fn a_folder_of_steps_becomes_a_film() {
     assert_eq!(folder.film("film.mp4"), (4, 12.0));
     folder.run(&format!("{common} --fps 12 --every 2")).ok();
     assert_eq!(folder.film("film.mp4"), (2, 6.0));
+    // Without velocities or ids times in names tell the rate.
+    for time in ["0.32", "0.36", "0.4"] {
+        folder.particles(&format!("t{time}.ply"), slope().iter().map(|[p, _]| *p).collect());
+    }
+    let said = folder.run(&format!("render t*.ply {SMALL} -o times.mp4")).ok().stderr();
+    assert!(said.contains("25 frames a second (found"), "{said}");
     folder.run("info out").ok();
     folder.text("out/foam_1.csv", "x,y,z\n0,0,0\n");
     folder
