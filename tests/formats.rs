@@ -13,6 +13,8 @@ mod bad;
 mod data;
 #[path = "formats/dialects.rs"]
 mod dialects;
+#[path = "formats/extras.rs"]
+mod extras;
 #[path = "formats/indices.rs"]
 mod indices;
 #[path = "formats/parts.rs"]

@@ -2,6 +2,7 @@
 
 use half::f16;
 
+use super::asked;
 use super::error::{Place, ReadError};
 use super::meaning::Meaning;
 use super::names::{self, Names};
@@ -88,6 +89,15 @@ pub struct Attribute {
     pub components: usize,
     /// How each value is stored.
     pub ty: AttributeType,
+}
+
+/// An attribute that was asked for by name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extra {
+    /// As the file has it.
+    pub name: String,
+    /// One for each particle. What is no number is NaN.
+    pub values: Vec<f64>,
 }
 
 impl std::fmt::Display for Attribute {
@@ -447,6 +457,8 @@ pub(super) struct Roles {
     pub(super) ghosts: Option<usize>,
     /// Times or numbers of steps, where each particle has one.
     pub(super) steps: Option<usize>,
+    /// What was asked for by name.
+    pub(super) extras: Vec<usize>,
 }
 
 /// What is looked for among the columns of a file.
@@ -465,6 +477,13 @@ impl<'a> Search<'a> {
     fn one(&self, name: &str, components: usize) -> Option<usize> {
         let mut all = self.shapes.iter().zip(&self.plain);
         all.position(|(shape, plain)| shape.components == components && plain == name)
+    }
+
+    /// All columns that were asked for by name.
+    fn asked(&self) -> Vec<usize> {
+        let all = self.shapes.iter().zip(&self.plain).enumerate();
+        let asked = all.filter(|(_, (shape, plain))| shape.components == 1 && asked::has(plain));
+        asked.map(|(i, _)| i).collect()
     }
 
     fn scalar(&self, names: Names) -> Option<usize> {
@@ -525,6 +544,8 @@ impl Roles {
             })
         };
         let steps = search.scalar(names::STEP);
+        let mut extras = search.asked();
+        extras.retain(|extra| values(*extra) == of_one(positions));
         Ok(Self {
             ghosts: search.scalar(names::GHOST),
             steps: steps.filter(|steps| values(*steps) == of_one(positions)),
@@ -534,6 +555,7 @@ impl Roles {
             lifetimes: search.scalar(names::LIFETIME),
             ids: search.scalar(names::ID),
             kinds: search.scalar(names::KIND),
+            extras,
         })
     }
 
@@ -612,6 +634,6 @@ impl Roles {
         let vectors = vectors.flat_map(Vector::columns);
         let scalars =
             [self.densities, self.lifetimes, self.ids, self.kinds, self.ghosts, self.steps];
-        vectors.chain(scalars.into_iter().flatten())
+        vectors.chain(scalars.into_iter().flatten()).chain(self.extras.iter().copied())
     }
 }

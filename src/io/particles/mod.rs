@@ -34,6 +34,7 @@
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::indexing_slicing)]
 
 mod arrays;
+mod asked;
 mod bgeo;
 mod bytes;
 mod columns;
@@ -69,7 +70,7 @@ mod xyz;
 use std::io::Read as _;
 use std::path::Path;
 
-pub use columns::{Attribute, AttributeType};
+pub use columns::{Attribute, AttributeType, Extra};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
 pub use meaning::Meaning;
@@ -99,6 +100,8 @@ pub struct Particles {
     pub attributes: Vec<Attribute>,
     /// Which of them became what, by their names: positions first. What is in no list here was passed over.
     pub meanings: Vec<(Meaning, Vec<String>)>,
+    /// What was asked for beside, by [`read_with`].
+    pub extras: Vec<Extra>,
     /// The time of the frame, where the file says it, in its unit.
     pub time: Option<f64>,
     /// What was taken off the positions of the file, in double precision, so that 32-bit floats tell particles apart that lie
@@ -122,11 +125,17 @@ impl Particles {
             kinds: None,
             attributes: Vec::new(),
             meanings: Vec::new(),
+            extras: Vec::new(),
             time: None,
             origin: [0.0; 3],
             format: Format::RawF32,
             warnings: Vec::new(),
         }
+    }
+
+    /// Takes particles out: those for which `kept` has false. What is beyond its end is kept.
+    pub fn retain(&mut self, kept: &[bool]) {
+        survey::retain(self, kept);
     }
 
     /// Gives the particles another [`origin`](Self::origin), such as that of the first frame of a sequence.
@@ -166,6 +175,20 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
     let bytes = std::fs::read(path).map_err(io)?;
     read_bytes(&bytes, Extension::from_path(path))
         .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
+}
+
+/// Reads one file, and beside what [`read`] gives attributes of one number each by name, into [`Particles::extras`]: case,
+/// blanks, `_ - . :` and units in brackets say nothing in a name. What is not there is no error.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_with(path: &Path, extras: &[&str]) -> Result<Particles, ReadError> {
+    asked::with(extras, || read(path))
+}
+
+/// Whether these are names of one attribute, as [`read_with`] has it.
+pub fn same_name(a: &str, b: &str) -> bool {
+    names::plain(a) == names::plain(b)
 }
 
 /// Reads one file that lies in memory. `hint` decides only where the content does not: text and raw triples.

@@ -4,6 +4,8 @@
 //! name. Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. What
 //! begins with `particle` or `part` means what the rest does: `Part id`, `particle_velocity_x`.
 
+use super::asked;
+
 /// Names with a meaning, as [`plain`] gives them, the surest first.
 pub(super) type Names = &'static [&'static str];
 
@@ -121,7 +123,8 @@ fn known(name: &str) -> bool {
 
 /// Whether an attribute of this name may be used, so that a reader need not unpack the others.
 pub(super) fn wanted(name: &str) -> bool {
-    known(&plain(name))
+    let name = plain(name);
+    known(&name) || asked::has(&name)
 }
 
 /// Whether an attribute of this name is one of vectors.

@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use super::columns::{Column, Data, Roles, Vector};
+use super::columns::{Column, Data, Extra, Roles, Vector};
 use super::error::ReadError;
 use super::{Format, Particles};
 
@@ -283,6 +283,11 @@ impl Survey {
             }
             (0..rows).for_each(|i| self.steps.add(columns.f64(column, i)));
         }
+        let extra = |&column: &usize| {
+            let name = columns.0.get(column)?.name.clone();
+            Some(Extra { name, values: (0..rows).map(|i| columns.f64(column, i)).collect() })
+        };
+        let extras = roles.extras.iter().filter_map(extra).collect();
         let positions = columns.take_vectors(roles.positions, self.origin);
         let velocities = roles.velocities.map(|v| columns.take_vectors(v, [0.0; 3]));
         let mut scalar = |column: Option<usize>| column.map(|c| columns.take(c).into_f32());
@@ -309,6 +314,7 @@ impl Survey {
             ids,
             lifetimes,
             kinds,
+            extras,
             format,
             origin: self.origin,
             ..Particles::from_positions(positions)
@@ -422,7 +428,7 @@ impl Survey {
 }
 
 /// Takes particles out.
-fn retain(particles: &mut Particles, kept: &[bool]) {
+pub(super) fn retain(particles: &mut Particles, kept: &[bool]) {
     fn some<T>(list: &mut Vec<T>, kept: &[bool]) {
         let mut kept = kept.iter();
         list.retain(|_| *kept.next().unwrap_or(&true));
@@ -433,6 +439,7 @@ fn retain(particles: &mut Particles, kept: &[bool]) {
     particles.ids.iter_mut().for_each(|list| some(list, kept));
     particles.lifetimes.iter_mut().for_each(|list| some(list, kept));
     particles.kinds.iter_mut().for_each(|list| some(list, kept));
+    particles.extras.iter_mut().for_each(|extra| some(&mut extra.values, kept));
 }
 
 /// How far positions reach and span along the axis where they do so most, and their middle.

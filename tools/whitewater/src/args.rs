@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use crate::bubbles::Which as Bubbles;
+use crate::extras::Condition;
 use crate::pattern::Source;
 use crate::settings::{LookWord, MediumName};
 use crate::shore::Which as Shore;
@@ -74,7 +75,8 @@ pub enum Command {
 
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Particle files: names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
+    /// Particle files: a folder with one sequence in it, names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
+    /// (%d where numbers have no zeros in front). 'whitewater info' says what they hold
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
@@ -107,10 +109,10 @@ pub struct RenderArgs {
     #[arg(long, value_name = "FRAMES|SECONDSs", num_args = 0..=1, require_equals = true, default_missing_value = "auto", value_parser = turntable, conflicts_with = "shore")]
     pub turntable: Option<Turntable>,
     /// Particle radius of the solver, half the spacing at rest, in metres (as --unit or --scale makes them) [default:
-    /// estimated]
+    /// that of the files, or estimated]
     #[arg(long, value_name = "R", value_parser = positive)]
     pub radius: Option<f32>,
-    /// Frames a second of the sequence, by which foam comes and goes and the motion layer is made
+    /// Frames a second of the sequence (of its files, whatever their numbers are apart), by which foam comes and goes and the motion layer is made
     /// [default: found from positions and velocities; without velocities, which are found by it, 30]
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
@@ -131,6 +133,10 @@ pub struct RenderArgs {
     /// the lower end of z and is open above, or comes down along it, which is said; else y]
     #[arg(long, value_enum)]
     pub up_axis: Option<Up>,
+    /// Draws the particles for which a comparison of an attribute holds, such as Type=3 (= != < > <= >=); of several, those
+    /// for which all hold. Case and units in names say nothing. So walls that lie in the same files are left out
+    #[arg(long = "where", value_name = "NAME=VALUE", value_parser = crate::extras::condition)]
+    pub conditions: Vec<Condition>,
     /// Unit of lengths in the particle files, velocities too. All other lengths (--radius, --eye, --scene) are in metres
     /// [default: m]
     #[arg(long, value_enum, conflicts_with = "scale")]

@@ -1,7 +1,10 @@
 //! Where the bulk of the particles is, whatever a few strays do.
 
+use std::collections::{HashMap, HashSet};
+
 use glam::Vec3;
 use whitewater::Region;
+use whitewater::io::particles::estimate_spacing;
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +19,18 @@ const FAR: f32 = 1.0e12;
 /// How many interquartile ranges of the widest axis a particle may lie outside the quartiles. Water that is
 /// spread evenly ends at half of one, a splash at some; from a hundred away all the rest is a few pixels.
 const REACH: f32 = 100.0;
+/// Cells so many spacings wide hold 27 particles of a body of water, 9 of a sheet one particle thick, 3 of a line.
+const CELL: f32 = 3.0;
+/// Particles of a cell that is water, not spray.
+const DENSE: usize = 5;
+/// Share of all particles that a body of such cells holds, where it belongs to the bulk.
+const BODY: f32 = 0.05;
+/// Of the longest side of the bulk: how far spray may reach beyond it. Below there is the floor that water stands on.
+const SPRAY: f32 = 0.5;
+/// The same of what is above, where particles fly farther than that.
+const SPLASH: f32 = 0.15;
+/// Share of the particles that may lie beyond that, on a side.
+const STRAY: f32 = 0.08;
 /// Particles from which the quartiles are taken.
 const SAMPLES: usize = 65_536;
 
@@ -71,7 +86,66 @@ impl Bounds {
             bounds.min[axis] = first.max(low - near);
             bounds.max[axis] = last.min(high + near);
         }
-        Some(bounds)
+        Some(bounds.within_reach_of(Self::of_bodies(&positions), &positions))
+    }
+
+    /// Without what lies farther from bodies of water than spray flies, or under the floor that they stand on.
+    fn within_reach_of(self, bodies: Option<(Self, f32)>, positions: &[[f32; 3]]) -> Self {
+        let Some((bodies, cell)) = bodies else { return self };
+        let reach = (SPRAY * bodies.size().max_element()).max(cell);
+        let mut near = bodies.padded(reach);
+        near.min.y = bodies.min.y - cell;
+        let few = |beyond: &dyn Fn(&[f32; 3]) -> bool| {
+            let count = positions.iter().filter(|p| beyond(p)).count();
+            (count as f32) < STRAY * positions.len() as f32
+        };
+        let mut bounds = self;
+        for axis in 0..3 {
+            // What is left of them nearer by says nothing either, but for a splash.
+            if bounds.min[axis] < near.min[axis] && few(&|p| p[axis] < near.min[axis]) {
+                bounds.min[axis] = bodies.min[axis];
+            }
+            if bounds.max[axis] > near.max[axis] && few(&|p| p[axis] > near.max[axis]) {
+                let splash = if axis == 1 { SPLASH * bodies.size().max_element() } else { 0.0 };
+                bounds.max[axis] = bodies.max[axis] + splash;
+            }
+        }
+        bounds
+    }
+
+    /// The box about what is as dense as water, and the width of the cells by which it was found; none where nothing is.
+    fn of_bodies(positions: &[[f32; 3]]) -> Option<(Self, f32)> {
+        let cell = CELL * estimate_spacing(positions)?;
+        let mut cells: HashMap<[i64; 3], (usize, Self)> = HashMap::new();
+        for p in positions {
+            let p = Vec3::from(*p);
+            let one = Self { min: p, max: p };
+            let (count, about) =
+                cells.entry((p / cell).to_array().map(|c| c.floor() as i64)).or_insert((0, one));
+            (*count, *about) = (*count + 1, about.union(&one));
+        }
+        cells.retain(|_, (count, _)| *count >= DENSE);
+        let mut left: HashSet<[i64; 3]> = cells.keys().copied().collect();
+        let mut all: Option<Self> = None;
+        while let Some(first) = left.iter().next().copied() {
+            left.remove(&first);
+            let (mut open, mut count, mut about) = (vec![first], 0, None::<Self>);
+            while let Some(at) = open.pop() {
+                let (own, bounds) = cells[&at];
+                count += own;
+                about = Some(about.map_or(bounds, |about| about.union(&bounds)));
+                for i in 0..27 {
+                    let beside = [at[0] + i % 3 - 1, at[1] + i / 3 % 3 - 1, at[2] + i / 9 - 1];
+                    if left.remove(&beside) {
+                        open.push(beside);
+                    }
+                }
+            }
+            if count as f32 >= BODY * positions.len() as f32 {
+                all = all.into_iter().chain(about).reduce(|a, b| a.union(&b));
+            }
+        }
+        Some((all?, cell))
     }
 
     pub fn center(&self) -> Vec3 {
@@ -117,6 +191,35 @@ mod tests {
         assert!((bounds.max - Vec3::new(19.0, 9.0, 9.0)).abs().max_element() < 2.0, "{bounds:?}");
         assert_eq!(Bounds::of_bulk(&[]), None);
         assert_eq!(Bounds::of_bulk(&[[f32::NAN; 3]]), None);
+    }
+
+    /// Three in a hundred that have leaked below, or that were thrown out, move nothing; a splash is part of the bulk.
+    #[test]
+    fn what_leaked_or_flew_away_does_not_count() {
+        let block: Vec<[f32; 3]> = (0..4000)
+            .map(|i| [(i % 20) as f32, (i / 20 % 10) as f32, (i / 200) as f32].map(|c| 0.1 * c))
+            .collect();
+        let clean = Bounds::of_bulk(&block).unwrap();
+        let noise = |i: usize, seed: usize| ((i * 7919 + seed * 104_729) as f32).sin();
+        let with = |more: &dyn Fn(usize) -> [f32; 3]| {
+            let mut positions = block.clone();
+            positions.extend((0..120).map(more));
+            Bounds::of_bulk(&positions).unwrap()
+        };
+        let leaked =
+            with(&|i| [0.95 + 0.5 * noise(i, 1), -0.2 * i as f32, 0.95 + 0.5 * noise(i, 2)]);
+        assert!(leaked.min.y >= clean.min.y - 0.31 && leaked.max == clean.max, "{leaked:?}");
+        let thrown = with(&|i| [1, 2, 3].map(|seed| 30.0 * noise(i, seed)));
+        let reach = 0.5 * clean.size().max_element() + 0.01;
+        assert!(thrown.max.cmple(clean.max + reach).all(), "{thrown:?}");
+        assert!(thrown.min.cmpge(clean.min - reach).all() && thrown.min.y > clean.min.y - 0.31);
+        let splash =
+            with(&|i| [0.95 + 0.1 * noise(i, 1), 0.9 + 0.01 * i as f32, 0.95 + 0.1 * noise(i, 2)]);
+        assert!(splash.max.y > 1.7, "{splash:?}");
+        // Water under what falls is no leak: there is a tenth of it.
+        let mut positions = block.clone();
+        positions.extend((0..500).map(|i| [0.3 * (i % 25) as f32, -5.0, 0.3 * (i / 25) as f32]));
+        assert!(Bounds::of_bulk(&positions).unwrap().min.y < -1.0);
     }
 
     #[test]

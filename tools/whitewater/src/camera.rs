@@ -261,10 +261,33 @@ impl CameraFile {
         fov: Option<f32>,
         size: (u32, u32),
     ) -> Self {
+        // The longer side faces the camera.
+        let turn = if bounds.size().x >= bounds.size().z { 28.0_f32 } else { 62.0 };
+        Self::turned_to(turn, frames, bounds, fov, size)
+    }
+
+    /// The same of a sheet, from before it, which is at +z, or at +x where it lies across x.
+    pub fn of_sheet(
+        across_x: bool,
+        frames: &[&[[f32; 3]]],
+        bounds: &Bounds,
+        fov: Option<f32>,
+        size: (u32, u32),
+    ) -> Self {
+        Self::turned_to(if across_x { 90.0 } else { 0.0 }, frames, bounds, fov, size)
+    }
+
+    /// From so many degrees to the right of +z.
+    fn turned_to(
+        turn: f32,
+        frames: &[&[[f32; 3]]],
+        bounds: &Bounds,
+        fov: Option<f32>,
+        size: (u32, u32),
+    ) -> Self {
         let fov = fov.unwrap_or(FOUND_FOV);
         let size3 = bounds.size();
-        // The longer side faces the camera.
-        let turn = if size3.x >= size3.z { 28.0_f32 } else { 62.0 }.to_radians();
+        let turn = turn.to_radians();
         let towards = Vec3::new(turn.sin(), 0.0, turn.cos());
         let right = Vec3::Y.cross(towards);
         let foot = Vec3::new(bounds.center().x, bounds.min.y, bounds.center().z);

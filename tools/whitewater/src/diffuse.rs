@@ -183,8 +183,7 @@ impl Files {
                     "--whitewater: expected 'generate' or files, found both or one of it twice";
                 return Err(Failure::usage(why));
             };
-            let found =
-                frames::expand(std::slice::from_ref(files), None).map_err(frames::advised)?;
+            let found = frames::expand(std::slice::from_ref(files), None)?;
             let alone = single.filter(|_| found.len() == 1);
             for frame in found {
                 let number = alone.unwrap_or(frame.number);
@@ -296,6 +295,11 @@ impl Files {
 }
 
 impl Reading {
+    /// Particles of all files.
+    pub fn read(&self) -> usize {
+        self.files.iter().map(|(parts, _)| parts.total()).sum()
+    }
+
     /// Particles of all files, as they are drawn.
     pub fn total(&self) -> usize {
         let copies = self.drawn.map_or(1, |drawn| drawn.copies as usize);

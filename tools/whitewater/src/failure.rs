@@ -8,6 +8,8 @@ use whitewater::io::particles::ReadError;
 use whitewater::io::particles::sequence::SequenceError;
 use whitewater::io::picture::PictureError;
 
+use crate::frames;
+
 /// Kind of a failure; its number is the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -106,7 +108,12 @@ impl From<Error> for Failure {
 
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Self {
-        Self::input(error.to_string())
+        let advice = match &error {
+            ReadError::File { path, .. } => frames::unread(&path.display().to_string()),
+            _ => None,
+        };
+        let advice = advice.map_or(String::new(), |advice| format!("; {advice}"));
+        Self::input(format!("{error}{advice}"))
     }
 }
 

@@ -2,11 +2,12 @@
 
 use std::collections::HashSet;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use whitewater::io::particles::sequence::{self, Frame, SequenceError};
 use whitewater::io::particles::{self, Meaning, Particles};
 
 use crate::args::InfoArgs;
+use crate::extras;
 use crate::failure::{Failure, Kind, Outcome};
 use crate::frames;
 use crate::out;
@@ -14,12 +15,14 @@ use crate::reader::Has;
 use crate::upright;
 
 pub fn run(args: &InfoArgs) -> Outcome<()> {
-    let frames = expand(&args.inputs).map_err(frames::advised)?;
+    let inputs = args.inputs.iter().map(|input| frames::in_folder(input));
+    let inputs = inputs.collect::<Outcome<Vec<_>>>()?;
+    let frames = expand(&inputs).map_err(frames::advised)?;
     let mut all = Vec::new();
     let mut failed = Vec::new();
     for frame in &frames {
         let path = frame.path.display().to_string();
-        match particles::read(&frame.path) {
+        match extras::read(&frame.path, &[]) {
             Ok(particles) => {
                 let value = describe(&path, frame.number, &particles);
                 if args.json {
@@ -30,10 +33,10 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
             }
             Err(error) => {
                 if frames.len() == 1 {
-                    return Err(error.into());
+                    return Err(error);
                 }
-                out::note(format_args!("{error}"));
-                all.push(json!({"file": path, "frame": frame.number, "error": error.to_string()}));
+                out::note(format_args!("{}", error.message));
+                all.push(json!({"file": path, "frame": frame.number, "error": error.message}));
                 failed.push(path);
             }
         }
@@ -82,10 +85,18 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         .iter()
         .map(|a| {
             let meaning = meaning(particles, &a.name).map(|meaning| meaning.to_string());
+            let meaning = meaning.or_else(|| beside(particles, &a.name));
             json!({"name": a.name, "type": a.ty.to_string(), "components": a.components, "meaning": meaning})
         })
         .collect();
     let spacing = particles::estimate_spacing(&particles.positions);
+    let phases: Map<String, Value> = extras::phases(particles)
+        .into_iter()
+        .map(|(name, values)| {
+            let values = values.into_iter().map(|(value, count)| (value.to_string(), json!(count)));
+            (name.to_string(), Value::Object(values.collect()))
+        })
+        .collect();
     json!({
         "file": path,
         "frame": number,
@@ -97,6 +108,9 @@ fn describe(path: &str, number: u64, particles: &Particles) -> Value {
         "radius": spacing.map(|s| 0.5 * s),
         "density": particles.densities.as_deref().and_then(statistics),
         "attributes": attributes,
+        "time": particles.time,
+        "radii": extras::radii(particles),
+        "phases": phases,
         "missing": missing(Has::of(particles)),
         "z_is_up": upright::is_z(std::slice::from_ref(particles)),
         "warnings": particles.warnings,
@@ -114,6 +128,18 @@ fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
         _ => true,
     };
     there.then_some(*meaning)
+}
+
+/// What else is made of an attribute.
+fn beside(particles: &Particles, name: &str) -> Option<String> {
+    if extras::is_radius(name) {
+        return extras::radii(particles).map(|_| "radius".into());
+    }
+    let phases = extras::phases(particles);
+    phases
+        .into_iter()
+        .find(|(phase, _)| *phase == name)
+        .map(|_| "--where tells its values apart".into())
 }
 
 /// What is not there, and what that costs.
@@ -162,6 +188,12 @@ fn text(value: &Value) -> String {
     }
     let (spacing, radius) = (number(&value["spacing"]), number(&value["radius"]));
     lines.push(format!("  spacing     {spacing} (estimated; radius {radius})"));
+    if let [least, _, most] = value["radii"].as_array().map(Vec::as_slice).unwrap_or_default() {
+        lines.push(format!("  radii       {} to {}", number(least), number(most)));
+    }
+    if let Some(time) = value["time"].as_f64() {
+        lines.push(format!("  time        {time}"));
+    }
     if let Some(density) = value["density"].as_object() {
         let all: Vec<String> =
             density.iter().map(|(name, v)| format!("{name} {}", number(v))).collect();
@@ -171,6 +203,12 @@ fn text(value: &Value) -> String {
         let [name, ty] = ["name", "type"].map(|key| a[key].as_str().unwrap_or_default());
         let meaning = a["meaning"].as_str().unwrap_or("passed over");
         lines.push(format!("  attribute   {name} ({ty} x {}): {meaning}", a["components"]));
+    }
+    for (name, values) in value["phases"].as_object().into_iter().flatten() {
+        let values = values.as_object().into_iter().flatten();
+        let all: Vec<_> =
+            values.map(|(value, count)| format!("{value} ({count} particles)")).collect();
+        lines.push(format!("  values      {name}: {}", all.join(", ")));
     }
     if let Some(why) = value["z_is_up"].as_str() {
         lines.push(format!("  up          z: {why}"));

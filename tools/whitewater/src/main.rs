@@ -14,6 +14,7 @@ mod compare;
 mod demo;
 mod diffuse;
 mod environment;
+mod extras;
 mod failure;
 mod film;
 mod films;

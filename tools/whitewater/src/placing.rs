@@ -44,6 +44,10 @@ impl Placing {
         }
         Self { scale: self.scale.recip(), ..*self }
             .scale(positions.iter_mut().chain(velocities.iter_mut()));
+        let origin = self.origin;
+        for p in positions.iter_mut().filter(|_| origin != [0.0; 3]) {
+            *p = std::array::from_fn(|i| (f64::from(p[i]) + origin[i]) as f32);
+        }
     }
 }
 
@@ -75,7 +79,7 @@ pub fn hint(extent: f32, fastest: Option<f32>) -> Option<String> {
         }
         // As fast as water of that size.
         Some(number) if number > 0.02 => None,
-        _ if extent > LARGE || extent < TINY => {
+        _ if extent.is_finite() && !(TINY..=LARGE).contains(&extent) => {
             Some(format!("{spans}: if the files are in another unit, --unit mm, cm or km says so"))
         }
         _ => None,

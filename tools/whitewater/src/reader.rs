@@ -4,11 +4,12 @@
 use std::collections::HashMap;
 
 use glam::Vec3;
+use whitewater::io::particles::Particles;
 use whitewater::io::particles::sequence::Frame;
-use whitewater::io::particles::{self, Particles};
 
 use crate::args::Up;
 use crate::bounds;
+use crate::extras::{self, Condition};
 use crate::failure::Outcome;
 use crate::foam::quantile;
 use crate::placing::Placing;
@@ -19,6 +20,8 @@ pub const DEFAULT_FPS: f32 = 30.0;
 /// A particle that goes farther from frame to frame than this part of what lies between two of them is another one
 /// by the same name, or place in the file.
 const FAR: f32 = 0.25;
+/// Times that are seconds are no nearer each other than this.
+const LEAST: f32 = 1.0e-4;
 /// Particles that are looked at for that.
 const LOOKED_AT: usize = 4096;
 
@@ -33,6 +36,9 @@ struct Known {
 pub struct Reader<'a> {
     all: &'a [Frame],
     placing: Placing,
+    conditions: &'a [Condition],
+    /// Radii of particles in the first frame that was read: the least, the middle one, the largest.
+    pub radii: Option<[f32; 3]>,
     /// Frames a second, where velocities are to be found; else none are.
     fps: Option<f32>,
     last: Option<Known>,
@@ -45,10 +51,17 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(all: &'a [Frame], placing: Placing, fps: Option<f32>) -> Self {
+    pub fn new(
+        all: &'a [Frame],
+        placing: Placing,
+        conditions: &'a [Condition],
+        fps: Option<f32>,
+    ) -> Self {
         Self {
             all,
             placing,
+            conditions,
+            radii: None,
             fps,
             last: None,
             found_velocities: false,
@@ -69,6 +82,10 @@ impl<'a> Reader<'a> {
         }
         let own = Has::of(&particles);
         self.seen = self.seen.or(own);
+        if self.radii.is_none() {
+            self.radii =
+                extras::radii(&particles).map(|radii| radii.map(|r| r * self.placing.scale));
+        }
         let lacks = self.expected.without(own);
         if let Some(fps) = self.fps
             && (!own.velocities || lacks.ids)
@@ -102,6 +119,15 @@ impl<'a> Reader<'a> {
         Ok(particles)
     }
 
+    /// Frames a second by the times that the first files say, or their names, where these are no numbers of steps.
+    pub fn rate(&self) -> Option<f32> {
+        let [a, b, ..] = self.all else { return None };
+        let [first, second] = [a, b].map(|frame| self.as_it_is(frame).ok()?.time.or(frame.time));
+        let seconds = (second? - first?) as f32;
+        // Steps are a whole number apart.
+        (seconds > LEAST && seconds < 1.0).then(|| (b.number - a.number) as f32 / seconds)
+    }
+
     /// Has frames turned from now on; those that were read are by whoever has them.
     pub fn turn(&mut self, up: Up) {
         self.placing.up = up;
@@ -115,7 +141,16 @@ impl<'a> Reader<'a> {
 
     /// A frame without what is found or told of it.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
-        let mut particles = particles::read(&frame.path)?;
+        let mut particles = extras::read(&frame.path, self.conditions)?;
+        extras::select(&mut particles, self.conditions, &frame.path)?;
+        let told = extras::told(&particles, self.conditions);
+        let copies = extras::without_copies(&mut particles);
+        particles.warnings.extend(told);
+        if copies > 0 {
+            particles
+                .warnings
+                .push(format!("{copies} copies of particles at the same place are left out"));
+        }
         self.placing.place(&mut particles);
         Ok(particles)
     }

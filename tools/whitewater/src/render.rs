@@ -53,9 +53,9 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         None => None,
     };
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let all = frames::expand(&args.inputs, None).map_err(frames::advised)?;
+    let all = frames::expand(&args.inputs, None)?;
     let frames = match range {
-        Some(range) => frames::expand(&args.inputs, Some(range)).map_err(frames::advised)?,
+        Some(range) => frames::expand(&args.inputs, Some(range))?,
         None => all.clone(),
     };
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
@@ -121,24 +121,43 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         film: session::has_film(&checked.0).then(|| steps_of(&left).max(1.0)),
         turning,
         still: still.and(all.first()).map(|frame| frame.number),
+        said: args.fps.map(|fps| fps * step_of(&all)),
+        step: step_of(&all),
     };
     let made = args.whitewater == [Whitewater::Generate];
     let foams = args.draw.foam.unwrap_or(foaming(args)) != Foaming::None;
     let moving = made || foams || sequence.motion;
-    let fps = moving.then(|| args.fps.unwrap_or(DEFAULT_FPS));
+    // Numbers may be those of steps: a second has so many numbers.
+    let step = step_of(&all);
+    let said = args.fps.map(|fps| fps * step);
+    let fps = moving.then(|| said.unwrap_or(DEFAULT_FPS * step));
     let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
     // One that can't be read tells when its turn comes.
     let origin = all.first().and_then(|first| particles::find_origin(&first.path).ok());
     let origin = origin.unwrap_or_default();
     let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
-    let mut reader = Reader::new(&all, placing, fps);
+    let mut reader = Reader::new(&all, placing, &args.conditions, fps);
+    let by_time = if args.fps.is_none() { reader.rate() } else { None };
+    by_time.into_iter().for_each(|rate| reader.set_rate(rate));
     let mut probes = steps.during("reading", || Probes::read(&mut reader, &all, &left))?;
-    if let (None, Some(why)) = (args.up_axis, upright::is_z(&probes.frames)) {
+    probes.fps = probes.fps.or(by_time);
+    let flat = upright::flat(&probes.frames);
+    let z_is_up = match flat {
+        // Of a plane of x and z.
+        Some(1) => Some("they are two-dimensional, with z beside x"),
+        Some(2) => None,
+        _ => upright::is_z(&probes.frames),
+    };
+    if let (None, Some(why)) = (args.up_axis, z_is_up) {
         progress.say(&format!("z is up in the files: {why} (--up-axis y: not turned)"));
         placing.up = Up::Z;
         reader.turn(Up::Z);
         let turned = Placing { up: Up::Z, scale: 1.0, origin };
         probes.frames.iter_mut().for_each(|frame| turned.place(frame));
+    }
+    let sheet = upright::flat(&probes.frames).filter(|across| *across != 1);
+    if sheet.is_some() {
+        progress.say("the particles are two-dimensional: drawn as a sheet one spacing thick, seen from the front");
     }
     if args.unit.is_none() && args.scale.is_none() {
         probes.unit_hint().iter().for_each(|line| progress.say(line));
@@ -164,14 +183,14 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     }
     let single = all.first().filter(|_| all.len() == 1).map(|frame| frame.number);
     let files = if made { &[][..] } else { &args.whitewater };
-    let spacing = spacing(args, &probes, &settings, &progress);
+    let spacing = spacing(args, (&probes, reader.radii), &settings, &progress);
     let files =
         steps.during("reading", || diffuse::Files::find(files, placing, single, spacing))?;
     if let Some(files) = &files {
         let numbers: Vec<_> = all.iter().map(|f| f.number).collect();
         files.missing(&numbers)?.iter().for_each(|line| progress.say(line));
     }
-    let found = Found { camera, spacing, files };
+    let found = Found { camera, spacing, files, sheet };
     let look = steps.during("finding camera and light", || {
         look(args, sequence, &mut probes, found, settings, environment, &progress)
     })?;
@@ -224,7 +243,7 @@ fn draw(
     let number = frame.number;
     let particles = session.times.step("read", number, || reader.read(frame))?;
     for warning in &particles.warnings {
-        if let Some(line) = warnings.new(&frame.path.display().to_string(), warning) {
+        if let Some(line) = warnings.first(&frame.path.display().to_string(), warning) {
             progress.say(&line);
         }
     }
@@ -259,7 +278,7 @@ struct Warning {
 
 impl Warnings {
     /// The line to say; none where it was said of another frame.
-    fn new(&mut self, file: &str, text: &str) -> Option<String> {
+    fn first(&mut self, file: &str, text: &str) -> Option<String> {
         let kind: String = text.chars().filter(|c| !c.is_ascii_digit()).collect();
         if let Some(known) = self.0.iter_mut().find(|known| known.kind == kind) {
             known.frames += 1;
@@ -487,10 +506,30 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
 const SMALL: f32 = 2.0;
 
 /// The rest spacing: as it is said, or found.
-fn spacing(args: &RenderArgs, probes: &Probes, file: &SettingsFile, progress: &Progress) -> f32 {
+fn spacing(
+    args: &RenderArgs,
+    (probes, radii): (&Probes, Option<[f32; 3]>),
+    file: &SettingsFile,
+    progress: &Progress,
+) -> f32 {
     match (args.radius, file.water.spacing) {
         (Some(radius), _) => 2.0 * radius,
         (None, Some(spacing)) => spacing,
+        (None, None) if radii.is_some() => {
+            let [least, radius, most] = radii.unwrap_or_default();
+            let differ = if most > 1.1 * least {
+                format!(
+                    "; those of the files go from {} to {}, and all are drawn alike",
+                    round(least),
+                    round(most)
+                )
+            } else {
+                String::new()
+            };
+            progress
+                .say(&format!("radius {} (of the files{differ}; --radius sets it)", round(radius)));
+            2.0 * radius
+        }
         (None, None) => match probes.spacing() {
             Some(spacing) => {
                 progress
@@ -514,6 +553,8 @@ struct Found {
     camera: Option<CameraFile>,
     spacing: f32,
     files: Option<diffuse::Files>,
+    /// The axis across which the particles lie in one layer.
+    sheet: Option<usize>,
 }
 
 /// What time is needed for.
@@ -529,6 +570,17 @@ struct Sequence {
     turning: Option<Turning>,
     /// All pictures are of this frame.
     still: Option<u64>,
+    /// Numbers a second, where it was said.
+    said: Option<f32>,
+    /// Numbers from a frame to the next.
+    step: f32,
+}
+
+/// Numbers from one frame to the next, as they are for most.
+fn step_of(all: &[Frame]) -> f32 {
+    let apart: Vec<f32> =
+        all.windows(2).map(|two| (two[1].number - two[0].number) as f32).collect();
+    foam::quantile(apart, 0.5).unwrap_or(1.0).max(1.0)
 }
 
 /// How the camera goes round.
@@ -609,7 +661,7 @@ fn look(
     environment: Environment,
     progress: &Progress,
 ) -> Outcome<Look> {
-    let Found { camera, spacing, mut files } = found;
+    let Found { camera, spacing, mut files, sheet } = found;
     let unit = Bounds { min: Vec3::splat(-1.0), max: Vec3::ONE };
     let bounds = probes.bounds().unwrap_or(unit).padded(0.5 * spacing);
     let mut settings = file.look(spacing, environment.light());
@@ -662,7 +714,10 @@ fn look(
             }
             None => {
                 let frames: Vec<_> = probes.frames.iter().map(|f| &f.positions[..]).collect();
-                CameraFile::of_particles(&frames, &bounds, fov, size)
+                match sheet {
+                    Some(across) => CameraFile::of_sheet(across == 0, &frames, &bounds, fov, size),
+                    None => CameraFile::of_particles(&frames, &bounds, fov, size),
+                }
             }
         };
         progress.say(&format!("camera {} (found; --camera sets it)", camera.json()));
@@ -678,11 +733,15 @@ fn look(
         Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, eye, set),
         Some(path) => stage::read(path)?,
         None => {
-            let frames: Vec<_> =
-                probes.frames.iter().map(|f| bounds::together(&f.positions)).collect();
+            let inside = |frame: &Particles| -> Vec<[f32; 3]> {
+                let inside = frame.positions.iter().filter(|p| bounds.contains(Vec3::from(**p)));
+                inside.copied().collect()
+            };
+            let frames: Vec<_> = probes.frames.iter().map(inside).collect();
             let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
             let seen_from = (eye, sequence.turning.is_some());
-            match stage::basin_round(&frames, &bounds, spacing, seen_from, set) {
+            let basin = stage::basin_round(&frames, &bounds, spacing, seen_from, set);
+            match basin.filter(|_| sheet.is_none()) {
                 Some(basin) => {
                     progress
                         .say("a basin round the water, which fills a box (--scene ground: none)");
@@ -713,7 +772,7 @@ fn look(
     for frame in probes.frames.iter_mut().filter(|frame| frame.densities.is_none()) {
         frame.densities = session::guessed_densities(spray, frame, &settings.water);
     }
-    let fps = args.fps.or(probes.fps).unwrap_or(DEFAULT_FPS);
+    let fps = sequence.said.or(probes.fps).unwrap_or(DEFAULT_FPS * sequence.step);
     let camera = match sequence.turning {
         Some(turning) => camera.turned(turning.turn(fps))?,
         None => camera,
@@ -757,7 +816,8 @@ fn look(
     let fps = (remembers || vectors || sequence.is && sequence.film.is_some()).then(|| {
         if args.fps.is_none() {
             let found = if probes.fps.is_some() { "found; " } else { "" };
-            progress.say(&format!("{} frames a second ({found}--fps sets it)", round(fps)));
+            let fps = round(fps / sequence.step);
+            progress.say(&format!("{fps} frames a second ({found}--fps sets it)"));
         }
         fps
     });

@@ -390,7 +390,7 @@ impl<'a> Session<'a> {
             .times
             .step("read", number, || files.map(|files| files.open(content)).transpose())?;
         let count = diffuse.as_ref().map_or(0, diffuse::Reading::total);
-        self.read = diffuse.as_ref().map(diffuse::Reading::total);
+        self.read = diffuse.as_ref().map(diffuse::Reading::read);
         self.make_room_with(particles.positions.len(), count)?;
         let previous = match (before.filter(|_| self.motion), self.look.rate) {
             (Some(before), Some(rate)) => {

@@ -179,6 +179,9 @@ pub fn basin_round(
         let of = sides.iter().filter(|side| towards_eye(side) == near);
         of.map(|s| if near { s.level + spacing } else { s.highest + thick }).fold(floor, f32::max)
     };
+    // Where water stands, not splashes, the walls behind it are as high as it.
+    let stands = sides.iter().filter(|side| !towards_eye(side)).map(|side| side.level + thick);
+    let stands = stands.fold(floor, f32::max);
     let sheet = 1.0e-3 * longest;
     push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles, &[3]);
     for side in &sides {
@@ -186,6 +189,7 @@ pub fn basin_round(
         let near = towards_eye(side);
         let most = if near { 0.12 } else { 0.2 };
         let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
+        let top = if near { top } else { top.max(stands - slab) };
         let across = 2 - side.axis;
         let wall = |inner: f32, outer: f32, top: f32, longer: f32| {
             let mut from = middle;
@@ -300,6 +304,16 @@ mod tests {
         let [r, g, b] =
             scene.meshes.iter().find(|m| m.name == "basin floor").unwrap().material.base_color;
         assert!(r.max(g).max(b) < 1.05 * r.min(g).min(b), "{r} {g} {b}");
+        // A tall block stands before walls as high as it.
+        let tall: Vec<_> =
+            (0..12_000).map(|i| [i % 20, i / 20 % 30, i / 600].map(|i| 0.1 * i as f32)).collect();
+        let scene = basin(&tall).unwrap();
+        let walls: Vec<f32> =
+            scene.meshes.iter().filter(|m| m.name == "basin wall").map(top).collect();
+        assert!(
+            walls[0] > 2.86 && walls[2] > 2.86 && walls[1] < 0.4 && walls[3] < 0.4,
+            "{walls:?}"
+        );
         assert!(basin(&block(true)).is_none(), "a wedge fills no box");
         assert!(basin(&[[0.0; 3]]).is_none());
     }

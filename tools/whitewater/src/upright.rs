@@ -11,10 +11,16 @@ use crate::bounds::Bounds;
 const COLUMN: f32 = 3.0;
 /// Particles so many spacings from an end of an axis lie at it.
 const NEAR: f32 = 2.0;
+/// What is no thicker than so many spacings is one layer.
+const LAYER: f32 = 0.6;
 /// How much more of the water lies on a floor than under a lid of the same kind, so that it is taken for one.
 const OPEN: f32 = 0.35;
 /// Of the root mean square speed: how fast water as a whole goes up, or down.
 const MOVES: f32 = 0.1;
+/// The same of water that falls as a whole.
+const FALLS: f32 = 0.25;
+/// What little of a surface there is, of such water.
+const SOME: f32 = 0.03;
 
 /// What an axis looks like as the one that points up.
 #[derive(Clone, Copy, Debug)]
@@ -35,11 +41,27 @@ pub fn is_z(frames: &[Particles]) -> Option<&'static str> {
     if lies && z.open - y.open >= OPEN {
         return Some("the water lies at the lower end of z, and is open above");
     }
-    // Against a wall it lies as on a floor: it goes away from one, and down on the other.
-    if lies && z.moves < -MOVES && y.moves > MOVES {
+    // Against a wall it lies as on a floor: it goes away from one, and down on the other. Of a block that has just begun to
+    // fall the surface is nearly a lid.
+    let from_wall = lies && z.moves < -MOVES && y.moves > MOVES;
+    let falls = z.moves < -FALLS && y.moves.abs() < MOVES && z.open - y.open > SOME;
+    if from_wall || falls {
         return Some("the water comes down along z");
     }
     None
+}
+
+/// Across which axis all particles of all frames lie in one layer: they are two-dimensional.
+pub fn flat(frames: &[Particles]) -> Option<usize> {
+    let mut found = [true; 3];
+    for frame in frames {
+        let spacing = particles::estimate_spacing(&crate::bounds::together(&frame.positions))?;
+        let size = Bounds::of_bulk(&frame.positions)?.size();
+        (0..3).for_each(|axis| found[axis] &= size[axis] < LAYER * spacing);
+    }
+    // A line, or a point, lies in many planes.
+    let mut flat = (0..3).filter(|axis| found[*axis] && !frames.is_empty());
+    flat.next().filter(|_| flat.next().is_none())
 }
 
 fn look(frames: &[Particles], axis: usize) -> Option<Axis> {
@@ -95,6 +117,28 @@ mod tests {
     }
 
     #[test]
+    fn sheets_are_told() {
+        let sheet = |across: usize| {
+            let at = |i: usize| {
+                let mut p = [SPACING * (i % 30) as f32, SPACING * (i / 30) as f32, 0.0];
+                p.swap(across, 2);
+                p
+            };
+            [Particles::from_positions((0..600).map(at).collect())]
+        };
+        for across in 0..3 {
+            assert_eq!(flat(&sheet(across)), Some(across));
+        }
+        let [mut thick] = sheet(2);
+        thick.positions.push([0.3, 0.3, SPACING]);
+        thick.positions.extend((0..20).map(|i| [0.3, SPACING * i as f32, SPACING]));
+        assert_eq!(flat(&[thick]), None);
+        let line = (0..50).map(|i| [SPACING * i as f32, 0.0, 0.0]).collect();
+        assert_eq!(flat(&[Particles::from_positions(line)]), None);
+        assert_eq!(flat(&[]), None);
+    }
+
+    #[test]
     fn water_lies_on_the_floor() {
         let z_up = |p: [f32; 3]| p;
         let y_up = |[x, y, z]: [f32; 3]| [x, z, -y];
@@ -109,6 +153,16 @@ mod tests {
         assert_eq!(is_z(&[dam(y_up, true)]), None);
         assert_eq!(is_z(&[dam(z_up, false)]), None, "nothing tells: y");
         assert_eq!(is_z(&[dam(y_up, false)]), None);
+        // A block that falls, of whose surface a part has sunk.
+        let sunk = |turn: &dyn Fn([f32; 3]) -> [f32; 3]| {
+            let at = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
+            let at = at.filter(|[x, _, z]| *x < 0.33 || *z < 0.33);
+            let mut block = Particles::from_positions(at.map(turn).collect());
+            block.velocities = Some(vec![turn([0.3, 0.0, -0.5]); block.positions.len()]);
+            is_z(&[block]).is_some()
+        };
+        assert!(sunk(&|p| p));
+        assert!(!sunk(&|[x, y, z]| [x, z, -y]));
         // A block, and nothing.
         let block = (0..1000).map(|i| [i % 10, i / 10 % 10, i / 100].map(|i| SPACING * i as f32));
         assert_eq!(is_z(&[Particles::from_positions(block.collect())]), None);

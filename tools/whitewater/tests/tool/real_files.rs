@@ -98,3 +98,138 @@ fn whitewater_files_that_do_not_fit_are_told() {
     }
     folder.run(&format!("{common} foam=b_%04d.ply -o d.png")).fails(3, &["2 files fit 'b_%d.ply'"]);
 }
+
+/// Walls in the files of the water are told, and left out by --where; the picture is then that of the water alone.
+#[test]
+fn walls_are_told_and_left_out() {
+    let folder = Folder::new();
+    let mut rows = String::from("Type,Idp,x,y,z,vx,vy,vz\n");
+    let water: Vec<_> = slope();
+    let mut alone = String::from("x,y,z,vx,vy,vz\n");
+    for (i, [[x, y, z], [u, v, w]]) in water.iter().enumerate() {
+        rows += &format!("3,{i},{x},{y},{z},{u},{v},{w}\n");
+        alone += &format!("{x},{y},{z},{u},{v},{w}\n");
+    }
+    for i in 0..400 {
+        let [x, z] = [i % 20, i / 20].map(|i| 0.1 * i as f32 - 0.4);
+        rows += &format!("0,{},{x},-0.05,{z},0,0,0\n", 5000 + i);
+    }
+    folder.text("all.csv", &rows);
+    folder.text("water.csv", &alone);
+    let run = |file: &str, more: &str, out: &str| {
+        let common = format!("{SMALL} --radius 0.025 --layers water.depth");
+        folder.run(&format!("render {file}.csv -o {out}.exr {common} {more}")).ok().stderr()
+    };
+    let said = run("all", "", "all");
+    let expected = format!(
+        "attribute `Type` has the values 0 (400 particles) and 3 ({} particles), all drawn as one water",
+        water.len()
+    );
+    assert_eq!(said.matches(&expected).count(), 1, "{said}");
+    assert!(said.contains("--where 'Type=3'"), "what moves: {said}");
+    let plain = run("water", "", "water");
+    for (out, more) in [("is", "--where type=3"), ("more", "--where Type>1 --where Idp<4999")] {
+        let said = run("all", more, out);
+        assert!(!said.contains("attribute `Type`"), "{said}");
+        assert!(said.contains(&format!("{} particles", water.len())), "{said}");
+        folder.run(&format!("compare water.exr {out}.exr")).ok();
+    }
+    folder.run("compare water.exr all.exr --tolerance 1e-3").fails(1, &["RMSE"]);
+    assert!(!plain.contains("attribute"), "{plain}");
+    let text = folder.run("info all.csv").ok().stdout();
+    assert!(text.contains("values      Type: 0 (400 particles), 3"), "{text}");
+    let fails = |more: &str, parts: &[&str]| {
+        folder.run(&format!("render all.csv -o a.png {more}")).fails(3, parts);
+    };
+    fails("--where phase=1", &["--where 'phase=1'", "attribute `phase`", "Idp"]);
+    fails("--where Type=2", &["none", "values are 0 and 3"]);
+    folder.run("render all.csv -o a.png --where Type~3").fails_at_once();
+}
+
+/// Radii in the files are the particles', and what lies at one place is drawn once.
+#[test]
+fn radii_and_copies_of_particles_are_understood() {
+    let folder = Folder::new();
+    let (mut rows, mut twice) = (String::from("x,y,z,radius\n"), String::from("x,y,z\n"));
+    for [[x, y, z], _] in slope() {
+        rows += &format!("{x},{y},{z},{}\n", if z > 0.3 { 0.028 } else { 0.031 });
+        twice += &format!("{x},{y},{z}\n{x},{y},{z}\n");
+    }
+    folder.text("radii.csv", &rows);
+    folder.text("twice.csv", &twice);
+    let said = folder.run(&format!("render radii.csv -o r.png {SMALL}")).ok().stderr();
+    assert!(
+        said.contains("radius 0.031 (of the files; those of the files go from 0.028 to 0.031"),
+        "{said}"
+    );
+    let text = folder.run("info radii.csv").ok().stdout();
+    assert!(text.contains("radius (number x 1): radius"), "{text}");
+    let said = folder.run(&format!("render twice.csv -o t.png {SMALL}")).ok().stderr();
+    let count = slope().len();
+    for part in [
+        format!("{count} copies of particles"),
+        format!("{count} particles"),
+        "radius 0.025 ".into(),
+    ] {
+        assert!(said.contains(&part), "{part}: {said}");
+    }
+}
+
+/// A sheet of particles is told, and seen from before it, whichever two axes it lies in.
+#[test]
+fn two_dimensions_are_told_and_seen_from_the_front() {
+    let folder = Folder::new();
+    let sheet: Vec<_> = slope().into_iter().filter(|[p, _]| p[2] == 0.0).collect();
+    folder.text("xy.csv", &csv(&sheet, |p| p));
+    folder.text("xz.csv", &csv(&sheet, |[x, y, z]| [x, -z, y]));
+    for file in ["xy", "xz"] {
+        let common = format!("{SMALL} --layers water.depth");
+        let said = folder.run(&format!("render {file}.csv -o {file}.exr {common}")).ok().stderr();
+        assert!(said.contains("two-dimensional: drawn as a sheet one spacing thick"), "{said}");
+        assert_eq!(said.contains("z is up in the files"), file == "xz", "{said}");
+        assert!(!said.contains("a basin"), "{said}");
+    }
+    folder.run("compare xy.exr xz.exr --tolerance 1e-4").ok();
+    let picture = folder.picture("xy.exr");
+    let depth = picture.channel("water.depth.Z").unwrap();
+    let wet = depth.iter().filter(|z| **z < whitewater::io::picture::EMPTY).count();
+    assert!(wet > 600, "{wet} of {} pixels", depth.len());
+}
+
+/// A folder is the sequence in it, and numbers of steps are no times: frames a second are those of the files.
+#[test]
+fn a_folder_of_steps_becomes_a_film() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("out")).unwrap();
+    for (i, step) in [0, 500, 1000, 1500].into_iter().enumerate() {
+        let moved = 0.02 * i as f32;
+        let mut rows = String::from("ITEM: TIMESTEP\n");
+        rows += &format!("{step}\nITEM: NUMBER OF ATOMS\n{}\n", slope().len());
+        rows += "ITEM: BOX BOUNDS ff ff ff\n0 2\n0 2\n0 2\nITEM: ATOMS id x y z vx vy vz\n";
+        for (id, [[x, y, z], _]) in slope().into_iter().enumerate() {
+            rows += &format!("{id} {} {} {y} 0.5 0 0\n", x + moved, -z);
+        }
+        folder.text(&format!("out/dump.{step}"), &rows);
+    }
+    let common = format!("render out {SMALL} -o film.mp4 --overwrite");
+    let said = folder.run(&common).ok().stderr();
+    assert!(said.contains("25 frames a second (found"), "{said}");
+    assert_eq!(folder.film("film.mp4"), (4, 25.0));
+    folder.run(&format!("{common} --fps 12")).ok();
+    assert_eq!(folder.film("film.mp4"), (4, 12.0));
+    folder.run(&format!("{common} --fps 12 --every 2")).ok();
+    assert_eq!(folder.film("film.mp4"), (2, 6.0));
+    // Without velocities or ids times in names tell the rate.
+    for time in ["0.32", "0.36", "0.4"] {
+        folder.particles(&format!("t{time}.ply"), slope().iter().map(|[p, _]| *p).collect());
+    }
+    let said = folder.run(&format!("render t*.ply {SMALL} -o times.mp4")).ok().stderr();
+    assert!(said.contains("25 frames a second (found"), "{said}");
+    folder.run("info out").ok();
+    folder.text("out/foam_1.csv", "x,y,z\n0,0,0\n");
+    folder
+        .run("render out -o a.png")
+        .fails(3, &["several sequences", "'out/dump.*' (4 files)", "'out/foam_*.csv' (1 file)"]);
+    folder.text("a.bi4", "DATA");
+    folder.run("render a.bi4 -o a.png").fails(3, &["a.bi4", "PartVTK"]);
+}

@@ -1,0 +1,73 @@
+//! Attributes that are asked for by name, and what became of the others.
+
+use std::path::PathBuf;
+
+use whitewater::io::particles::{
+    Extra, Meaning, Particles, WriteFormat, read, read_with, same_name, write,
+};
+
+/// Where a test's own file goes.
+fn place(name: &str) -> PathBuf {
+    std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+fn file(name: &str) -> PathBuf {
+    let path = place(name);
+    std::fs::write(&path, ROWS).unwrap();
+    path
+}
+
+const ROWS: &str = "x,y,z,Vel.x [m/s],Vel.y [m/s],Vel.z [m/s],Mk,Press [Pa],note\n\
+                    0,0,0,1,2,3,11,0.5,wall\n1,0,0,1,2,3,1,1.5,\n0,1,0,1,2,3,1,-2,water\n";
+
+#[test]
+fn attributes_are_read_that_are_asked_for() {
+    let csv = file("asked.csv");
+    let plain = read(&csv).unwrap();
+    assert!(plain.extras.is_empty());
+    let all = read_with(&csv, &["press", "MK", "type", "density"]).unwrap();
+    let extra = |name: &str, values: [f64; 3]| Extra { name: name.into(), values: values.into() };
+    assert_eq!(all.extras, [extra("Mk", [11.0, 1.0, 1.0]), extra("Press [Pa]", [0.5, 1.5, -2.0])]);
+    // Nothing else differs, and nothing is asked for any more.
+    assert_eq!(Particles { extras: Vec::new(), ..all.clone() }, plain);
+    assert_eq!(read(&csv).unwrap(), plain);
+    let mut some = all;
+    some.retain(&[false, true]);
+    assert_eq!(some.positions, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    assert_eq!(some.velocities.as_ref().unwrap().len(), 2);
+    assert_eq!(some.extras[0].values, [1.0, 1.0]);
+    assert!(same_name("Press [Pa]", "press") && !same_name("press", "pressure"));
+}
+
+/// What has a meaning as well can be asked for, in any format.
+#[test]
+fn kinds_can_be_asked_for() {
+    let mut particles = Particles::from_positions(vec![[0.0; 3], [1.0; 3]]);
+    particles.kinds = Some(vec![3, 0]);
+    for (format, suffix) in [
+        (WriteFormat::Vtu, ".vtu"),
+        (WriteFormat::Ply, ".ply"),
+        (WriteFormat::Npz, ".npz"),
+        (WriteFormat::Bgeo { gzip: false }, ".bgeo"),
+    ] {
+        let path = place(&format!("kinds{suffix}"));
+        write(&path, &particles, format).unwrap();
+        let found = read_with(&path, &["type"]).unwrap();
+        assert_eq!(found.kinds, Some(vec![3, 0]), "{suffix}");
+        assert_eq!(found.extras.len(), 1, "{suffix}");
+        assert_eq!(found.extras[0].values, [3.0, 0.0], "{suffix}");
+        let meanings: Vec<Meaning> = found.meanings.iter().map(|(meaning, _)| *meaning).collect();
+        assert_eq!(meanings, [Meaning::Position, Meaning::Kind], "{suffix}");
+    }
+}
+
+#[test]
+fn what_became_of_attributes_is_told() {
+    let csv = read(&file("told.csv")).unwrap();
+    let [(Meaning::Position, positions), (Meaning::Velocity, velocities)] = &csv.meanings[..]
+    else {
+        panic!("{:?}", csv.meanings)
+    };
+    assert_eq!(positions, &["x", "y", "z"]);
+    assert_eq!(velocities[0], "Vel.x [m/s]");
+}

@@ -1,0 +1,289 @@
+//! Attributes beside those that are drawn: what tells walls from water, and radii.
+
+use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
+
+use glam::Vec3;
+use whitewater::io::particles::{self, Extra, Particles, same_name};
+
+use crate::failure::{Failure, Outcome};
+
+/// Names of what tells phases, or walls from water.
+const PHASES: [&str; 13] = [
+    "type",
+    "mk",
+    "phase",
+    "phase id",
+    "fluid",
+    "fluid id",
+    "material",
+    "object id",
+    "boundary",
+    "is boundary",
+    "marker",
+    "ptype",
+    "zone",
+];
+/// Names of radii.
+const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
+/// An attribute that tells phases has no more values.
+const MOST: usize = 16;
+/// Share of positions that are there twice, from which on copies are left out.
+const DOUBLED: f64 = 0.05;
+
+/// What an attribute has to be, so that a particle is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition {
+    name: String,
+    compare: Compare,
+    value: f64,
+    text: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Compare {
+    Is,
+    IsNot,
+    Less,
+    More,
+    AtMost,
+    AtLeast,
+}
+
+/// `NAME=VALUE` and the like.
+pub fn condition(text: &str) -> Result<Condition, String> {
+    let bad =
+        || "expected a comparison such as Type=3, mk!=0 or z<1.5 (= != < > <= >=)".to_string();
+    let at = text.find(['=', '!', '<', '>']).ok_or_else(bad)?;
+    let (name, rest) = text.split_at(at);
+    let forms = [
+        ("==", Compare::Is),
+        ("!=", Compare::IsNot),
+        ("<=", Compare::AtMost),
+        (">=", Compare::AtLeast),
+        ("=", Compare::Is),
+        ("<", Compare::Less),
+        (">", Compare::More),
+    ];
+    let found =
+        forms.into_iter().find_map(|(form, compare)| Some((rest.strip_prefix(form)?, compare)));
+    let (value, compare) = found.ok_or_else(bad)?;
+    let value: f64 = value.trim().parse().map_err(|_| bad())?;
+    if name.trim().is_empty() || !value.is_finite() {
+        return Err(bad());
+    }
+    Ok(Condition { name: name.trim().into(), compare, value, text: text.into() })
+}
+
+impl Condition {
+    fn holds(&self, value: f64) -> bool {
+        match self.compare {
+            Compare::Is => value == self.value,
+            Compare::IsNot => value != self.value,
+            Compare::Less => value < self.value,
+            Compare::More => value > self.value,
+            Compare::AtMost => value <= self.value,
+            Compare::AtLeast => value >= self.value,
+        }
+    }
+}
+
+/// Reads a file with what is looked at here.
+pub fn read(path: &Path, conditions: &[Condition]) -> Outcome<Particles> {
+    let asked = conditions.iter().map(|condition| condition.name.as_str());
+    let names: Vec<&str> = PHASES.into_iter().chain(RADII).chain(asked).collect();
+    Ok(particles::read_with(path, &names)?)
+}
+
+/// Leaves the particles for which all conditions hold.
+pub fn select(particles: &mut Particles, conditions: &[Condition], path: &Path) -> Outcome<()> {
+    let count = particles.positions.len();
+    let mut kept = vec![true; count];
+    for condition in conditions {
+        let bad = |why: String| {
+            Failure::input(format!("--where '{}': {}: {why}", condition.text, path.display()))
+        };
+        let Some(extra) = find(particles, &condition.name) else {
+            let names = particles.attributes.iter().map(|a| a.name.as_str());
+            let names: Vec<_> = names.take(24).collect();
+            return Err(bad(format!(
+                "expected an attribute `{}` of one number for each particle, found {}",
+                condition.name,
+                names.join(", ")
+            )));
+        };
+        kept.iter_mut()
+            .zip(&extra.values)
+            .for_each(|(kept, value)| *kept &= condition.holds(*value));
+        if !kept.contains(&true) {
+            let found = values(extra).map_or(String::new(), |values| {
+                format!(", whose values are {}", list(values.keys().map(|v| number(*v))))
+            });
+            return Err(bad(format!("expected some of the {count} particles, found none{found}")));
+        }
+    }
+    if kept.contains(&false) {
+        particles.retain(&kept);
+    }
+    Ok(())
+}
+
+fn find<'a>(particles: &'a Particles, name: &str) -> Option<&'a Extra> {
+    particles.extras.iter().find(|extra| same_name(&extra.name, name))
+}
+
+/// Values as numbers of whole value, and how many particles have each; none of what is no such thing.
+fn values(extra: &Extra) -> Option<BTreeMap<i64, usize>> {
+    let mut counts = BTreeMap::new();
+    for value in &extra.values {
+        if value.fract() != 0.0 || value.abs() > 1.0e9 {
+            return None;
+        }
+        *counts.entry(*value as i64).or_default() += 1;
+        if counts.len() > MOST {
+            return None;
+        }
+    }
+    Some(counts)
+}
+
+fn number(value: i64) -> String {
+    value.to_string()
+}
+
+/// With commas and a word before the last.
+fn list(words: impl Iterator<Item = String>) -> String {
+    let words: Vec<_> = words.collect();
+    match words.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        Some((last, _)) => last.clone(),
+        None => String::new(),
+    }
+}
+
+/// Attributes that tell phases: their names, their values and how many particles have each.
+pub fn phases(particles: &Particles) -> Vec<(&str, BTreeMap<i64, usize>)> {
+    let phase = |extra: &&Extra| PHASES.iter().any(|name| same_name(&extra.name, name));
+    let all = particles.extras.iter().filter(phase);
+    all.filter_map(|extra| Some((extra.name.as_str(), values(extra)?))).collect()
+}
+
+/// A word on attributes that tell phases, of which all are drawn as one water.
+pub fn told(particles: &Particles, conditions: &[Condition]) -> Vec<String> {
+    let asked = |name: &str| conditions.iter().any(|condition| same_name(&condition.name, name));
+    let several = phases(particles).into_iter();
+    let several = several.filter(|(name, values)| values.len() > 1 && !asked(name));
+    let line = |(name, values): (&str, BTreeMap<i64, usize>)| {
+        let each = values.iter().map(|(value, count)| format!("{value} ({count} particles)"));
+        let liquid = liquid(particles, name, &values);
+        format!(
+            "attribute `{name}` has the values {}, all drawn as one water: walls, or other phases, are drawn too unless \
+             --where '{name}={liquid}' (or another of them) leaves them out",
+            list(each)
+        )
+    };
+    several.map(line).collect()
+}
+
+/// The value of what moves most; without velocities, of most particles.
+fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i64 {
+    let speed = |value: i64| -> f32 {
+        let (Some(velocities), Some(extra)) = (&particles.velocities, find(particles, name)) else {
+            return 0.0;
+        };
+        let of = velocities.iter().zip(&extra.values).filter(|(_, v)| **v as i64 == value);
+        let squares: Vec<f32> =
+            of.map(|(v, _)| Vec3::from(*v).length_squared()).filter(|s| s.is_finite()).collect();
+        squares.iter().sum::<f32>() / squares.len().max(1) as f32
+    };
+    let most = values.iter().map(|(value, count)| (speed(*value), *count, *value));
+    let most = most.max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    most.map_or(0, |(_, _, value)| value)
+}
+
+/// The smallest radius of the particles, the middle one and the largest, in the unit of the file.
+pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
+    let extra = RADII.iter().find_map(|name| find(particles, name))?;
+    let mut radii: Vec<f32> = extra.values.iter().map(|r| *r as f32).collect();
+    radii.retain(|radius| radius.is_finite() && *radius > 0.0);
+    radii.sort_unstable_by(f32::total_cmp);
+    Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
+}
+
+/// Whether an attribute is taken for radii.
+pub fn is_radius(name: &str) -> bool {
+    RADII.iter().any(|radius| same_name(radius, name))
+}
+
+/// Leaves one of particles that are at one place, where many are; says how many went.
+pub fn without_copies(particles: &mut Particles) -> usize {
+    let mut known = HashSet::with_capacity(particles.positions.len());
+    // The sign of zero is no place.
+    let place = |p: &[f32; 3]| p.map(|c| (c + 0.0).to_bits());
+    let first = |p: &[f32; 3]| !p.iter().all(|c| c.is_finite()) || known.insert(place(p));
+    let kept: Vec<bool> = particles.positions.iter().map(first).collect();
+    let copies = kept.iter().filter(|kept| !**kept).count();
+    if copies as f64 <= DOUBLED * kept.len() as f64 {
+        return 0;
+    }
+    particles.retain(&kept);
+    copies
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conditions_are_parsed() {
+        let of = |text: &str| condition(text).map(|c| (c.name, c.compare, c.value));
+        assert_eq!(of("Type=3"), Ok(("Type".into(), Compare::Is, 3.0)));
+        assert_eq!(of("mk == 3"), Ok(("mk".into(), Compare::Is, 3.0)));
+        assert_eq!(of("Points:2<=-1.5e0"), Ok(("Points:2".into(), Compare::AtMost, -1.5)));
+        assert_eq!(of("h!=0"), Ok(("h".into(), Compare::IsNot, 0.0)));
+        assert_eq!(of("h >= 1"), Ok(("h".into(), Compare::AtLeast, 1.0)));
+        for bad in ["Type", "=3", "Type=", "Type=water", "Type=nan", "Type=>3", "Type!3", ""] {
+            assert!(condition(bad).is_err(), "{bad}");
+        }
+    }
+
+    fn walls() -> Particles {
+        let mut particles =
+            Particles::from_positions((0..10).map(|i| [i as f32, 0.0, 0.0]).collect());
+        let speed = |i: usize| if i < 7 { [0.0; 3] } else { [1.0, 0.0, 0.0] };
+        particles.velocities = Some((0..10).map(speed).collect());
+        let values = (0..10).map(|i| if i < 7 { 0.0 } else { 3.0 }).collect();
+        particles.extras = vec![Extra { name: "Type".into(), values }];
+        particles
+    }
+
+    #[test]
+    fn walls_are_told_and_left_out() {
+        let particles = walls();
+        let told_of = |conditions: &[Condition]| told(&particles, conditions);
+        let [line] = &told_of(&[])[..] else { panic!("{:?}", told_of(&[])) };
+        for part in ["`Type` has the values 0 (7 particles) and 3 (3 particles)", "'Type=3'"] {
+            assert!(line.contains(part), "{line}");
+        }
+        let path = Path::new("a.csv");
+        let select = |text: &str| {
+            let mut particles = walls();
+            let conditions: Vec<_> = text.split(' ').map(|text| condition(text).unwrap()).collect();
+            assert!(told_of(&conditions).is_empty() || !text.contains("type"));
+            select(&mut particles, &conditions, path).map(|()| particles.positions.len())
+        };
+        assert_eq!(select("type=3").unwrap(), 3);
+        assert_eq!(select("type!=3").unwrap(), 7);
+        assert!(select("type=9").unwrap_err().message.contains("values are 0 and 3"));
+        assert!(select("mk=1").unwrap_err().message.contains("attribute `mk`"));
+    }
+
+    #[test]
+    fn copies_are_left_out() {
+        let mut particles =
+            Particles::from_positions(vec![[0.0; 3], [1.0; 3], [0.0; 3], [-0.0; 3], [f32::NAN; 3]]);
+        assert_eq!(without_copies(&mut particles), 2);
+        assert_eq!(particles.positions.len(), 3);
+        assert_eq!(without_copies(&mut particles), 0);
+    }
+}
