@@ -87,7 +87,7 @@ impl Header {
             }
             [frames, rows, 2 | 3] => Err(ReadError::Unsupported {
                 what: format!(
-                    "array `{name}` of shape {}: {frames} frames of {rows} particles",
+                    "array `{name}` of shape {}, {frames} frames of {rows} particles,",
                     self.words()
                 ),
                 advice: FRAMES,
@@ -117,7 +117,7 @@ impl Header {
                 let (frames, rows) = (rowed.rows, rowed.components);
                 return Err(ReadError::Unsupported {
                     what: format!(
-                        "array `{name}` of shape {}: {frames} frames of {rows} particles",
+                        "array `{name}` of shape {}, {frames} frames of {rows} particles,",
                         self.words()
                     ),
                     advice: FRAMES,
