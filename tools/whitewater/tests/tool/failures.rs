@@ -19,7 +19,7 @@ fn bad_inputs_are_code_3() {
         ("empty.bgeo", "empty"),
         ("cut.ply", "ends too early"),
         ("words.dat", "expected"),
-        (".", "directory"),
+        (".", "folder of several"),
     ] {
         folder.run(&format!("render {input} -o out.png {SMALL}")).fails(3, &[part]);
         folder.run(&format!("info {input}")).fails(3, &[part]);
