@@ -185,8 +185,6 @@ fn two_files_of_a_frame_are_told_what_to_do() {
     assert!(error.contains("pieces of one frame") && error.contains(".pvtu"), "{error}");
     let error = fails("times", &["a0.5.vtk", "b0.5.vtk"], "*.vtk");
     assert!(error.contains("both frame 0"), "{error}");
-    let error = fails("width of numbers", &["f_8.vtk", "f_12.vtk"], "f_%04d.vtk");
-    assert!(error.contains("another width: try 'f_*.vtk'"), "{error}");
 }
 
 #[test]

@@ -262,7 +262,6 @@ fn expand_printf(
     };
     let io = |reason| SequenceError::Io { path: folder.to_path_buf(), reason };
     let mut paths = Vec::new();
-    let mut padded_otherwise = false;
     for entry in std::fs::read_dir(folder).map_err(io)? {
         let entry = entry.map_err(io)?;
         let file = entry.file_name();
@@ -272,18 +271,13 @@ fn expand_printf(
         let Some(digits) = digits.filter(all).map(str::to_string) else { continue };
         let wide = digits.len() > width && !digits.starts_with('0');
         let fits = digits.len() == width || wide;
-        padded_otherwise |= !fits;
         if fits && entry.path().is_file() {
             // Joined to what was given, so that messages show the user's spelling.
             paths.push((path.with_file_name(file), digits.parse().ok()));
         }
     }
     if paths.is_empty() {
-        let mut near = near(Some(folder));
-        if padded_otherwise {
-            near += &format!("; there are numbers of another width: try '{prefix}*{suffix}'");
-        }
-        return Err(SequenceError::NoMatch { pattern: input.into(), near });
+        return Err(SequenceError::NoMatch { pattern: input.into(), near: near(Some(folder)) });
     }
     Ok(paths)
 }
