@@ -233,7 +233,8 @@ impl Files {
         let table = &file.diffuse;
         let said = table.radii.is_some() || table.radius.is_some();
         let spacing = settings.water.spacing;
-        let copies = if said { 1 } else { copies(self.columns, self.most) };
+        let few = || if said { 1 } else { copies(self.columns, self.most) };
+        let copies = table.copies.map_or_else(few, |copies| copies.clamp(1, 64));
         let columns = self.columns.map(|n| n.map(|n| n * copies as f32));
         let found = Sizes::of_columns(columns, spacing);
         let radii = table.radii.or((!said).then_some(found.radii));

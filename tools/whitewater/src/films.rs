@@ -55,6 +55,7 @@ fn eigenvalues(m: Mat3) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bubbles::Random;
 
     const SPACING: f32 = 0.1;
 
@@ -66,17 +67,18 @@ mod tests {
 
     /// 400 particles in a plane, so far from their places and from the plane, in spacings.
     fn plane(tilt: f32, anyhow: f32, off: f32) -> Vec<[f32; 3]> {
-        let noise = |i: u32, k: u32| ((i * 7919 + k * 104_729) as f32 * 0.618).fract() - 0.5;
+        let mut random = Random(7);
+        let mut noise = || random.next() - 0.5;
         let turn = Mat3::from_rotation_x(tilt);
-        let at = |i: u32| {
+        let mut at = |i: u32| {
             let grid = [
-                (i % 20) as f32 + anyhow * noise(i, 1),
-                off * noise(i, 2),
-                (i / 20) as f32 + anyhow * noise(i, 3),
+                (i % 20) as f32 + anyhow * noise(),
+                off * noise(),
+                (i / 20) as f32 + anyhow * noise(),
             ];
             (turn * (SPACING * Vec3::from(grid))).to_array()
         };
-        (0..400).map(at).collect()
+        (0..400).map(&mut at).collect()
     }
 
     #[test]

@@ -702,6 +702,7 @@ fn look(
         }
         // What a picture was drawn with stands in it.
         file.diffuse.radii = files.radii();
+        file.diffuse.copies = file.diffuse.radii.map(|_| files.copies());
     }
 
     let camera = camera.unwrap_or_else(|| {

@@ -37,6 +37,8 @@ table! {
     beside {
         /// Radii of foam, spray and bubbles of files, in the place of `radius`.
         radii: [f32; 3],
+        /// As how many a particle of files is drawn, scattered about its place.
+        copies: u32,
         /// Not of the look, as the next: they choose passes.
         occlusion: OcclusionWord,
         splat: SplatWord,
@@ -110,7 +112,7 @@ impl DiffuseTable {
 
     /// The table that says all of a look, and of the passes as this table does.
     pub fn all(&self, look: &DiffuseLook) -> Self {
-        let Self { radii, splat, .. } = *self;
-        Self { occlusion: Some(self.occlusion().into()), radii, splat, ..Self::of(look) }
+        let Self { radii, copies, splat, .. } = *self;
+        Self { occlusion: Some(self.occlusion().into()), radii, copies, splat, ..Self::of(look) }
     }
 }

@@ -120,6 +120,7 @@ fn everything() -> SettingsFile {
         threshold = 30.0
         [diffuse]
         radii = [0.1, 0.2, 0.3]
+        copies = 3
         splat = 'raster'
         [bubbles]
         hand_over = [3.0, 5.0]

@@ -120,7 +120,8 @@ fn few_particles_and_many_read_as_foam() {
         assert!(intensity > hides, "{name}: {intensity}");
         // The mean over the discs that Sizes goes by, of what is seen from 1.85 to 2.85 away; a few at the borders.
         let radius = setting(&exr, "radii").unwrap()[0].as_float().unwrap() as f32;
-        let n = if name == "few" { 10.0 } else { 1000.0 };
+        // Few are drawn as six each, so that there are sixty a column.
+        let n = if name == "few" { 60.0 } else { 1000.0 };
         let expected = 0.486_7 * n * (radius / 0.1).powi(2);
         let thickness = middle(&exr, "foam.thickness") + middle(&exr, "foam.submerged");
         assert!((thickness / expected - 1.0).abs() < 0.1, "{name}: {thickness} {expected}");

@@ -354,11 +354,11 @@ fn light_is_shown_as_asked() {
     for (name, more) in [
         ("auto", "--exposure auto"),
         ("none", ""),
-        ("film", "--tone agx"),
+        ("film", "--tone aces"),
         ("dark", "--exposure -1"),
         ("linear", "--tone linear"),
         ("neutral", "--tone neutral"),
-        ("aces", "--tone aces"),
+        ("agx", "--tone agx"),
     ] {
         let command = format!("render a.ply -o {name}.exr -o {name}.png {SMALL} {FRONT} {more}");
         folder.run(&command).ok();
@@ -367,8 +367,8 @@ fn light_is_shown_as_asked() {
     let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
     assert!(file("auto.png") == file("none.png") && file("auto.png") == file("film.png"));
     assert!(mean("dark.png") < 0.85 * mean("auto.png"));
-    for (i, a) in ["auto.png", "linear.png", "neutral.png", "aces.png"].iter().enumerate() {
-        for b in ["linear.png", "neutral.png", "aces.png"].iter().skip(i) {
+    for (i, a) in ["auto.png", "linear.png", "neutral.png", "agx.png"].iter().enumerate() {
+        for b in ["linear.png", "neutral.png", "agx.png"].iter().skip(i) {
             assert!(file(a) != file(b), "{a} {b}");
         }
     }
