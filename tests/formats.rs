@@ -15,6 +15,8 @@ mod data;
 mod dialects;
 #[path = "formats/extras.rs"]
 mod extras;
+#[path = "formats/folder.rs"]
+mod folder;
 #[path = "formats/indices.rs"]
 mod indices;
 #[path = "formats/parts.rs"]

@@ -338,10 +338,10 @@ impl Headless {
         Ok(())
     }
 
-    /// Puts the particles uploaded last elsewhere: their densities, foam and motion stay.
+    /// Replaces the positions of the particles that were uploaded last; their densities, foam and velocities stay.
     ///
     /// # Errors
-    /// Not as many as were uploaded.
+    /// The number of positions differs from the number of particles uploaded.
     pub fn move_particles(&mut self, positions: &[[f32; 3]]) -> Result<(), Error> {
         match &mut self.positions {
             Some(buffer) if positions.len() == self.count as usize => {
@@ -349,7 +349,7 @@ impl Headless {
                 buffer.mapped_mut()[..bytes.len()].copy_from_slice(bytes);
                 Ok(())
             }
-            _ => Err(Error::bad("positions", "not as many as before")),
+            _ => Err(Error::bad("positions", "not as many as were uploaded")),
         }
     }
 

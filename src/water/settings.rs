@@ -675,7 +675,8 @@ pub struct SprayLook {
     /// Half-axis of a particle's spray in drawn radii, (0, 8], default 0.5 as the source. Its
     /// droplets together are about as large.
     pub size: f32,
-    /// Droplets that a particle is drawn as at most, 1 (the source) to 64, default 16; of several a fifth at least.
+    /// The most droplets that a particle is drawn as, 1 (the source) to 64, default 16. If it is more than 1, each particle has
+    /// between a fifth and all of them, by its id.
     pub droplets: u32,
     /// Fractions of the rest density, rising, [0, ∞): below the first a particle is nothing but
     /// spray, from the second on its water has its full radius and its foam is whole, from the third
@@ -686,7 +687,8 @@ pub struct SprayLook {
     /// How far they lie from its centre at most, in spacings, [0, 8], default 1.5; 0: nowhere else
     /// (the source).
     pub spread: f32,
-    /// Seconds of motion that they lie apart along it besides, before and behind, [0, 1], default 0: torn water flies in strands.
+    /// Droplets are also spread along the particle's velocity, by as far as it moves in up to so many seconds, forwards and
+    /// backwards: [0, 1], default 0. So torn water flies in strands.
     pub stretch: f32,
     /// Share of the light that the middle of a particle's mist takes away, [0, 1), default 0.05. Mist takes the place of the
     /// first droplet where there are several.

@@ -1,36 +1,13 @@
 //! Files that name others, pieces of a frame, ghosts among them, and what is said of meshes and of time.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use super::folder::Folder;
 use super::samples;
 use whitewater::io::particles::sequence::{SequenceError, expand};
 use whitewater::io::particles::{
     Compression, Extension, Particles, Parts, Storage, find_origin, read, read_bytes,
 };
-
-/// A folder of files that goes away at the end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("whitewater-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn put(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.0.join(name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, bytes).unwrap();
-        path
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
 
 fn vtu(of: &Particles, storage: Storage, vtp: bool) -> Vec<u8> {
     let compression = if storage == Storage::Ascii { Compression::None } else { Compression::Zlib };
@@ -86,7 +63,7 @@ fn pieces_of_ranks_are_one_frame() {
     folder.put("p-8.2.vtu", &vtu(&some(4, 11), Storage::AppendedRaw, false)[..700]);
     let error = read(&index).unwrap_err().to_string();
     assert!(error.contains("p-8.2.vtu"), "{error}");
-    std::fs::remove_file(folder.0.join("p-8.2.vtu")).unwrap();
+    std::fs::remove_file(folder.path().join("p-8.2.vtu")).unwrap();
     let error = read(&index).unwrap_err().to_string();
     assert!(error.contains("cannot read") && error.contains("p-8.2.vtu"), "{error}");
 }
@@ -165,7 +142,8 @@ fn lists_of_frames_are_sequences() {
     let frames = |input: &Path| {
         let found = expand(&[input.display().to_string()], None);
         found.map(|list| {
-            let name = |path: &Path| path.strip_prefix(&folder.0).unwrap().display().to_string();
+            let name =
+                |path: &Path| path.strip_prefix(folder.path()).unwrap().display().to_string();
             list.iter().map(|f| (f.number, f.time, name(&f.path))).collect::<Vec<_>>()
         })
     };
@@ -213,7 +191,7 @@ fn pieces_among_the_frames_are_refused() {
     folder.put("p_8_0.vtu", EMPTY);
     folder.put("p_8_1.vtu", EMPTY);
     folder.put("p_8.pvtu", pvtu(&["p_8_0.vtu", "./p_8_1.vtu"]));
-    let pattern = |name: &str| folder.0.join(name).display().to_string();
+    let pattern = |name: &str| folder.path().join(name).display().to_string();
     let error = expand(&[pattern("*.vtu")], None).unwrap_err();
     assert!(matches!(error, SequenceError::Piece { .. }));
     assert!(error.to_string().contains("p_8.pvtu: give that one"), "{error}");
@@ -358,6 +336,6 @@ fn the_origin_of_a_file_is_found_by_its_first_particles() {
     assert_eq!(find_origin(&near).unwrap(), [0.0; 3]);
     let list = folder.put("far.json", "[[4e6, 0, 0], [4000001, 1, 1]]");
     assert_eq!(find_origin(&list).unwrap(), read(&list).unwrap().origin);
-    let none = find_origin(&folder.0.join("none.csv")).unwrap_err().to_string();
+    let none = find_origin(&folder.path().join("none.csv")).unwrap_err().to_string();
     assert!(none.contains("none.csv"), "{none}");
 }

@@ -2,8 +2,8 @@
 //! a part is in memory.
 
 use std::fmt::Write;
-use std::path::PathBuf;
 
+use super::folder::Folder;
 use super::{allocation, bad, samples};
 use whitewater::io::particles::{
     Compression, Extension, Format, Particles, Parts, ReadError, Storage, WriteFormat, read,
@@ -531,23 +531,6 @@ fn what_unpacks_without_end_is_refused() {
     }
 }
 
-/// A folder of its own that is gone after the test.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("whitewater-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 /// What is said at [`Parts`] of the bytes that are in memory.
 fn bound(size: usize) -> usize {
     160 * size + (2 << 20)
@@ -560,7 +543,7 @@ fn two_million_particles_take_no_more_memory_than_a_part() {
     let folder = Folder::new("parts");
     let particles = cloud(COUNT);
     for name in ["a.bgeo.gz", "a.ply"] {
-        let path = folder.0.join(name);
+        let path = folder.path().join(name);
         write(&path, &particles, WriteFormat::from_path(&path).unwrap()).unwrap();
         let ((), peak) = allocation::peak(|| {
             let mut shown = 0;
@@ -587,7 +570,7 @@ fn two_million_particles_take_no_more_memory_than_a_part() {
         std::fs::remove_file(&path).unwrap();
     }
     // Arrays side by side, each unpacked on its own; fewer, since packing them takes long.
-    let path = folder.0.join("a.npz");
+    let path = folder.path().join("a.npz");
     write(&path, &cloud(300_000), WriteFormat::Npz).unwrap();
     let (all, peak) = allocation::peak(|| {
         let parts = Parts::open(&path, 20_000).unwrap();
@@ -872,7 +855,7 @@ fn long_texts_in_elements_are_read_where_they_are() {
 #[test]
 fn a_file_that_changes_on_the_way_is_an_error() {
     let folder = Folder::new("changed");
-    let path = folder.0.join("a.bgeo");
+    let path = folder.path().join("a.bgeo");
     let sound = written(&cloud(100), WriteFormat::Bgeo { gzip: false });
     std::fs::write(&path, &sound).unwrap();
     let mut parts = Parts::open(&path, 30).unwrap();
@@ -904,7 +887,7 @@ fn a_file_that_changes_on_the_way_is_an_error() {
     };
     let arrays = xml.bytes(&cloud(100));
     for (name, sound) in [("a.csv", rows), ("a.vtu", arrays)] {
-        let path = folder.0.join(name);
+        let path = folder.path().join(name);
         let cut = sound[..sound.len() * 2 / 3].to_vec();
         let longer = [&sound[..], b"1,2,3,4,5,6,7,8,9\n"].concat();
         let mut other = sound.clone();
@@ -935,10 +918,13 @@ fn a_file_that_changes_on_the_way_is_an_error() {
         }
     }
     // What is no file has the words of reading at once.
-    let missing = folder.0.join("none.ply");
+    let missing = folder.path().join("none.ply");
     let said = |error: ReadError| error.to_string();
     assert_eq!(said(Parts::open(&missing, 1).unwrap_err()), said(read(&missing).unwrap_err()));
-    assert_eq!(said(Parts::open(&folder.0, 1).unwrap_err()), said(read(&folder.0).unwrap_err()));
+    assert_eq!(
+        said(Parts::open(folder.path(), 1).unwrap_err()),
+        said(read(folder.path()).unwrap_err())
+    );
     std::fs::write(&path, &sound[..99]).unwrap();
     assert_eq!(said(Parts::open(&path, 1).unwrap_err()), said(read(&path).unwrap_err()));
 }

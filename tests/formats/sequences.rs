@@ -1,26 +1,22 @@
 //! Inputs to numbered frames.
 
-use std::path::PathBuf;
-
+use super::folder::Folder;
 use whitewater::io::particles::sequence::{SequenceError, expand, parse_range};
 
-/// A folder of empty files that goes away at the end.
-struct Folder(PathBuf);
+/// A folder of empty files.
+struct Files(Folder);
 
-impl Folder {
+impl Files {
     fn new(name: &str, files: &[&str]) -> Self {
-        let path = std::env::temp_dir().join(format!("whitewater-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
+        let folder = Folder::new(name);
         for file in files {
-            let folder = path.join(file);
-            std::fs::create_dir_all(folder.parent().unwrap()).unwrap();
-            std::fs::write(path.join(file), b"").unwrap();
+            folder.put(file, b"");
         }
-        Self(path)
+        Self(folder)
     }
 
     fn input(&self, name: &str) -> String {
-        self.0.join(name).display().to_string()
+        self.0.path().join(name).display().to_string()
     }
 
     fn frames(&self, inputs: &[&str], range: Option<&str>) -> Vec<(u64, String)> {
@@ -34,12 +30,6 @@ impl Folder {
     }
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
 fn named(list: &[(u64, &str)]) -> Vec<(u64, String)> {
     list.iter().map(|(n, s)| (*n, (*s).to_string())).collect()
 }
@@ -47,7 +37,7 @@ fn named(list: &[(u64, &str)]) -> Vec<(u64, String)> {
 #[test]
 fn natural_order() {
     let folder =
-        Folder::new("natural", &["frame_10.bgeo", "frame_2.bgeo", "frame_1.bgeo", "other.txt"]);
+        Files::new("natural", &["frame_10.bgeo", "frame_2.bgeo", "frame_1.bgeo", "other.txt"]);
     let expected = named(&[(1, "frame_1.bgeo"), (2, "frame_2.bgeo"), (10, "frame_10.bgeo")]);
     assert_eq!(folder.frames(&["frame_*.bgeo"], None), expected);
     assert_eq!(folder.frames(&["frame_%d.bgeo"], None), expected);
@@ -59,7 +49,7 @@ fn natural_order() {
 
 #[test]
 fn printf_width() {
-    let folder = Folder::new(
+    let folder = Files::new(
         "width",
         &["a_0007.vtu", "a_7.vtu", "a_0010.vtu", "a_12345.vtu", "a_00011.vtu", "a_x.vtu"],
     );
@@ -71,23 +61,23 @@ fn printf_width() {
 
 #[test]
 fn the_number_is_the_run_that_differs() {
-    let folder = Folder::new("differs", &["run2_f3_v1.ply", "run2_f12_v1.ply"]);
+    let folder = Files::new("differs", &["run2_f3_v1.ply", "run2_f12_v1.ply"]);
     assert_eq!(
         folder.frames(&["*.ply"], None),
         named(&[(3, "run2_f3_v1.ply"), (12, "run2_f12_v1.ply")])
     );
     // Where two runs differ it is the last.
-    let folder = Folder::new("two", &["t5_f10.ply", "t6_f20.ply"]);
+    let folder = Files::new("two", &["t5_f10.ply", "t6_f20.ply"]);
     assert_eq!(folder.frames(&["*.ply"], None), named(&[(10, "t5_f10.ply"), (20, "t6_f20.ply")]));
-    let folder = Folder::new("single", &["dam27.npz", "still.ply", "a.ply"]);
+    let folder = Files::new("single", &["dam27.npz", "still.ply", "a.ply"]);
     assert_eq!(folder.frames(&["dam27.npz"], None), named(&[(27, "dam27.npz")]));
     assert_eq!(folder.frames(&["*.ply"], None), named(&[(0, "a.ply"), (1, "still.ply")]));
 }
 
 /// Files in an order that is not theirs, and their times.
 fn times(name: &str, files: &[&str], pattern: &str) -> Vec<(u64, Option<f64>, String)> {
-    let folder = Folder::new(name, files);
-    let root = format!("{}/", folder.0.display());
+    let folder = Files::new(name, files);
+    let root = format!("{}/", folder.0.path().display());
     let found = expand(&[folder.input(pattern)], None).unwrap();
     let short = |path: &std::path::Path| path.display().to_string().replace(&root, "");
     found.into_iter().map(|f| (f.number, f.time, short(&f.path))).collect()
@@ -174,7 +164,7 @@ fn numbers_that_are_no_times() {
 #[test]
 fn two_files_of_a_frame_are_told_what_to_do() {
     let fails = |name: &str, files: &[&str], pattern: &str| {
-        let folder = Folder::new(name, files);
+        let folder = Files::new(name, files);
         expand(&[folder.input(pattern)], None).unwrap_err().to_string()
     };
     let phases = ["D_Fluid_8.vtk", "D_Fluid_9.vtk", "D_Oil_8.vtk", "D_Oil_9.vtk"];
@@ -189,14 +179,14 @@ fn two_files_of_a_frame_are_told_what_to_do() {
 
 #[test]
 fn names_with_pattern_characters() {
-    let folder = Folder::new("odd", &["a[1].bgeo", "b%d_3.bgeo"]);
+    let folder = Files::new("odd", &["a[1].bgeo", "b%d_3.bgeo"]);
     assert_eq!(folder.frames(&["a[1].bgeo"], None), named(&[(1, "a[1].bgeo")]));
     assert_eq!(folder.frames(&["b%d_3.bgeo"], None), named(&[(3, "b%d_3.bgeo")]));
 }
 
 #[test]
 fn errors_say_what_is_there() {
-    let folder = Folder::new("errors", &["f_3.bgeo", "g_3.bgeo"]);
+    let folder = Files::new("errors", &["f_3.bgeo", "g_3.bgeo"]);
     let fails = |inputs: &[&str], range: Option<&str>| {
         let inputs: Vec<_> = inputs.iter().map(|i| folder.input(i)).collect();
         expand(&inputs, range.map(|r| parse_range(r).unwrap())).unwrap_err()

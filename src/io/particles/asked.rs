@@ -1,7 +1,7 @@
 //! Attributes without a meaning that a caller asks for by name.
 //!
-//! Names are looked at deep in each reader, by [`names::wanted`](super::names::wanted), when it lists what a file has. So
-//! what is asked for is known to the thread for as long as it reads one file, and to nothing else.
+//! The readers decide deep inside which attributes to keep ([`names::wanted`](super::names::wanted)). The requested names
+//! are therefore thread-local, and set only while one file is read.
 
 use std::cell::RefCell;
 

@@ -96,7 +96,7 @@ pub struct Attribute {
 pub struct Extra {
     /// As the file has it.
     pub name: String,
-    /// One for each particle. What is no number is NaN.
+    /// One value per particle; NaN where the file has no number.
     pub values: Vec<f64>,
 }
 
@@ -420,7 +420,8 @@ impl Shape<'_> {
     }
 }
 
-/// A column of three components or of two, or one column for each, by their indices. What is missing is 0.
+/// Where the components of a vector are stored: in one column of two or three components (its index and their number), or
+/// in a column each (their indices). Missing components are 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Vector {
     Whole(usize, usize),
@@ -457,7 +458,7 @@ pub(super) struct Roles {
     pub(super) ghosts: Option<usize>,
     /// Times or numbers of steps, where each particle has one.
     pub(super) steps: Option<usize>,
-    /// What was asked for by name.
+    /// Indices of the columns that the caller asked for by name.
     pub(super) extras: Vec<usize>,
 }
 

@@ -3,8 +3,12 @@
 
 use glam::{Vec2, Vec3};
 use whitewater::Camera;
+use whitewater::headless::Headless;
+use whitewater::io::particles::Particles;
+use whitewater::io::picture::{Channel, Layers};
 
 use crate::args::DrawArgs;
+use crate::failure::Outcome;
 
 /// Of a photograph: seconds, diameter of the lens over the distance in focus, and at most in metres.
 const SHUTTER: f32 = 0.01;
@@ -59,6 +63,29 @@ impl Blur {
             Sample { time, lens: radius * away * turn, pixel: pixel - 0.5 }
         })
     }
+
+    /// The mean of the pictures that are drawn of all samples, with the particles where they are then, and at last where they
+    /// were.
+    pub fn draw(
+        &self,
+        headless: &mut Headless,
+        particles: &Particles,
+        mut picture: impl FnMut(&mut Headless, Sample) -> Outcome<Layers>,
+    ) -> Outcome<Mean> {
+        let velocities = particles.velocities.as_ref().filter(|_| self.seconds > 0.0);
+        let mut mean = Mean::default();
+        for sample in self.samples() {
+            if let Some(velocities) = velocities {
+                let moved = moved(&particles.positions, velocities, sample.time);
+                headless.move_particles(&moved)?;
+            }
+            mean.add(&picture(headless, sample)?);
+        }
+        if velocities.is_some() {
+            headless.move_particles(&particles.positions)?;
+        }
+        Ok(mean)
+    }
 }
 
 /// The view from a point of the lens: what is `focus` away stays where it is in the picture of a size, but for the part of
@@ -81,7 +108,7 @@ pub fn through(
 }
 
 /// Where particles are after some seconds. What has no finite velocity stays.
-pub fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> Vec<[f32; 3]> {
+fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> Vec<[f32; 3]> {
     let there = |(p, v): (&[f32; 3], &[f32; 3])| {
         let to = Vec3::from(*p) + seconds * Vec3::from(*v);
         if to.is_finite() { to.to_array() } else { *p }
@@ -89,31 +116,35 @@ pub fn moved(positions: &[[f32; 3]], velocities: &[[f32; 3]], seconds: f32) -> V
     positions.iter().zip(velocities).map(there).collect()
 }
 
-/// Sums of the channels of a picture, and their mean.
+/// Sums of the channels of pictures of one size.
 #[derive(Default)]
 pub struct Mean {
-    sums: Vec<Vec<f64>>,
+    sums: Vec<(String, Vec<f64>)>,
     count: u32,
 }
 
 impl Mean {
-    /// Channels of one size, each time as many.
-    pub fn add<'a>(&mut self, channels: impl Iterator<Item = &'a [f32]>) {
-        for (i, channel) in channels.enumerate() {
-            if self.sums.len() <= i {
-                self.sums.push(vec![0.0; channel.len()]);
-            }
-            for (sum, value) in self.sums[i].iter_mut().zip(channel) {
+    fn add(&mut self, layers: &Layers) {
+        if self.sums.is_empty() {
+            let zero = |c: &Channel| (c.name.clone(), vec![0.0; c.data.len()]);
+            self.sums = layers.channels.iter().map(zero).collect();
+        }
+        for ((_, sums), channel) in self.sums.iter_mut().zip(&layers.channels) {
+            for (sum, value) in sums.iter_mut().zip(&channel.data) {
                 *sum += f64::from(*value);
             }
         }
         self.count += 1;
     }
 
-    /// Of the channel of a number.
-    pub fn of(&self, channel: usize) -> Option<Vec<f32>> {
-        let count = f64::from(self.count.max(1));
-        self.sums.get(channel).map(|sums| sums.iter().map(|sum| (sum / count) as f32).collect())
+    /// Replaces the channels of the same names.
+    pub fn put(&self, layers: &mut Layers) {
+        for channel in &mut layers.channels {
+            if let Some((_, sums)) = self.sums.iter().find(|(name, _)| *name == channel.name) {
+                let mean = |sum: &f64| (sum / f64::from(self.count)) as f32;
+                channel.data = sums.iter().map(mean).collect();
+            }
+        }
     }
 }
 
@@ -172,13 +203,19 @@ mod tests {
         let velocities = [[2.0, 0.0, -1.0], [f32::NAN, 0.0, 0.0], [f32::INFINITY, 0.0, 0.0]];
         let found = moved(&[[1.0; 3], [2.0; 3], [3.0; 3]], &velocities, -0.5);
         assert_eq!(found, [[0.0, 1.0, 1.5], [2.0; 3], [3.0; 3]]);
+        let layers = |a: f32, r: f32| {
+            let mut layers = Layers::new(2, 1);
+            layers.push("A", 2, 1, vec![a, 2.0 * a]).unwrap();
+            layers.push("R", 2, 1, vec![r; 2]).unwrap();
+            layers
+        };
         let mut mean = Mean::default();
-        for value in [1.0_f32, 3.0] {
-            mean.add([[value; 2].as_slice(), &[5.0]].into_iter());
-        }
-        assert_eq!(
-            (mean.of(0), mean.of(1), mean.of(2)),
-            (Some(vec![2.0; 2]), Some(vec![5.0]), None)
-        );
+        mean.add(&layers(1.0, 5.0));
+        mean.add(&layers(3.0, 5.0));
+        let mut whole = layers(0.0, 0.0);
+        whole.push("Z", 2, 1, vec![7.0; 2]).unwrap();
+        mean.put(&mut whole);
+        let of = |name: &str| whole.channel(name).unwrap().to_vec();
+        assert_eq!([of("A"), of("R"), of("Z")], [vec![2.0, 4.0], vec![5.0; 2], vec![7.0; 2]]);
     }
 }

@@ -14,7 +14,7 @@ use whitewater::water::{FoamSettings, Kernels, NoiseLook, Rule, Shading, WaterSe
 use whitewater::{Config, Offer, Previous, Region, Settings};
 
 use crate::args::{DrawArgs, NoiseArg, ShadowArg};
-use crate::blur::{self, Blur, Mean};
+use crate::blur::{self, Blur};
 use crate::bubbles::{self, Blobs};
 use crate::camera::{CameraFile, Lens};
 use crate::diffuse::{self, Diffusing};
@@ -100,6 +100,8 @@ pub struct Session<'a> {
     pub read: Option<usize>,
     /// It was said that there is no room for more of them.
     full: bool,
+    /// It was said that nothing moves.
+    unmoved: bool,
     /// Where what is made goes.
     pub keep: Option<Target<WriteFormat>>,
     /// In which axes and unit.
@@ -226,6 +228,7 @@ impl<'a> Session<'a> {
             making: None,
             read: None,
             full: false,
+            unmoved: false,
             keep: None,
             placing: Placing::default(),
             reel,
@@ -633,32 +636,22 @@ impl<'a> Session<'a> {
         let mut layers = layers;
         let focus = self.args.focus.or_else(|| camera_file.distance()).unwrap_or(1.0);
         if let Some(blur) = Blur::of(self.args, self.look.photograph, focus) {
-            let mut mean = Mean::default();
-            times.step("samples", number, || {
-                for sample in blur.samples() {
+            let still = particles.velocities.is_none();
+            if still && self.args.shutter.is_some() && !std::mem::replace(&mut self.unmoved, true) {
+                self.times.say("--shutter blurs nothing: there are no velocities");
+            }
+            let shown = times.step("samples", number, || {
+                blur.draw(headless, particles, |headless, sample| {
                     let view = blur::through(&camera, sample, focus, self.args.size);
-                    if let Some(velocities) =
-                        particles.velocities.as_ref().filter(|_| blur.seconds > 0.0)
-                    {
-                        let moved = blur::moved(&particles.positions, velocities, sample.time);
-                        headless.move_particles(&moved)?;
-                    }
                     headless.render(&view, &self.look.settings, &background)?;
                     let mut drawn = layers::collect(headless, self.args.size, &[], &lens)?;
                     if self.look.matte {
                         layers::matte(headless, &view, &self.look.settings, &mut drawn)?;
                     }
-                    mean.add(drawn.channels.iter().map(|channel| &channel.data[..]));
-                }
-                headless.move_particles(&particles.positions)?;
-                Outcome::Ok(())
+                    Ok(drawn)
+                })
             })?;
-            for (i, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
-                let channel = layers.channels.iter_mut().find(|channel| channel.name == name);
-                if let (Some(channel), Some(data)) = (channel, mean.of(i)) {
-                    channel.data = data;
-                }
-            }
+            shown.put(&mut layers);
         }
         let messages = headless.device().take_messages();
         if let Some(first) = messages.first() {
