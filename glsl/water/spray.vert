@@ -26,6 +26,8 @@ layout(location = 6) flat out uint chance; // that it is rounded up by
 const uint PLACE = 0x5370u;
 // Of those that a particle has but once.
 const uint SPINDLE = 4096u;
+// Of a particle that is nothing but spray, of the most.
+const float LEAST_MIST = 0.15;
 // Where water is asked for, in drawn radii.
 const float ASIDE = 1.5;
 
@@ -74,7 +76,10 @@ void main() {
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
     vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
-    amount.x = sprite.centre.w * (mist ? frame.spray_cloud.x : frame.spray.x) * still * still / (axes.x * axes.y);
+    float share = sprite.centre.w;
+    // Mist is where water is being torn, not about a lone drop.
+    float thick = mist ? frame.spray_cloud.x * max(4.0 * (1.0 - share), LEAST_MIST) : frame.spray.x;
+    amount.x = share * thick * still * still / (axes.x * axes.y);
     // Of all colours together: what it is in is foam more than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;
     amount.y = dot(sunlight(centre, seen), vec3(1.0 / 3.0));

@@ -690,8 +690,9 @@ pub struct SprayLook {
     /// Droplets are also spread along the particle's velocity, by as far as it moves in up to so many seconds, forwards and
     /// backwards: [0, 1], default 0. So torn water flies in strands.
     pub stretch: f32,
-    /// Share of the light that the middle of a particle's mist takes away, [0, 1), default 0.05. Mist takes the place of the
-    /// first droplet where there are several.
+    /// Share of the light that the middle of a particle's mist takes away where half of the particle is spray, [0, 1), default
+    /// 0.05. There is less mist where the water is whole, and 0.15 of it where all is spray: lone drops are not misty. Mist
+    /// takes the place of the first droplet where there are several.
     pub mist: f32,
     /// Half-axis of that mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,

@@ -92,7 +92,8 @@ fn spray_of(case: &Foamy) -> f64 {
     let drawn: f64 = (1..look.droplets).map(|k| (1.0 - f64::from(k) / many).min(0.8) / 0.8).sum();
     let droplets = drawn / (0.6 * many) * whole * whole * SQUARES / 0.513;
     let depth = |taken: f32| -(1.0 - f64::from(taken)).ln();
-    let mist = depth(look.mist) * f64::from(look.mist_size).powi(2);
+    // Of particles that are nothing but spray.
+    let mist = 0.15 * depth(look.mist) * f64::from(look.mist_size).powi(2);
     std::f64::consts::PI * KERNEL * (depth(look.opacity) * droplets + mist)
 }
 

@@ -41,6 +41,8 @@ const FADE: f64 = 1.5;
 const TRIGONOMETRY: f64 = 1.0 / 2048.0;
 /// Mean of the squares of the sizes of many droplets, and how many of them are drawn in the mean.
 const SQUARES: f64 = 0.513 * 0.6;
+/// Mist of a particle that is nothing but spray, of what is the most times its share: 4 s (1 - s).
+const LEAST_MIST: f64 = 0.15;
 /// Of the random numbers of a particle.
 const SPINDLE: u32 = 4096;
 
@@ -261,7 +263,9 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             .and(more(kept, exact(f64::from(k))))
             .and(more(depth, twice))
             .and(more(depth, near));
-        one.amount = share * one.amount;
+        let misty = at_least(exact(4.0) * (exact(1.0) - share), off(LEAST_MIST, 1.0));
+        let mist = if many && k == 0 { misty } else { exact(1.0) };
+        one.amount = share * mist * one.amount;
         one
     });
     all.filter(|one| one.drawn.maybe).collect()
@@ -510,7 +514,7 @@ mod tests {
         }
         // Droplets are as much together in the mean, but for the first, which is mist: in 400 particles whose numbers are
         // even from a fifth to all within 2 %, their sizes within 1 %.
-        let mist = (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
+        let mist = 0.15 * (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
         let many = Settings { droplets: 64, spread: 1.5, stretch: 0.02, ..settings };
         let velocity = DVec3::new(5.0, 0.0, 2.0);
         let all: Vec<_> = (0..400).map(|id| Particle { id, velocity, ..particle(at) }).collect();
@@ -613,7 +617,8 @@ mod tests {
             let pixel = -p.z * scale.abs().max_element();
             let a = (h + 0.5 * speed * settings.shutter as f32).max(0.7 * pixel);
             let b = h.max(0.7 * pixel);
-            let amount = share * -(1.0 - taken).ln() * h * h / (a * b);
+            let torn = if mist { (4.0 - 4.0 * share).max(0.15) } else { 1.0 };
+            let amount = share * torn * -(1.0 - taken).ln() * h * h / (a * b);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;
             }

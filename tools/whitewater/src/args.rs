@@ -270,7 +270,7 @@ pub struct DrawArgs {
     #[arg(long, value_name = "WHEN", value_parser = foaming)]
     pub foam: Option<Foaming>,
     /// Spray, of particles that are alone or nearly: auto (by densities of the file or found, table [spray] densities, in
-    /// shares of the rest density [default: 0.33, 0.4, 0.45]) or none [default: auto; with --whitewater none]
+    /// shares of the rest density [default: 0.28, 0.62, 0.7]) or none [default: auto; with --whitewater none]
     #[arg(long, value_enum)]
     pub spray: Option<SprayArg>,
     /// Noise on the surface, of the baseline (van der Laan et al. 2009), for comparison: none, surface

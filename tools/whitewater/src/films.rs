@@ -5,19 +5,26 @@ use glam::{Mat3, Vec3};
 use crate::cells::Cells;
 
 /// Neighbours that a film has at least.
-const NEIGHBOURS: usize = 4;
+const NEIGHBOURS: usize = 6;
 /// Least of its variances across over that along: flat as no sheet is that flies. Of the particles of 0.4 to 0.65 of the rest
 /// density two in a hundred of a crown and of jets have so little, of a film that runs over a floor 64.
 const FLAT: f32 = 0.02;
 /// Least of the shorter over the longer along: else it is a thread.
 const BROAD: f32 = 0.25;
 
+/// Spacings that a box is high, at least, to have a lid.
+const LID: f32 = 8.0;
+
 /// Raises densities of up to `limit` to it where a particle and those within two spacings of it lie in one plane. So a film
 /// is no spray.
 pub fn hold(positions: &[[f32; 3]], densities: &mut [f32], spacing: f32, limit: f32) {
     let reach = 2.0 * spacing;
     let cells = Cells::new(positions, reach, |_| true);
-    let few = |i: usize| densities[i] > 0.0 && densities[i] < limit;
+    let heights = || positions.iter().map(|p| p[1]).filter(|y| y.is_finite());
+    let (low, high) = (heights().fold(f32::MAX, f32::min), heights().fold(f32::MIN, f32::max));
+    // What lies flat above all else has hit the lid of the solver's box, and falls in drops.
+    let lid = if high - low > LID * spacing { high - spacing } else { f32::MAX };
+    let few = |i: usize| densities[i] > 0.0 && densities[i] < limit && positions[i][1] < lid;
     let flat = cells.map(few, |_, p, others| {
         let others = others.map(|(_, other)| other - p);
         let near: Vec<Vec3> = others.filter(|off| off.length_squared() < reach * reach).collect();
@@ -88,6 +95,14 @@ mod tests {
             assert!(held(&plane(tilt, 0.4, 0.05)) > 324, "{tilt}");
             assert!(held(&plane(tilt, 0.4, 0.9)) < 40, "{tilt}: {}", held(&plane(tilt, 0.4, 0.9)));
         }
+        // A plane far above other water.
+        let lid = Vec3::new(0.0, 12.0 * SPACING, 0.0);
+        let above = plane(0.0, 0.4, 0.05).into_iter().map(|p| (Vec3::from(p) + lid).to_array());
+        let both: Vec<_> = above.chain(plane(0.0, 0.4, 0.05)).collect();
+        let mut densities = vec![0.5; both.len()];
+        hold(&both, &mut densities, SPACING, 0.65);
+        let [upper, lower] = [0, 400].map(|i| &densities[i..i + 400]);
+        assert!(upper.iter().all(|d| *d < 0.6) && lower.iter().any(|d| *d > 0.6));
         let thread: Vec<_> = (0..50_u8).map(|i| [0.5 * SPACING * f32::from(i), 0.0, 0.0]).collect();
         assert_eq!(held(&thread), 0);
         let alone: Vec<_> = (0..50_u8).map(|i| [3.0 * SPACING * f32::from(i), 0.0, 0.0]).collect();

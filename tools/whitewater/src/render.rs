@@ -465,7 +465,7 @@ impl Probes {
 /// that the library's 0.85 is met by most of a splash (of the highest tenth of two solid jets by 82 %, by these 23 %). One
 /// neighbour at a spacing makes 0.40, a line of particles 0.48.
 /// Sheets of one layer (0.70) hold; what is torn to less has droplets about it and is water still.
-const SPRAY_DENSITIES: [f32; 3] = [0.33, 0.4, 0.65];
+const SPRAY_DENSITIES: [f32; 3] = [0.28, 0.62, 0.7];
 
 /// Puts the look of spray in caches over the library's: a particle is water that would fill some hundred drops. So fine ones
 /// are many, as far apart as is no mark that repeats, and drawn out along their motion by what they differ in speed: a third
@@ -475,11 +475,11 @@ pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32) {
         densities: SPRAY_DENSITIES,
         opacity: 0.85,
         droplets: 64,
-        size: 0.4,
-        spread: 3.5,
-        stretch: (0.25 * (spacing / 9.81).sqrt()).min(1.0),
-        mist: 0.015,
-        mist_size: 2.0,
+        size: 0.25,
+        spread: 4.5,
+        stretch: (0.4 * (spacing / 9.81).sqrt()).min(1.0),
+        mist: 0.045,
+        mist_size: 1.6,
         ..*spray
     };
 }
@@ -850,7 +850,7 @@ fn look(
         diffuse,
         bubbles: None,
         shores: None,
-        exposure: 0.0,
+        exposure: stage::exposure(set),
         spray,
         region,
         fps,

@@ -24,9 +24,9 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
     match set {
         // White: the water's colour is its own.
         SetArg::Pool | SetArg::None => [
-            of([0.40, 0.36, 0.31], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
+            of([0.175, 0.16, 0.145], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
             of([0.66, 0.66, 0.64], 0.22, tiles(36.0)),
-            of([0.50, 0.455, 0.39], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
+            of([0.36, 0.335, 0.295], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
         ],
         SetArg::Studio => [
             of([0.46; 3], 0.95, Pattern::Plain),
@@ -97,6 +97,8 @@ struct Side {
     /// Heights that the water has there nearly always, and that nearly all of it stays below.
     level: f32,
     highest: f32,
+    /// Height up to which water lies against it.
+    reach: f32,
 }
 
 /// The sides of the box that finite particles fill; `None` where they fill none. Most solvers hold
@@ -108,6 +110,13 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         places.sort_unstable_by(f32::total_cmp);
         // Without strays.
         let at = sign * *places.get(places.len().checked_sub(1 + places.len() / 1000)?)?;
+        let touches = |p: &&[f32; 3]| (p[axis] - at).abs() < 1.5 * spacing;
+        let mut touching: Vec<f32> =
+            frames.iter().copied().flatten().filter(touches).map(|p| p[1]).collect();
+        touching.sort_unstable_by(|a, b| b.total_cmp(a));
+        // Drops are no sheet: above it there are fewer than four rows of particles, of each frame.
+        let rows = 4.0 * bounds.size()[2 - axis] / spacing * frames.len() as f32;
+        let reach = touching.get(rows as usize).copied().unwrap_or(bounds.min.y);
         let across = 2 - axis;
         let (low, length) = (bounds.min[across], bounds.size()[across]);
         let count = ((length / (4.0 * spacing)) as usize).clamp(4, 64);
@@ -130,7 +139,7 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
         heights.sort_unstable_by(f32::total_cmp);
         let level = *heights.get(heights.len() / 4)?;
         let highest = heights[heights.len() * 9 / 10];
-        (share >= 0.6).then_some(Side { axis, sign, at, level, highest })
+        (share >= 0.6).then_some(Side { axis, sign, at, level, highest, reach })
     };
     Some([side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?])
 }
@@ -151,8 +160,12 @@ pub fn basin_round(
     let (thick, lining) = (0.035 * wide, 0.006 * wide);
     // A slab on the wall, and how far it juts out.
     let (slab, over) = (0.011 * wide, 0.008 * wide);
+    // Of panes of glass.
+    let edge = 0.0036 * wide;
     let floor = bounds.min.y;
     let [ground, tiles, stone] = materials(set, wide);
+    let glass = material([0.20, 0.30, 0.27], 0.15, Pattern::Plain);
+    let steel = material([0.30, 0.31, 0.32], 0.3, Pattern::Plain);
     // Inner faces, where the drawn spheres end.
     let reach = 0.66 * spacing;
     let face = |side: &Side| side.at + side.sign * reach;
@@ -182,14 +195,20 @@ pub fn basin_round(
     // Where water stands, not splashes, the walls behind it are as high as it.
     let stands = sides.iter().filter(|side| !towards_eye(side)).map(|side| side.level + thick);
     let stands = stands.fold(floor, f32::max);
+    // Not so high that they hide the water, or keep the sun from it.
+    let top_of = |near: bool| {
+        let most = if near { 0.12 } else { 0.2 };
+        let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
+        if near { top } else { top.max(stands - slab) }
+    };
+    // What would stand in the air without a wall is held by panes, as high as one another.
+    let foot = |side: &Side| top_of(towards_eye(side)) + slab;
+    let held = sides.iter().filter(|side| side.reach > foot(side) + 4.0 * spacing);
+    let head = held.map(|side| side.reach + spacing + 2.0 * edge).fold(floor, f32::max);
     let sheet = 1.0e-3 * longest;
     push("basin floor", low - glam::Vec3::Y * sheet, high + glam::Vec3::Y * sheet, &tiles, &[3]);
     for side in &sides {
-        // Not so high that they hide the water, or keep the sun from it.
-        let near = towards_eye(side);
-        let most = if near { 0.12 } else { 0.2 };
-        let top = highest(near).clamp(floor + thick, floor + most * wide) - slab;
-        let top = if near { top } else { top.max(stands - slab) };
+        let top = top_of(towards_eye(side));
         let across = 2 - side.axis;
         let wall = |inner: f32, outer: f32, top: f32, longer: f32| {
             let mut from = middle;
@@ -211,6 +230,35 @@ pub fn basin_round(
         let (mut from, to) = wall(inner, outer + side.sign * over, top + slab, thick + over);
         from.y = top;
         push("basin coping", from, to, &stone, &[]);
+        // Of clear glass the edges are seen, and what holds it.
+        let foot = foot(side);
+        if head > foot + 4.0 * spacing {
+            for (name, material, inner, outer, low, high, ends) in [
+                (
+                    "pane foot",
+                    &steel,
+                    inner,
+                    inner + side.sign * 3.0 * edge,
+                    foot,
+                    foot + 3.0 * edge,
+                    false,
+                ),
+                ("pane edge", &glass, inner, inner + side.sign * edge, head - edge, head, false),
+                ("pane edge", &glass, inner, inner + side.sign * edge, foot, head, true),
+            ] {
+                let (mut from, to) = wall(inner, outer, high, edge);
+                from.y = low;
+                if ends {
+                    let (mut near, mut far) = (to, from);
+                    near[across] = from[across] + edge;
+                    far[across] = to[across] - edge;
+                    push(name, from, near, material, &[]);
+                    push(name, far, to, material, &[]);
+                } else {
+                    push(name, from, to, material, &[]);
+                }
+            }
+        }
     }
     let place = Place {
         middle: Vec3::new(middle.x, floor, middle.z),
@@ -224,8 +272,13 @@ pub fn basin_round(
 /// Towards a sun that stands high and to the left of one who looks along `-towards_eye`.
 pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
-    let turned = glam::Quat::from_rotation_y(-80.0_f32.to_radians()) * level;
-    (0.6 * turned + 0.8 * glam::Vec3::Y).to_array()
+    let turned = glam::Quat::from_rotation_y(-122.0_f32.to_radians()) * level;
+    (0.68 * turned + 0.73 * glam::Vec3::Y).to_array()
+}
+
+/// Stops by which the pictures of a set are brighter: where its stone is dark, as photographers do.
+pub fn exposure(set: SetArg) -> f32 {
+    if set == SetArg::Pool { 0.3 } else { 0.0 }
 }
 
 /// The light of a set that has its own; `towards_eye`: from the water.
