@@ -144,7 +144,7 @@ impl Environment {
     /// it scatters, which has lost its colour.
     fn shade(&self) -> Vec3 {
         let sky = 0.5 * (self.sky_irradiance + self.sky_irradiance.dot(LUMINANCE));
-        sky + 0.15 * self.sun_irradiance * self.sun.y.max(0.0)
+        sky + 0.3 * self.sun_irradiance * self.sun.y.max(0.0)
     }
 
     /// The same sun for the scene behind the water.

@@ -491,10 +491,10 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
     *foam = FoamLook {
         extinction: 0.35 / spacing,
         front_extinction: 0.1 / spacing,
-        veil: 0.0,
-        relief: 0.2,
+        veil: 0.1 * spacing,
+        relief: 0.35,
         lace: 1.0,
-        lace_size: 1.2,
+        lace_size: 0.8,
         shape: 0.8,
         back_color: [0.62, 0.68, 0.73],
         front_color: [0.97; 3],

@@ -25,7 +25,7 @@ fn materials(set: SetArg, longest: f32) -> [Material; 3] {
         // White: the water's colour is its own.
         SetArg::Pool | SetArg::None => [
             of([0.175, 0.16, 0.145], 0.9, Pattern::Paving { size: round_length(longest / 14.0) }),
-            of([0.66, 0.66, 0.64], 0.22, tiles(36.0)),
+            of([0.46, 0.465, 0.46], 0.22, tiles(36.0)),
             of([0.36, 0.335, 0.295], 0.8, Pattern::Stone { course: round_length(longest / 8.0) }),
         ],
         SetArg::Studio => [
