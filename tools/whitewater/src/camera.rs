@@ -13,8 +13,8 @@ use crate::failure::{Failure, Outcome};
 const DEFAULT_FOV: f32 = 40.0;
 /// Of a view that is found: a lens that is neither wide nor long.
 const FOUND_FOV: f32 = 36.0;
-/// Where the horizon is then, from the middle (0) to the upper edge (1): the sky takes a fifth of the height.
-const HORIZON: f32 = 0.6;
+/// Where the horizon is then, from the middle (0) to the upper edge (1): the sky takes a seventh of the height.
+const HORIZON: f32 = 0.7;
 /// How far the axis looks down for that, radians, by whatever lens.
 const LEAST_PITCH: f32 = 0.14;
 const MOST_PITCH: f32 = 0.52;
@@ -22,7 +22,7 @@ const MOST_PITCH: f32 = 0.52;
 const HIGHEST: f32 = 27.0;
 /// How much of the half height, and of the half width, what is framed fills at most.
 const FILLED: f32 = 0.86;
-const WIDTH: f32 = 0.68;
+const WIDTH: f32 = 0.73;
 
 /// A camera as its file has it: the first six, or `view` and `projection`; or `keys`, by which it
 /// moves, and for which the others hold but eye and target.
@@ -253,7 +253,7 @@ impl CameraFile {
         Ok(Camera { view: Mat4::look_at_rh(eye, target, up), projection })
     }
 
-    /// A three-quarter view: the horizon a fifth below the picture's upper edge, the water in the lower part, as near as
+    /// A three-quarter view: the horizon a seventh below the picture's upper edge, the water in the lower part, as near as
     /// its width and what splashes of it let, with all of the bulk of each frame in the picture.
     pub fn of_particles(
         frames: &[&[[f32; 3]]],

@@ -35,6 +35,7 @@ mod sets;
 mod settings;
 mod shore;
 mod simulate;
+mod spouts;
 mod stage;
 mod timings;
 mod upright;

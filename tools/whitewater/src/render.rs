@@ -25,6 +25,7 @@ use crate::reader::{DEFAULT_FPS, Has, Reader};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
 use crate::shore::{self, Shores};
+use crate::spouts;
 use crate::stage;
 use crate::upright;
 
@@ -741,7 +742,13 @@ fn look(
             let frames: Vec<_> = probes.frames.iter().map(inside).collect();
             let frames: Vec<_> = frames.iter().map(|positions| &positions[..]).collect();
             let seen_from = (eye, sequence.turning.is_some());
-            let basin = stage::basin_round(&frames, &bounds, spacing, seen_from, set);
+            let jets = probes.frames.iter().find_map(|frame| {
+                let velocities = frame.velocities.as_ref()?;
+                let found = spouts::find(&frame.positions, velocities, spacing, bounds.min.y);
+                (!found.is_empty()).then_some(found)
+            });
+            let jets = jets.unwrap_or_default();
+            let basin = stage::basin_round(&frames, &bounds, spacing, seen_from, set, &jets);
             match basin.filter(|_| sheet.is_none()) {
                 Some(basin) => {
                     progress

@@ -131,13 +131,15 @@ fn garden(scene: &mut Scene, place: &Place) {
     // Trees behind it, and bushes at its foot.
     let (mut crowns, mut wood) = ([Vec::new(), Vec::new(), Vec::new()], [Vec::new(), Vec::new()]);
     let mut trunks = Mesh::default();
-    for i in 0..12 {
+    const TREES: usize = 22;
+    for i in 0..TREES {
         let n = |seed| number(i, seed);
-        // From the left of the far corner to its right.
-        let around = PI * (0.02 + 0.96 * (i as f32 + 0.7 * (n(31) - 0.5)) / 11.0) - 0.25 * PI;
-        let away = 5.0 + 7.0 * n(32);
+        // From the left of the far corner to its right, crown by crown: dark and even behind what is white.
+        let part = (i as f32 + 0.7 * (n(31) - 0.5)) / (TREES - 1) as f32;
+        let around = PI * (1.3 * part - 0.15) - 0.25 * PI;
+        let away = 4.6 + 2.2 * n(32);
         let at = away * Vec2::from_angle(around);
-        let height = (0.85 + 0.55 * n(33)) * (0.62 + 0.085 * away);
+        let height = (1.35 + 0.75 * n(33)) * (0.7 + 0.06 * away);
         tree(at, height, i, &mut crowns[(3.0 * n(34)) as usize % 3], &mut trunks);
     }
     // A wood before the hills, all round.

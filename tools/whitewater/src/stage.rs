@@ -11,6 +11,7 @@ use crate::bounds::Bounds;
 use crate::environment::Environment;
 use crate::failure::{Failure, Outcome};
 use crate::sets::{self, Place, material};
+use crate::spouts::Spout;
 
 /// Reads a scene.
 pub fn read(path: &Path) -> Outcome<Scene> {
@@ -152,6 +153,7 @@ pub fn basin_round(
     spacing: f32,
     (eye, from_all_sides): (Vec3, bool),
     set: SetArg,
+    spouts: &[Spout],
 ) -> Option<Scene> {
     let sides = sides(frames, bounds, spacing)?;
     let mut scene = extent(bounds, set);
@@ -260,6 +262,17 @@ pub fn basin_round(
             }
         }
     }
+    for spout in spouts {
+        // To behind the wall that it comes through.
+        let way = -spout.frame.z_axis;
+        let beyond = |side: &Side| {
+            let towards = side.sign * way[side.axis];
+            let gap = side.sign * (face(side) - spout.mouth[side.axis]);
+            if towards > 0.5 { (gap.max(0.0) + thick + over) / towards } else { 0.0 }
+        };
+        let back = sides.iter().map(beyond).fold(4.0 * spacing, f32::max);
+        scene.meshes.extend(spout.meshes(spacing, floor - 2.0 * sheet, back, &stone));
+    }
     let place = Place {
         middle: Vec3::new(middle.x, floor, middle.z),
         half: 0.5 * Vec2::new(high.x - low.x, high.z - low.z) + thick + over,
@@ -278,7 +291,7 @@ pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
 
 /// Stops by which the pictures of a set are brighter: where its stone is dark, as photographers do.
 pub fn exposure(set: SetArg) -> f32 {
-    if set == SetArg::Pool { 0.3 } else { 0.0 }
+    if set == SetArg::Pool { 0.45 } else { 0.0 }
 }
 
 /// The light of a set that has its own; `towards_eye`: from the water.
@@ -339,7 +352,7 @@ mod tests {
         let eye = Vec3::new(9.0, 5.0, 9.0);
         let basin = |points: &[[f32; 3]]| {
             let bounds = Bounds::of_bulk(points).unwrap();
-            basin_round(&[points], &bounds, 0.1, (eye, false), SetArg::Pool)
+            basin_round(&[points], &bounds, 0.1, (eye, false), SetArg::Pool, &[])
         };
         let scene = basin(&block(false)).unwrap();
         let top = |mesh: &Mesh| {

@@ -1,0 +1,226 @@
+//! Spouts: what water comes out of where a solver lets it in, in mid-air. Files hold the water alone, and a jet that begins
+//! as a flat face in the air looks cut off.
+
+use glam::{Mat3, Quat, Vec2, Vec3};
+use whitewater::headless::scene::{Material, Mesh};
+
+use crate::cells::Cells;
+
+/// Particles of a mouth, at least.
+const FEW: usize = 12;
+/// How far behind a particle of the mouth there is none, and how far beside that, in spacings.
+const BEHIND: f32 = 2.5;
+const BESIDE: f32 = 1.2;
+/// How much the velocities of neighbours differ at most, of their own.
+const ALIKE: f32 = 0.1;
+/// How steep a jet is at most, as a sine: the upper face of what falls looks like a mouth as well.
+const STEEP: f32 = 0.5;
+/// How far the particles of a mouth are from its plane at most, in spacings, and how much of its rectangle they fill at
+/// least: a circle fills 0.79 of it.
+const FLAT: f32 = 0.8;
+const FULL: f32 = 0.55;
+
+/// Where a jet begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spout {
+    /// The middle of its mouth.
+    pub mouth: Vec3,
+    /// To the right and upwards across the jet, and along it: a right-handed frame.
+    pub frame: Mat3,
+    /// Half of its width and of its height.
+    pub half: Vec2,
+}
+
+/// The spouts of a frame's particles at so many metres apart: flat faces, above `floor`, of water that moves out of them as
+/// one and has none behind it. One that moves slower than it would after a fall through a spacing is at rest.
+pub fn find(
+    positions: &[[f32; 3]],
+    velocities: &[[f32; 3]],
+    spacing: f32,
+    floor: f32,
+) -> Vec<Spout> {
+    let reach = BEHIND * spacing;
+    let slowest = (2.0 * 9.81 * spacing).sqrt();
+    let velocity = |i: usize| Vec3::from(velocities[i]);
+    let level = |v: Vec3| v.is_finite() && v.length() > slowest && v.y.abs() < STEEP * v.length();
+    let cells = Cells::new(positions, reach, |_| true);
+    let moving = |i: usize| level(velocity(i)) && positions[i][1] > floor + 2.0 * spacing;
+    let first = cells.map(moving, |i, p, others| {
+        let own = velocity(i);
+        let along = own.normalize_or_zero();
+        let mut before = 0;
+        for (other, at) in others {
+            let off = at - p;
+            let ahead = off.dot(along);
+            if other == i || off.length() > reach {
+                continue;
+            }
+            let beside = (off - ahead * along).length();
+            let behind = ahead < -0.5 * spacing && beside < BESIDE * spacing;
+            let near = off.length() < 1.5 * spacing;
+            if behind || near && (velocity(other) - own).length() > ALIKE * own.length() {
+                return false;
+            }
+            before += usize::from(ahead > 0.5 * spacing);
+        }
+        before >= 4
+    });
+    let mut left: Vec<usize> = first.into_iter().filter(|(_, is)| *is).map(|(i, _)| i).collect();
+    let mut spouts = Vec::new();
+    while let Some(seed) = left.pop() {
+        let mut mouth = vec![seed];
+        let mut next = 0;
+        while next < mouth.len() {
+            let (at, v) = (Vec3::from(positions[mouth[next]]), velocity(mouth[next]));
+            let joins = |i: &mut usize| {
+                let near = Vec3::from(positions[*i]).distance(at) < 1.8 * spacing;
+                near && (velocity(*i) - v).length() < ALIKE * v.length()
+            };
+            mouth.extend(left.extract_if(.., joins));
+            next += 1;
+        }
+        spouts.extend(spout(positions, &mouth, velocity, spacing));
+    }
+    // The same from run to run, whatever the threads were.
+    spouts.sort_by(|a, b| a.mouth.x.total_cmp(&b.mouth.x).then(a.mouth.z.total_cmp(&b.mouth.z)));
+    spouts
+}
+
+/// That of the particles of a mouth, if they fill a flat one.
+fn spout(
+    positions: &[[f32; 3]],
+    mouth: &[usize],
+    velocity: impl Fn(usize) -> Vec3,
+    spacing: f32,
+) -> Option<Spout> {
+    if mouth.len() < FEW {
+        return None;
+    }
+    let along = mouth.iter().map(|i| velocity(*i)).sum::<Vec3>().try_normalize()?;
+    let right = Vec3::Y.cross(along).try_normalize()?;
+    let frame = Mat3::from_cols(right, along.cross(right), along);
+    let own = |i: &usize| frame.transpose() * Vec3::from(positions[*i]);
+    let mut depths: Vec<f32> = mouth.iter().map(|i| own(i).z).collect();
+    depths.sort_unstable_by(f32::total_cmp);
+    let plane = depths[depths.len() / 2];
+    let flat = depths.iter().filter(|d| (**d - plane).abs() < FLAT * spacing).count();
+    let low = mouth.iter().map(own).fold(Vec3::MAX, Vec3::min);
+    let high = mouth.iter().map(own).fold(Vec3::MIN, Vec3::max);
+    let half = 0.5 * (high - low).truncate() + 0.5 * spacing;
+    let fills = mouth.len() as f32 * spacing * spacing / (4.0 * half.x * half.y);
+    let middle = (0.5 * (low + high)).truncate().extend(plane);
+    let is = 10 * flat >= 9 * mouth.len() && fills > FULL && half.min_element() > spacing;
+    is.then_some(Spout { mouth: frame * middle, frame, half })
+}
+
+impl Spout {
+    /// A channel with thick walls that the water comes out of, on a pier that stands on the floor `back` behind the mouth.
+    pub fn meshes(&self, spacing: f32, floor: f32, back: f32, stone: &Material) -> Vec<Mesh> {
+        let wall = (0.25 * self.half.min_element()).max(0.7 * spacing);
+        let turn = Quat::from_mat3(&self.frame).to_array();
+        let push = |name: &str, middle: Vec3, half: Vec3| {
+            let at = self.mouth + self.frame * middle;
+            let mesh = Mesh::cuboid(at.to_array(), half.to_array(), turn, stone.clone());
+            Mesh { name: name.into(), ..mesh }
+        };
+        let Vec2 { x, y } = self.half + 0.25 * spacing;
+        // The lip stands before the plane that hides where the water begins.
+        let (lip, hidden) = (0.9 * spacing, 0.3 * spacing);
+        let long = 0.5 * (back + lip);
+        let middle = lip - long;
+        let mut meshes = vec![push(
+            "spout",
+            Vec3::new(0.0, 0.0, hidden - 0.5 * back),
+            Vec3::new(x, y, 0.5 * back),
+        )];
+        for (at, half) in [
+            (Vec3::new(0.0, y + 0.5 * wall, middle), Vec3::new(x + wall, 0.5 * wall, long)),
+            (Vec3::new(0.0, -y - 0.5 * wall, middle), Vec3::new(x + wall, 0.5 * wall, long)),
+            (Vec3::new(x + 0.5 * wall, 0.0, middle), Vec3::new(0.5 * wall, y, long)),
+            (Vec3::new(-x - 0.5 * wall, 0.0, middle), Vec3::new(0.5 * wall, y, long)),
+        ] {
+            meshes.push(push("spout", at, half));
+        }
+        // Upright, whatever the slope of the jet.
+        let end = self.mouth - back * self.frame.z_axis;
+        let top = end.y + y + wall;
+        let level = Vec3::new(self.frame.z_axis.x, 0.0, self.frame.z_axis.z).normalize_or(Vec3::Z);
+        let upright = Mat3::from_cols(Vec3::Y.cross(level), Vec3::Y, level);
+        let deep = 0.7 * (y + wall);
+        let middle = end - 0.5 * deep * level;
+        let at = Vec3::new(middle.x, 0.5 * (top + floor), middle.z);
+        let half = Vec3::new(x + wall, 0.5 * (top - floor), deep);
+        let turn = Quat::from_mat3(&upright).to_array();
+        let pier = Mesh::cuboid(at.to_array(), half.to_array(), turn, stone.clone());
+        meshes.push(Mesh { name: "spout pier".into(), ..pier });
+        meshes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPACING: f32 = 0.05;
+
+    /// A jet 10 wide and 6 high that goes 30 layers along a direction from a height, and water at rest under it.
+    fn jet(along: Vec3, speed: f32, height: f32) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
+        let right = along.cross(Vec3::Y).normalize();
+        let up = right.cross(along);
+        let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+        let mut push = |p: Vec3, v: Vec3| {
+            positions.push((SPACING * p).to_array());
+            velocities.push(v.to_array());
+        };
+        for i in 0..1800 {
+            let [x, y, z] = [i % 10, i / 10 % 6, i / 60].map(|v| v as f32);
+            push(
+                Vec3::Y * height / SPACING + (x - 4.5) * right + (y - 2.5) * up + z * along,
+                speed * along,
+            );
+        }
+        for i in 0..3000 {
+            let [x, y, z] = [i % 20, i / 20 % 5, i / 100].map(|v| v as f32);
+            push(Vec3::new(x - 10.0, y, z), Vec3::ZERO);
+        }
+        (positions, velocities)
+    }
+
+    #[test]
+    fn a_jet_in_mid_air_has_a_spout_and_other_water_none() {
+        let of = |(positions, velocities): &(Vec<[f32; 3]>, Vec<[f32; 3]>)| {
+            find(positions, velocities, SPACING, 0.0)
+        };
+        for along in [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -0.3, 0.954)] {
+            let found = of(&jet(along, 3.0, 1.5));
+            assert_eq!(found.len(), 1, "{along}");
+            let one = found[0];
+            assert!((one.mouth - 1.5 * Vec3::Y).length() < 0.01 * SPACING, "{one:?}");
+            assert!(one.frame.z_axis.dot(along) > 0.999);
+            assert!((one.half - SPACING * Vec2::new(5.0, 3.0)).length() < 1.0e-4, "{one:?}");
+            assert!((one.frame.determinant() - 1.0).abs() < 1.0e-4);
+        }
+        assert!(of(&jet(Vec3::Z, 0.5, 1.5)).is_empty(), "at rest");
+        assert!(of(&jet(Vec3::new(0.1, -0.99, 0.1).normalize(), 3.0, 2.5)).is_empty(), "it falls");
+        assert!(of(&jet(Vec3::Z, 3.0, 0.05)).is_empty(), "on the floor");
+    }
+
+    #[test]
+    fn a_spout_stands_on_the_floor_and_hides_where_the_water_begins() {
+        let (positions, velocities) = jet(Vec3::Z, 3.0, 1.5);
+        let one = find(&positions, &velocities, SPACING, 0.0)[0];
+        let meshes = one.meshes(SPACING, -0.2, 0.8, &Material::default());
+        let corners = |mesh: &Mesh| -> Vec<Vec3> {
+            let points = mesh.positions.iter();
+            points.map(|p| mesh.transform.transform_point3((*p).into())).collect()
+        };
+        let all: Vec<Vec3> = meshes.iter().flat_map(corners).collect();
+        let low = all.iter().copied().reduce(Vec3::min).unwrap();
+        let high = all.iter().copied().reduce(Vec3::max).unwrap();
+        assert!((low.y + 0.2).abs() < 1.0e-4, "{low}");
+        // No farther than the lip, and behind the mouth by the pier.
+        assert!(high.z > 0.5 * SPACING && high.z < SPACING && low.z < -0.8, "{low} {high}");
+        let core = corners(&meshes[0]).into_iter().reduce(Vec3::max).unwrap();
+        assert!(core.z > 0.1 * SPACING && core.z < high.z);
+    }
+}
