@@ -9,3 +9,5 @@ const float REACH = 0.75;
 const float BESIDE = 0.35;
 // Slices that are more than a drop: one sphere marks four at most.
 const int BODY = 6;
+// Spheres of less than this, in drawn radii, are drops that fly: of themselves they are no sheet, and many would fill the air.
+const float DROP = 0.6;

@@ -6,4 +6,4 @@ struct SpraySprite {
 };
 
 // Half-axis of the largest droplet, in that of the mean.
-const float LARGEST_DROPLET = 1.5;
+const float LARGEST_DROPLET = 2.74; // 1.5 over the root of LEAST_TORN

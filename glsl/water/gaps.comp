@@ -45,7 +45,7 @@ void visit(uint cell, uint all, float z) {
 // First and last cell; none where last < first.
 ivec4 touched(vec4 sphere) {
     vec4 slopes;
-    if (!sphere_bounds(sphere.xyz, sphere.w, slopes)) {
+    if (sphere.w < DROP * frame.particle.x || !sphere_bounds(sphere.xyz, sphere.w, slopes)) {
         return ivec4(0, 0, -1, -1);
     }
     vec2 beside = max(BESIDE * frame.particle.y / (frame.texel.xy * -sphere.z) - 4.0, 0.0);

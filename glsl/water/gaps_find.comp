@@ -1,6 +1,6 @@
 #version 460
-// Pass `gaps`, third part: of each cell the middle of the air before the first body of water behind
-// some air, or before the first drop where there is no body. So the drops of a crown are one sheet,
+// Pass `gaps`, third part: of each cell the middle of the air before the last body of water behind
+// some air, or before the first drop where there is no body. So both walls of a crown are one sheet,
 // the pool behind them the other. Not in the source.
 // Reads: nearest, marks. Writes: boundaries of the cells.
 
@@ -27,7 +27,7 @@ float boundary_of(uint cell) {
         int end = water + findLSB(~(marks >> water));
         bool body = end - water >= BODY || end == 32;
         middle = body || middle == 0 ? air + water : middle;
-        air = body ? 32 : end;
+        air = end;
     }
     return middle > 0 ? uintBitsToFloat(cells[cell]) + float(middle) * (0.5 * SLICE * frame.particle.y)
                       : EMPTY;

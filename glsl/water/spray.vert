@@ -26,8 +26,8 @@ layout(location = 6) flat out uint chance; // that it is rounded up by
 const uint PLACE = 0x5370u;
 // Of those that a particle has but once.
 const uint SPINDLE = 4096u;
-// Of a particle that is nothing but spray, of the most.
-const float LEAST_MIST = 0.15;
+// Share of the droplets and of the mist that a particle has which is nothing but spray.
+const float LEAST_TORN = 0.3;
 // Where water is asked for, in drawn radii.
 const float ASIDE = 1.5;
 
@@ -52,10 +52,14 @@ void main() {
     vec3 axis = direction_of(id, SPINDLE);
     float wide = (1.0 + 5.0 * uniform_of(PLACE, id, SPINDLE + 2u)) / 6.0;
     off = several ? wide * (0.4 * off + 0.6 * dot(off, axis) * axis) : off;
-    float kept = several ? (0.2 + 0.8 * uniform_of(PLACE, id, SPINDLE + 3u)) * float(droplets) : 1.0;
+    // What is nothing but spray flies as a few large drops and hardly any mist, what is being torn as many fine ones.
+    float share = sprite.centre.w;
+    float torn = several ? clamp(4.0 * (1.0 - share), LEAST_TORN, 1.0) : 1.0;
+    float part = 0.2 + 0.8 * uniform_of(PLACE, id, SPINDLE + 3u);
+    float kept = several ? 0.5 + torn * part * float(droplets) : 1.0;
     // Many are small, a few large; the first is mist.
     float small = uniform_of(PLACE, id, number + 3u);
-    float size = several ? 0.35 + 1.15 * small * small * small : 1.0;
+    float size = several ? (0.35 + 1.15 * small * small * small) * inversesqrt(torn) : 1.0;
     bool mist = several && gl_InstanceIndex % droplets == 0u;
 
     // World, so that it does not turn with the camera.
@@ -76,9 +80,7 @@ void main() {
     float pixel = depth * max(abs(frame.slope.x), abs(frame.slope.y));
     float still = mist ? frame.spray_cloud.y : frame.spray.y * size;
     vec2 axes = max(vec2(still + 0.5 * speed * frame.spray.w, still), vec2(0.7 * pixel));
-    float share = sprite.centre.w;
-    // Mist is where water is being torn, not about a lone drop.
-    float thick = mist ? frame.spray_cloud.x * max(4.0 * (1.0 - share), LEAST_MIST) : frame.spray.x;
+    float thick = mist ? frame.spray_cloud.x * torn : frame.spray.x;
     amount.x = share * thick * still * still / (axes.x * axes.y);
     // Of all colours together: what it is in is foam more than water.
     vec2 seen = (centre.xy / depth - frame.slope.zw) / frame.slope.xy;

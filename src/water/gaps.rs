@@ -3,10 +3,10 @@
 //! Not in the source, whose thickness and refraction take all water behind a pixel for one body
 //! (its limitation, Fig. 5.13): a drop before a pool is as dark and bends light as much as the pool.
 //! Each cell of 8×8 pixels has 32 slices of depth, from its nearest sphere on, half a spacing each.
-//! Every sphere marks those that it fills; the middle of the first air before a body of water, or
-//! before a drop where there is no body, is the boundary between a front sheet and a back sheet. By
+//! Every sphere marks those that it fills; the middle of the last air before a body of water, or
+//! of the first before a drop where there is no body, is the boundary between a front sheet and a back sheet. By
 //! slices, not by sorting: atomics on two words a cell, whatever the number of particles. Boundaries
-//! are handed to the cells next to them and blended: where the sheets touch, the water that the
+//! are handed to the cells near them and blended: where the sheets touch, the water that the
 //! thickness finds at the boundary makes them one, smoothly (and removes it).
 //! Reads: the lists of `front` and `cull`. Writes: boundaries, the farthest of each block of texels.
 

@@ -676,7 +676,8 @@ pub struct SprayLook {
     /// droplets together are about as large.
     pub size: f32,
     /// The most droplets that a particle is drawn as, 1 (the source) to 64, default 16. If it is more than 1, each particle has
-    /// between a fifth and all of them, by its id.
+    /// between a fifth and all of them, by its id. From three quarters of spray on a particle has fewer and larger ones and less
+    /// mist, down to 0.3 of both where it is nothing but spray: a lone particle is a few drops, torn water many.
     pub droplets: u32,
     /// Fractions of the rest density, rising, [0, ∞): below the first a particle is nothing but
     /// spray, from the second on its water has its full radius and its foam is whole, from the third
@@ -690,9 +691,8 @@ pub struct SprayLook {
     /// Droplets are also spread along the particle's velocity, by as far as it moves in up to so many seconds, forwards and
     /// backwards: [0, 1], default 0. So torn water flies in strands.
     pub stretch: f32,
-    /// Share of the light that the middle of a particle's mist takes away where half of the particle is spray, [0, 1), default
-    /// 0.05. There is less mist where the water is whole, and 0.15 of it where all is spray: lone drops are not misty. Mist
-    /// takes the place of the first droplet where there are several.
+    /// Share of the light that the middle of a particle's mist takes away, [0, 1), default 0.05. Mist takes the place of the
+    /// first droplet where there are several.
     pub mist: f32,
     /// Half-axis of that mist in spacings, (0, 8], default 0.5.
     pub mist_size: f32,

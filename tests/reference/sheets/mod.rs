@@ -4,8 +4,8 @@
 //! 0.35 s are there beyond four pixels, touches a cell of 8x8 pixels mark the slices of `s / 2` from
 //! the nearest of them on that lie in `z - 0.75 s .. z + 0.75 s`, 32 slices in all (what lies farther
 //! is in the last). Unmarked slices with marked ones behind them are air. The boundary is the middle
-//! of the first air before a body, six marked slices or all to the last one, else of the first air. It
-//! is spread to the cells round, and interpolated.
+//! of the last air before a body, six marked slices or all to the last one, else of the first air. It
+//! is spread to the cells as far as two from it, and interpolated. Spheres of less than 0.6 drawn radii mark nothing.
 
 mod boundaries;
 mod judged;
@@ -36,6 +36,10 @@ const REACH: f64 = 0.75;
 const BESIDE: f64 = 0.35;
 /// A slice, in spacings.
 const SLICE: f64 = 0.5;
+/// Spheres smaller than this, in spacings, are drops: 0.6 of the drawn radius.
+const DROP: f64 = 0.6 * 0.656;
+/// How many cells away a boundary is handed to.
+const NEAR: isize = 2;
 /// Marked slices of a body.
 const BODY: usize = 6;
 /// Half the depth in which the share of the sheets goes over, in spacings.

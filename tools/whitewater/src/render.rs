@@ -479,7 +479,7 @@ pub fn spray_of_caches(spray: &mut SprayLook, spacing: f32) {
         size: 0.25,
         spread: 4.5,
         stretch: (0.4 * (spacing / 9.81).sqrt()).min(1.0),
-        mist: 0.045,
+        mist: 0.06,
         mist_size: 1.6,
         ..*spray
     };
@@ -505,6 +505,9 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
 
 /// Metres across below which water is as clear as it is by nature: a glass or a tub, of which a pool's water is too blue.
 const SMALL: f32 = 2.0;
+/// Metres across above which it is clearer than that, so that its ground is seen: by nature it is dark, and few solvers' units
+/// are metres.
+const LARGE: f32 = 10.0;
 
 /// The rest spacing: as it is said, or found.
 fn spacing(
@@ -677,8 +680,16 @@ fn look(
     if !file.is_thesis() {
         spray_of_caches(&mut settings.spray, spacing);
         foam_of_caches(&mut settings.foam, spacing);
-        if bounds.size().x.max(bounds.size().z) < SMALL {
+        let wide = bounds.size().x.max(bounds.size().z);
+        if wide < SMALL {
             settings.water.medium = Medium::CLEAR;
+        } else if wide > LARGE && file.water.medium.is_none() {
+            settings.water.medium = settings.water.medium.thinned(LARGE / wide);
+            let wide = round(wide);
+            progress.say(&format!(
+                "water {wide} metres wide is drawn as clear as a pool of {LARGE} (--unit, where lengths are no metres; \
+                 table [water] medium)"
+            ));
         }
     }
     file.apply(&mut settings);
@@ -729,7 +740,9 @@ fn look(
     let set = args.set.unwrap_or_default();
     let view = camera.at_frame(probes.first).camera(args.draw.size)?.view;
     let eye = view.inverse().transform_point3(Vec3::ZERO);
-    let mut sun = None;
+    // A sun that the walls of a basin don't keep out, and that shines through what flies.
+    let own_sky = args.scene.is_none() && args.draw.environment == "sky";
+    let sun = own_sky.then(|| stage::side_light(eye - bounds.center()));
     let mut scene = match &args.scene {
         None if set == SetArg::None => Scene::default(),
         Some(path) if path.as_os_str() == "ground" => stage::ground_under(&bounds, eye, set),
@@ -753,8 +766,6 @@ fn look(
                 Some(basin) => {
                     progress
                         .say("a basin round the water, which fills a box (--scene ground: none)");
-                    // A sun from the side, that its walls don't keep out.
-                    sun = Some(stage::side_light(eye - bounds.center()));
                     basin
                 }
                 None => stage::ground_under(&bounds, eye, set),

@@ -102,7 +102,10 @@ struct Side {
     reach: f32,
 }
 
-/// The sides of the box that finite particles fill; `None` where they fill none. Most solvers hold
+/// How far beyond water that runs freely the box ends, of its width.
+const FREE: f32 = 0.3;
+
+/// The sides of the box that finite particles fill or run in; `None` where none or one holds them. Most solvers hold
 /// their water by walls that are in no file: bare, it looks like fog.
 fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side; 4]> {
     let side = |axis: usize, sign: f32| {
@@ -135,18 +138,23 @@ fn sides(frames: &[&[[f32; 3]]], bounds: &Bounds, spacing: f32) -> Option<[Side;
                 heights.push(bin.1);
             }
         }
-        // Water that stands at most of a side is held there.
+        // Water that stands at half of a side is held there; where it still runs a wall is farther on.
         let share = held.iter().filter(|held| **held).count() as f32 / count as f32;
         heights.sort_unstable_by(f32::total_cmp);
-        let level = *heights.get(heights.len() / 4)?;
-        let highest = heights[heights.len() * 9 / 10];
-        (share >= 0.6).then_some(Side { axis, sign, at, level, highest, reach })
+        let free = |low: f32| low + sign * FREE * bounds.size().x.max(bounds.size().z);
+        let floor = bounds.min.y;
+        let open = Side { axis, sign, at: free(at), level: floor, highest: floor, reach: floor };
+        let quantile = |part: f32| heights[(heights.len() as f32 * part) as usize];
+        let held = || Side { at, level: quantile(0.25), highest: quantile(0.9), reach, ..open };
+        Some(if share >= 0.5 { (held(), true) } else { (open, false) })
     };
-    Some([side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?])
+    let sides = [side(0, -1.0)?, side(0, 1.0)?, side(2, -1.0)?, side(2, 1.0)?];
+    let held = sides.iter().filter(|(_, held)| *held).count();
+    (held >= 2).then_some(sides.map(|(side, _)| side))
 }
 
 /// A basin round water that fills a box: low walls towards the eye, high ones behind; all low where it is seen from all sides. `None`
-/// where the particles fill no box.
+/// where no box holds the particles.
 pub fn basin_round(
     frames: &[&[[f32; 3]]],
     bounds: &Bounds,
@@ -380,7 +388,21 @@ mod tests {
             walls[0] > 2.86 && walls[2] > 2.86 && walls[1] < 0.4 && walls[3] < 0.4,
             "{walls:?}"
         );
-        assert!(basin(&block(true)).is_none(), "a wedge fills no box");
+        // A wedge leans on two sides; where it runs freely the walls are farther on.
+        let wide = |scene: &Scene| {
+            let walls = scene.meshes.iter().filter(|m| m.name == "basin wall");
+            let all = walls.flat_map(|m| {
+                m.positions.iter().map(|p| m.transform.transform_point3((*p).into()).x)
+            });
+            let (low, high) = all.fold((f32::MAX, f32::MIN), |(l, h), x| (l.min(x), h.max(x)));
+            high - low
+        };
+        let [whole, wedge] = [false, true].map(|cut| wide(&basin(&block(cut)).unwrap()));
+        let reaches = block(true).iter().map(|p| p[0]).fold(0.0, f32::max);
+        assert!(whole < 1.9 + 0.4 && wedge > reaches + 0.3 * reaches, "{whole} {wedge}");
+        let pile: Vec<_> = block(false).into_iter().filter(|p| p[0] + p[1] + p[2] < 2.0).collect();
+        let pile: Vec<_> = pile.iter().map(|p| [p[0] - p[2], p[1], p[0] + p[2]]).collect();
+        assert!(basin(&pile).is_none(), "a pile leans on nothing");
         assert!(basin(&[[0.0; 3]]).is_none());
     }
 
