@@ -492,7 +492,7 @@ pub fn foam_of_caches(foam: &mut FoamLook, spacing: f32) {
     *foam = FoamLook {
         extinction: 0.35 / spacing,
         front_extinction: 0.1 / spacing,
-        veil: 0.1 * spacing,
+        veil: 0.2 * spacing,
         relief: 0.35,
         lace: 1.0,
         lace_size: 0.8,

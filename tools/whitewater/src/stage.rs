@@ -259,11 +259,20 @@ pub fn basin_round(
                 let (mut from, to) = wall(inner, outer, high, edge);
                 from.y = low;
                 if ends {
-                    let (mut near, mut far) = (to, from);
-                    near[across] = from[across] + edge;
-                    far[across] = to[across] - edge;
-                    push(name, from, near, material, &[]);
-                    push(name, far, to, material, &[]);
+                    let (mut first, mut last) = (to, from);
+                    first[across] = from[across] + edge;
+                    last[across] = to[across] - edge;
+                    // The water would show that of the far corner as a crack in it.
+                    let beside = |sign: f32| {
+                        let at = |s: &&Side| s.axis == across && s.sign == sign;
+                        sides.iter().find(at).is_some_and(|s| towards_eye(s))
+                    };
+                    if towards_eye(side) || beside(-1.0) {
+                        push(name, from, first, material, &[]);
+                    }
+                    if towards_eye(side) || beside(1.0) {
+                        push(name, last, to, material, &[]);
+                    }
                 } else {
                     push(name, from, to, material, &[]);
                 }
@@ -294,7 +303,7 @@ pub fn basin_round(
 pub fn side_light(towards_eye: glam::Vec3) -> [f32; 3] {
     let level = glam::Vec3::new(towards_eye.x, 0.0, towards_eye.z).normalize_or(glam::Vec3::Z);
     let turned = glam::Quat::from_rotation_y(-122.0_f32.to_radians()) * level;
-    (0.68 * turned + 0.73 * glam::Vec3::Y).to_array()
+    (0.55 * turned + 0.835 * glam::Vec3::Y).to_array()
 }
 
 /// Stops by which the pictures of a set are brighter: where its stone is dark, as photographers do.
