@@ -1,6 +1,6 @@
 #version 460
 // Pass `gaps`, fourth part: cells without a boundary take one from those near, by their squared
-// distance: where water ends a boundary goes on, or its last cell would show as a square. Not in the source. Reads: boundaries of the cells. Writes: the same, spread.
+// distance. Not in the source. Reads: boundaries of the cells. Writes: the same, spread.
 
 #include "frame.glsl"
 
@@ -14,7 +14,7 @@ layout(push_constant, std430) uniform Push {
     int rows;
 } push;
 
-const int NEAR = 2;
+const int NEAR = 1;
 
 void main() {
     ivec2 p = ivec2(gl_GlobalInvocationID.xy);

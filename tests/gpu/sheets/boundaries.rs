@@ -33,8 +33,7 @@ impl Texels {
     /// Asserts that there were gaps, and that rounding left hardly any texel open.
     fn suffice(&self, name: &str) {
         assert!(self.split * 10 > self.touched, "{name}: hardly a gap in {self:?}");
-        // What rounding leaves open of a cell goes to as many as 24 others.
-        assert!(self.unsure * 8 < self.touched, "{name}: too many are open of {self:?}");
+        assert!(self.unsure * 20 < self.touched, "{name}: too many are open of {self:?}");
     }
 }
 

@@ -5,7 +5,7 @@
 //! the nearest of them on that lie in `z - 0.75 s .. z + 0.75 s`, 32 slices in all (what lies farther
 //! is in the last). Unmarked slices with marked ones behind them are air. The boundary is the middle
 //! of the last air before a body, six marked slices or all to the last one, else of the first air. It
-//! is spread to the cells as far as two from it, and interpolated. Spheres of less than 0.6 drawn radii mark nothing.
+//! is spread to the cells round it, and interpolated. Spheres of less than 0.6 drawn radii mark nothing.
 
 mod boundaries;
 mod judged;
@@ -39,7 +39,7 @@ const SLICE: f64 = 0.5;
 /// Spheres smaller than this, in spacings, are drops: 0.6 of the drawn radius.
 const DROP: f64 = 0.6 * 0.656;
 /// How many cells away a boundary is handed to.
-const NEAR: isize = 2;
+const NEAR: isize = 1;
 /// Marked slices of a body.
 const BODY: usize = 6;
 /// Half the depth in which the share of the sheets goes over, in spacings.

@@ -1,10 +1,11 @@
 //! `whitewater demo`: the built-in scene.
 
+use glam::Vec3;
 use whitewater::Region;
 use whitewater::headless::scene::Scene;
 use whitewater::io::particles::{self, Extension};
 
-use crate::args::{DemoArgs, Foaming, SprayArg};
+use crate::args::{DemoArgs, Foaming, SetArg, SprayArg};
 use crate::bounds::Bounds;
 use crate::camera::CameraFile;
 use crate::failure::{Failure, Outcome};
@@ -14,6 +15,7 @@ use crate::progress::Progress;
 use crate::render::{foam_of_caches, spray_of_caches};
 use crate::session::{self, Look, Session};
 use crate::settings::{FoamBy, SettingsFile};
+use crate::stage;
 
 const PARTICLES: &[u8] = include_bytes!("../../../assets/waterfall/waterfall_0240.bgeo");
 const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
@@ -21,8 +23,8 @@ const SCENE: &[u8] = include_bytes!("../../../assets/waterfall/scene.json");
 /// Of the particles, as the scene says.
 const SPACING: f32 = 0.04;
 
-/// Towards the sun: along the front wall, so that it and the falling water are lit from the side.
-const SUN: [f32; 3] = [-0.75, 0.62, 0.3];
+/// Of its spray.
+const DENSITIES: [f32; 3] = [0.5, 0.8, 0.85];
 
 /// Over the corner of the basin: the chute, the fall and the pool are seen, and some sky.
 fn viewpoint(fov: Option<f32>) -> CameraFile {
@@ -42,25 +44,27 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         output::probe(&target.path(0))?;
     }
     let mut file = SettingsFile::of_args(&args.draw)?;
-    let environment = session::environment(&args.draw, Some(SUN))?;
-    let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
-    let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
-    scene.sun = environment.sun_light();
-    let mut settings = file.look(SPACING, environment.light());
-    settings.noise = session::noise(&args.draw);
-    if !file.is_thesis() {
-        foam_of_caches(&mut settings.foam, SPACING);
-        // Its particles are so large that drops of one would be.
-        let densities = settings.spray.densities;
-        spray_of_caches(&mut settings.spray, SPACING);
-        settings.spray.densities = densities;
-    }
-    file.apply(&mut settings);
     let camera = match CameraFile::from_args(&args.camera)? {
         Some(camera) => camera,
         None => viewpoint(args.camera.fov),
     };
     camera.check([0], args.draw.size)?;
+    // As caches are shown, of whatever view: the sun stands where it does for the first.
+    let eye = Vec3::from(viewpoint(None).eye.unwrap_or_default());
+    let environment = session::environment(&args.draw, Some(stage::side_light(eye)))?;
+    let particles = particles::read_bytes(PARTICLES, Extension::Bgeo)?;
+    let mut scene = Scene::parse_json(SCENE).map_err(Failure::input)?;
+    stage::furnish(&mut scene, eye);
+    scene.sun = environment.sun_light();
+    let mut settings = file.look(SPACING, environment.light());
+    settings.noise = session::noise(&args.draw);
+    if !file.is_thesis() {
+        foam_of_caches(&mut settings.foam, SPACING);
+        spray_of_caches(&mut settings.spray, SPACING);
+        // Its particles are so large that whole ones would be no drops.
+        settings.spray.densities = DENSITIES;
+    }
+    file.apply(&mut settings);
     let count = particles.positions.len();
     let foam = args.draw.foam.unwrap_or(Foaming::Auto);
     let spray = args.draw.spray != Some(SprayArg::None);
@@ -84,7 +88,7 @@ pub fn run(args: &DemoArgs) -> Outcome<()> {
         diffuse,
         bubbles: None,
         shores: None,
-        exposure: 0.0,
+        exposure: stage::exposure(SetArg::Pool),
         spray,
         region,
         fps,
