@@ -2,7 +2,7 @@
 
 use half::f16;
 
-use super::asked;
+use super::asked::Asked;
 use super::error::{Place, ReadError};
 use super::meaning::Meaning;
 use super::names::{self, Names};
@@ -331,23 +331,17 @@ pub(super) struct Table {
     pub(super) warnings: Vec<String>,
     /// Where the file says it.
     pub(super) time: Option<f64>,
-}
-
-/// Lists an attribute, and says whether its numbers are wanted.
-pub(super) fn list(
-    attributes: &mut Vec<Attribute>,
-    name: &str,
-    components: usize,
-    ty: AttributeType,
-) -> bool {
-    attributes.push(Attribute { name: name.into(), components, ty });
-    names::wanted(name)
+    pub(super) asked: Asked,
 }
 
 impl Table {
+    pub(super) fn new(asked: &Asked) -> Self {
+        Self { asked: asked.clone(), ..Self::default() }
+    }
+
     /// Lists an attribute, and says whether its numbers are wanted.
     pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
-        list(&mut self.attributes, name, components, ty)
+        self.asked.list(&mut self.attributes, name, components, ty)
     }
 
     pub(super) fn push(&mut self, name: &str, components: usize, data: Data) {
@@ -361,7 +355,7 @@ impl Table {
             self.columns.len() - 1
         });
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
-        let roles = Roles::find(&shapes, placed, &self.attributes)?;
+        let roles = Roles::find(&shapes, placed, &self.attributes, &self.asked)?;
         roles.rows(&shapes)?;
         let meanings = roles.meanings(&shapes, &self.attributes);
         self.warnings.extend(roles.warnings());
@@ -481,9 +475,9 @@ impl<'a> Search<'a> {
     }
 
     /// All columns that were asked for by name.
-    fn asked(&self) -> Vec<usize> {
+    fn asked(&self, asked: &Asked) -> Vec<usize> {
         let all = self.shapes.iter().zip(&self.plain).enumerate();
-        let asked = all.filter(|(_, (shape, plain))| shape.components == 1 && asked::has(plain));
+        let asked = all.filter(|(_, (shape, plain))| shape.components == 1 && asked.has(plain));
         asked.map(|(i, _)| i).collect()
     }
 
@@ -514,6 +508,7 @@ impl Roles {
         shapes: &[Shape<'_>],
         placed: Option<usize>,
         attributes: &[Attribute],
+        asked: &Asked,
     ) -> Result<Self, ReadError> {
         let search = Search::new(shapes);
         let positions = match placed {
@@ -545,7 +540,7 @@ impl Roles {
             })
         };
         let steps = search.scalar(names::STEP);
-        let mut extras = search.asked();
+        let mut extras = search.asked(asked);
         extras.retain(|extra| values(*extra) == of_one(positions));
         Ok(Self {
             ghosts: search.scalar(names::GHOST),

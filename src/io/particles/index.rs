@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::Document;
 
+use super::asked::Asked;
 use super::error::{Place, ReadError};
 use super::plan::Plan;
 use super::source::{Content, Input};
@@ -69,7 +70,7 @@ impl Pieces {
     }
 
     /// The particles of all pieces, one after the other.
-    pub(super) fn plan(&self) -> Result<Plan<'static>, ReadError> {
+    pub(super) fn plan(&self, asked: &Asked) -> Result<Plan<'static>, ReadError> {
         let mut contents = Vec::new();
         for file in &self.files {
             let named = |error| match error {
@@ -88,7 +89,7 @@ impl Pieces {
                 self.blocks.join(", ")
             ));
         }
-        vtk_xml::plan_files(&contents, warnings)
+        vtk_xml::plan_files(&contents, warnings, asked)
     }
 
     /// What is at fault, by the piece where that is alone at fault.

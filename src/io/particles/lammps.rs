@@ -1,6 +1,7 @@
 //! Dumps of LAMMPS and LIGGGHTS in text: `ITEM:` lines with what follows them, of which `ITEM: ATOMS` names the columns.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::{parse_number, show};
 use super::error::{Place, ReadError};
 use super::names::have_positions;
@@ -16,7 +17,7 @@ pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM
 /// Lines above the atoms: more are there in no dump.
 const LINES: u64 = 64;
 
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let mut text = Text::of(content)?;
     let mut number = 0;
     let mut count = None;
@@ -80,13 +81,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
                 }
             }
         }
-        let about = About {
-            placed: None,
-            attributes: Vec::new(),
-            warnings: Vec::new(),
-            time: None,
-            format: Format::Lammps,
-        };
+        let about = About::new(Format::Lammps, asked);
         let start = text.at();
         let text = Text::new(content.open(start, content.length())?);
         return Ok(xyz::rows(text, number, Some(count), false, (&names, &sides), about));

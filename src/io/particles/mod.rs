@@ -70,6 +70,7 @@ mod xyz;
 use std::io::Read as _;
 use std::path::Path;
 
+use asked::Asked;
 pub use columns::{Attribute, AttributeType, Extra};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
@@ -158,12 +159,16 @@ impl Particles {
 /// [`ReadError::Io`] and [`ReadError::Directory`] where there is no file to read, else
 /// [`ReadError::File`] with the path and what [`read_bytes`] says.
 pub fn read(path: &Path) -> Result<Particles, ReadError> {
+    read_asked(path, &Asked::default())
+}
+
+fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
     let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
     if std::fs::metadata(path).map_err(io)?.is_dir() {
         return Err(ReadError::Directory { path: path.to_path_buf() });
     }
     if let Some(pieces) = index::Pieces::of(path)? {
-        return pieces.plan().and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
+        return pieces.plan(asked).and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
     }
     // A large file that can't be read isn't.
     let mut head = Vec::new();
@@ -173,7 +178,7 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
         return Err(ReadError::File { path: path.to_path_buf(), reason: Box::new(told) });
     }
     let bytes = std::fs::read(path).map_err(io)?;
-    read_bytes(&bytes, Extension::from_path(path))
+    read_bytes_asked(&bytes, Extension::from_path(path), asked)
         .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
 }
 
@@ -183,7 +188,7 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
 /// # Errors
 /// Those of [`read`].
 pub fn read_with(path: &Path, extras: &[&str]) -> Result<Particles, ReadError> {
-    asked::with(extras, || read(path))
+    read_asked(path, &Asked::new(extras))
 }
 
 /// Whether these are names of one attribute, as [`read_with`] has it.
@@ -196,34 +201,43 @@ pub fn same_name(a: &str, b: &str) -> bool {
 /// # Errors
 /// Says what was expected, what was found, where, and what to do. It never panics, whatever the bytes.
 pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
-    if bytes::is_gzip(bytes) {
-        let inner = bytes::gunzip(bytes)?;
-        return read_plain(&inner, hint, true);
-    }
-    read_plain(bytes, hint, false)
+    read_bytes_asked(bytes, hint, &Asked::default())
 }
 
-fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, ReadError> {
+fn read_bytes_asked(bytes: &[u8], hint: Extension, asked: &Asked) -> Result<Particles, ReadError> {
+    if bytes::is_gzip(bytes) {
+        let inner = bytes::gunzip(bytes)?;
+        return read_plain(&inner, hint, true, asked);
+    }
+    read_plain(bytes, hint, false, asked)
+}
+
+fn read_plain(
+    bytes: &[u8],
+    hint: Extension,
+    gzip: bool,
+    asked: &Asked,
+) -> Result<Particles, ReadError> {
     if let Some(text) = format::from_utf16(bytes) {
-        return read_plain(&text, hint, gzip);
+        return read_plain(&text, hint, gzip, asked);
     }
     let content = || source::Content::of_bytes(bytes);
     match format::detect(bytes, hint)? {
-        format::Reader::Bgeo => bgeo::layout(bytes, gzip)?.read(bytes),
-        format::Reader::Geo => table::plan(&content()?, geo::open)?.read(),
-        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?)?.read(),
-        format::Reader::VtkXml => vtk_xml::plan(&content()?)?.read(),
-        format::Reader::Ply => match ply::layout(bytes)?.0 {
+        format::Reader::Bgeo => bgeo::layout(bytes, gzip, asked)?.read(bytes),
+        format::Reader::Geo => table::plan(&content()?, geo::open, asked)?.read(),
+        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?, asked)?.read(),
+        format::Reader::VtkXml => vtk_xml::plan(&content()?, asked)?.read(),
+        format::Reader::Ply => match ply::layout(bytes, asked)?.0 {
             Some(layout) => layout.read(bytes),
-            None => table::plan(&content()?, ply::open)?.read(),
+            None => table::plan(&content()?, ply::open, asked)?.read(),
         },
-        format::Reader::Npy => numpy::read_npy(bytes),
-        format::Reader::Npz => numpy::read_npz(bytes),
-        format::Reader::Csv => table::plan(&content()?, comma::open)?.read(),
-        format::Reader::XyzText => table::plan(&content()?, xyz::open)?.read(),
-        format::Reader::Lammps => table::plan(&content()?, lammps::open)?.read(),
-        format::Reader::XyzRaw => xyz::raw(bytes.len() as u64)?.read(bytes),
-        format::Reader::Json => json::read(bytes),
+        format::Reader::Npy => numpy::read_npy(bytes, asked),
+        format::Reader::Npz => numpy::read_npz(bytes, asked),
+        format::Reader::Csv => table::plan(&content()?, comma::open, asked)?.read(),
+        format::Reader::XyzText => table::plan(&content()?, xyz::open, asked)?.read(),
+        format::Reader::Lammps => table::plan(&content()?, lammps::open, asked)?.read(),
+        format::Reader::XyzRaw => xyz::raw(bytes.len() as u64, asked)?.read(bytes),
+        format::Reader::Json => json::read(bytes, asked),
     }
 }
 

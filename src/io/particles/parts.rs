@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::columns::Attribute;
+use super::asked::Asked;
 use super::error::ReadError;
 use super::format::{self, Extension};
 use super::plan::{About, Pass, Plan, Surveyed, changed};
@@ -77,7 +77,9 @@ impl Parts<'static> {
         }
         if let Some(pieces) = super::index::Pieces::of(path)? {
             let mut show = show;
-            let parts = pieces.plan().and_then(|plan| Self::of_plan(plan, most, &mut show));
+            let parts = pieces
+                .plan(&Asked::default())
+                .and_then(|plan| Self::of_plan(plan, most, &mut show));
             let parts = parts.map_err(|error| pieces.fault(error))?;
             return Ok(Self { path: Some(path.to_path_buf()), ..parts });
         }
@@ -96,15 +98,15 @@ impl Parts<'static> {
 /// Those of [`read`](super::read) that come before the particles.
 pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
     if let Some(pieces) = super::index::Pieces::of(path)? {
-        return Ok(pieces.plan()?.origin());
+        return Ok(pieces.plan(&Asked::default())?.origin());
     }
     let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
     let input = Input::new(std::fs::File::open(path).map_err(io)?)?;
     let mut start = Vec::new();
     Source::new(&input, &input.whole(false)).fill(2, &mut start)?;
     let gzip = super::bytes::is_gzip(&start);
-    let plan =
-        plan(&input, Extension::from_path(path), gzip).map_err(|error| named(path, error))?;
+    let plan = plan(&input, Extension::from_path(path), gzip, &Asked::default())
+        .map_err(|error| named(path, error))?;
     plan.map_or_else(|| Ok(super::read(path)?.origin), |plan| Ok(plan.origin()))
 }
 
@@ -136,7 +138,7 @@ impl<'a> Parts<'a> {
         let mut start = Vec::new();
         Source::new(input, &input.whole(false)).fill(2, &mut start)?;
         let gzip = super::bytes::is_gzip(&start);
-        let planned = plan(input, hint, gzip);
+        let planned = plan(input, hint, gzip, &Asked::default());
         let planned = planned
             .and_then(|plan| plan.map(|plan| Self::of_plan(plan, most, &mut show)).transpose());
         match planned {
@@ -272,7 +274,12 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
 }
 
 /// Where the particles of a file are; none of a file that can't be read in parts.
-fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Plan<'a>>, ReadError> {
+fn plan<'a>(
+    input: &Input<'a>,
+    hint: Extension,
+    gzip: bool,
+    asked: &Asked,
+) -> Result<Option<Plan<'a>>, ReadError> {
     let piece = input.whole(gzip);
     let mut start = Vec::new();
     Source::new(input, &piece).fill(START, &mut start)?;
@@ -293,38 +300,42 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
     let mut source = Source::new(input, &piece);
     let layout = match reader {
         format::Reader::Bgeo => Some(source::header(&mut source, |head| {
-            let layout = bgeo::layout(head, gzip)?;
+            let layout = bgeo::layout(head, gzip, asked)?;
             let length = layout.rows.header;
             Ok((layout, length))
         })?),
-        format::Reader::Ply => source::header(&mut source, ply::layout)?,
-        format::Reader::Npy => source::header(&mut source, numpy::layout)?,
+        format::Reader::Ply => source::header(&mut source, |head| ply::layout(head, asked))?,
+        format::Reader::Npy => source::header(&mut source, |head| numpy::layout(head, asked))?,
         format::Reader::Npz if !gzip => {
-            let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
+            let Some(arrays) = numpy::arrays(input, asked)? else { return Ok(None) };
             let numpy::Arrays { rows, placed, attributes, warnings } = arrays;
-            let about = About { placed, attributes, warnings, time: None, format: Format::Npz };
+            let about = About { placed, attributes, warnings, ..About::new(Format::Npz, asked) };
             return of_rows(input, rows, about).map(Some);
         }
         _ => None,
     };
-    if let Some(Layout { rows, placed, attributes, warnings, format }) = layout {
+    if let Some(Layout { rows, placed, attributes, warnings, format, .. }) = layout {
         let placed = placed.then_some(0);
-        let about = About { placed, attributes, warnings, time: None, format };
+        let about = About { placed, attributes, warnings, ..About::new(format, asked) };
         return of_rows(input, vec![(piece, rows)], about).map(Some);
     }
     let content = || Content::new(input, gzip);
     Ok(Some(match reader {
-        format::Reader::Csv => table::plan(&content()?, comma::open)?,
-        format::Reader::XyzText => table::plan(&content()?, xyz::open)?,
-        format::Reader::Lammps => table::plan(&content()?, lammps::open)?,
+        format::Reader::Csv => table::plan(&content()?, comma::open, asked)?,
+        format::Reader::XyzText => table::plan(&content()?, xyz::open, asked)?,
+        format::Reader::Lammps => table::plan(&content()?, lammps::open, asked)?,
         format::Reader::XyzRaw => {
-            let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length())?;
-            of_rows(input, vec![(piece, rows)], about(Some(0), attributes, format))?
+            let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length(), asked)?;
+            of_rows(
+                input,
+                vec![(piece, rows)],
+                About { placed: Some(0), attributes, ..About::new(format, asked) },
+            )?
         }
-        format::Reader::Geo => table::plan(&content()?, geo::open)?,
-        format::Reader::Ply => table::plan(&content()?, ply::open)?,
-        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?)?,
-        format::Reader::VtkXml => vtk_xml::plan(&content()?)?,
+        format::Reader::Geo => table::plan(&content()?, geo::open, asked)?,
+        format::Reader::Ply => table::plan(&content()?, ply::open, asked)?,
+        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?, asked)?,
+        format::Reader::VtkXml => vtk_xml::plan(&content()?, asked)?,
         _ => return Ok(None),
     }))
 }
@@ -347,8 +358,4 @@ fn of_rows<'a>(
         })
     });
     Plan::new(tracks.collect(), about, input.unpack_limit())
-}
-
-fn about(placed: Option<usize>, attributes: Vec<Attribute>, format: Format) -> About {
-    About { placed, attributes, warnings: Vec::new(), time: None, format }
 }

@@ -1,6 +1,7 @@
 //! How the particles of a file are read from the first on, as often as needed: all at once, or a part after the other.
 
-use super::columns::{Attribute, Column, Data, Roles, Shape};
+use super::asked::Asked;
+use super::columns::{Attribute, AttributeType, Column, Data, Roles, Shape};
 use super::error::{Place, ReadError};
 use super::meaning::Meaning;
 use super::survey::{Columns, FIRST, Survey};
@@ -70,6 +71,25 @@ pub(super) struct About {
     /// Of the frame.
     pub(super) time: Option<f64>,
     pub(super) format: Format,
+    pub(super) asked: Asked,
+}
+
+impl About {
+    pub(super) fn new(format: Format, asked: &Asked) -> Self {
+        Self {
+            placed: None,
+            attributes: Vec::new(),
+            warnings: Vec::new(),
+            time: None,
+            format,
+            asked: asked.clone(),
+        }
+    }
+
+    /// Lists an attribute, and says whether its numbers are wanted.
+    pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
+        self.asked.list(&mut self.attributes, name, components, ty)
+    }
 }
 
 /// What was found when all particles were read for the first time.
@@ -85,9 +105,9 @@ pub(super) struct Surveyed {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(tracks: Vec<Track<'a>>, about: About, limit: u64) -> Result<Self, ReadError> {
-        let About { placed, attributes, mut warnings, time, format } = about;
+        let About { placed, attributes, mut warnings, time, format, asked } = about;
         let shapes: Vec<_> = tracks.iter().flat_map(shapes).collect();
-        let roles = Roles::find(&shapes, placed, &attributes)?;
+        let roles = Roles::find(&shapes, placed, &attributes, &asked)?;
         let meanings = roles.meanings(&shapes, &attributes);
         warnings.extend(roles.warnings());
         let known = tracks.iter().all(|track| track.lengths.is_some());

@@ -9,8 +9,9 @@
 //! words, is the element.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::{parse_number, show};
-use super::columns::{self, AttributeType, Column, PLACED};
+use super::columns::{AttributeType, Column, PLACED};
 use super::comma::{self, passed_over, unnamed};
 use super::error::{Place, ReadError};
 use super::heading::{self, Heading, Line, is_comment, number_with_comma};
@@ -22,7 +23,7 @@ use super::table::{RowReader, Table};
 use super::text::Text;
 
 /// So many bytes of raw triples.
-pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
+pub(super) fn raw(length: u64, asked: &Asked) -> Result<Layout, ReadError> {
     if !length.is_multiple_of(12) {
         return Err(ReadError::malformed(
             "text, or raw f32 triples of 12 bytes each",
@@ -31,7 +32,7 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
         ));
     }
     let mut attributes = Vec::new();
-    columns::list(&mut attributes, "position", 3, AttributeType::F32);
+    asked.list(&mut attributes, "position", 3, AttributeType::F32);
     Ok(Layout {
         rows: Rows {
             what: "the points".into(),
@@ -46,17 +47,12 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
         attributes,
         warnings: Vec::new(),
         format: Format::RawF32,
+        asked: asked.clone(),
     })
 }
 
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
-    let mut about = About {
-        placed: None,
-        attributes: Vec::new(),
-        warnings: Vec::new(),
-        time: None,
-        format: Format::Xyz,
-    };
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
+    let mut about = About::new(Format::Xyz, asked);
     let lines = heading::lines(content)?;
     let counted = Counted::of(&lines);
     let (heading, promised) = match counted {
@@ -65,7 +61,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     };
     let named = !heading.names.is_empty();
     if let (Some(delimiter), true, None) = (heading.delimiter, named, promised) {
-        return comma::open_at(content, heading, delimiter);
+        return comma::open_at(content, heading, delimiter, asked);
     }
     about.warnings.extend(passed_over(heading.passed));
     let first = lines.iter().find(|line| line.start >= heading.at && !is_comment(&line.text));
@@ -121,7 +117,7 @@ pub(super) fn rows<'a>(
             Some(name) => (name, AttributeType::Text),
             None => (name.as_str(), AttributeType::Number),
         };
-        let keep = columns::list(&mut about.attributes, name, 1, ty) && ty == AttributeType::Number;
+        let keep = about.list(name, 1, ty) && ty == AttributeType::Number;
         rows.columns.push(keep.then_some(columns.len()));
         if keep {
             let side = sides.iter().find(|(side, ..)| *side == name);
