@@ -17,6 +17,9 @@ mod dialects;
 mod extras;
 #[path = "formats/folder.rs"]
 mod folder;
+#[cfg(feature = "hdf5")]
+#[path = "formats/hdf5.rs"]
+mod hdf5;
 #[path = "formats/indices.rs"]
 mod indices;
 #[path = "formats/parts.rs"]

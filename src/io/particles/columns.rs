@@ -163,6 +163,18 @@ impl Data {
         }
     }
 
+    /// Appends all of the others; false where they are of another form.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn append(&mut self, other: Self) -> bool {
+        match (self, other) {
+            (Self::F32(v), Self::F32(mut more)) => v.append(&mut more),
+            (Self::F64(v), Self::F64(mut more)) => v.append(&mut more),
+            (Self::Int(v), Self::Int(mut more)) => v.append(&mut more),
+            _ => return false,
+        }
+        true
+    }
+
     pub(super) fn clear(&mut self) {
         match self {
             Self::F32(v) => v.clear(),
@@ -360,7 +372,8 @@ impl Table {
         let meanings = roles.meanings(&shapes, &self.attributes);
         self.warnings.extend(roles.warnings());
         let columns = Columns::new(self.columns);
-        let mut survey = Survey::new(columns.origin(&roles));
+        let only = roles.steps.and_then(|_| self.asked.step()?.time);
+        let mut survey = Survey::new(columns.origin(&roles)).of_time(only);
         let mut particles = survey.part(&roles, columns, format);
         survey.drop_from(&mut particles);
         self.warnings.extend(survey.finish()?);

@@ -21,13 +21,13 @@ pub(super) struct Pieces {
 }
 
 /// A file that a list names; on Windows it may have backslashes.
-fn beside(folder: &Path, file: &str) -> PathBuf {
+pub(super) fn beside(folder: &Path, file: &str) -> PathBuf {
     let path = folder.join(file);
     if file.contains('\\') && !path.exists() { folder.join(file.replace('\\', "/")) } else { path }
 }
 
 /// The text of a list of files; none of another file.
-fn text(path: &Path, extensions: &[&str]) -> Option<String> {
+pub(super) fn text(path: &Path, extensions: &[&str]) -> Option<String> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     let short = std::fs::metadata(path).is_ok_and(|meta| meta.len() <= LONGEST);
     if !extensions.contains(&extension.as_str()) || !short {

@@ -17,9 +17,10 @@
 //! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), Tecplot, XYZ text, extended XYZ, XYZ raw `f32` triples | yes | |
 //! | JSON: arrays, objects of arrays, arrays of objects, lines | yes | |
 //! | dumps of LAMMPS and LIGGGHTS, text | yes | |
+//! | HDF5 (VTKHDF, PySPH, H5Part, H5MD, arrays in a group) and XDMF | with the feature `hdf5` | |
 //!
 //! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
-//! formats but JSON.
+//! formats but JSON, HDF5 and XDMF.
 //!
 //! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
 //! Names may have any case, blanks and units: `Pos.x [m]` is `pos_x`. A sound file that can't be taken for one frame of particles is
@@ -44,6 +45,8 @@ mod error;
 mod foreign;
 mod format;
 mod geo;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod head;
 mod heading;
 mod index;
@@ -59,12 +62,15 @@ mod rows;
 pub mod sequence;
 mod source;
 mod spacing;
+mod steps;
 mod survey;
 mod table;
 mod text;
 mod vtk_legacy;
 mod vtk_xml;
 mod write;
+#[cfg(feature = "hdf5")]
+mod xdmf;
 mod xyz;
 
 use std::io::Read as _;
@@ -77,6 +83,7 @@ pub use format::{Compression, Extension, Format, Storage, WriteFormat};
 pub use meaning::Meaning;
 pub use parts::{Parts, find_origin};
 pub use spacing::{estimate_densities, estimate_spacing};
+pub use steps::{Step, read_step, steps};
 pub use write::{write, write_to};
 
 /// One frame of particles as read from a file.
@@ -170,6 +177,10 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
     if let Some(pieces) = index::Pieces::of(path)? {
         return pieces.plan(asked).and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
     }
+    #[cfg(feature = "hdf5")]
+    if let Some(read) = of_hdf5(path, asked) {
+        return read;
+    }
     // A large file that can't be read isn't.
     let mut head = Vec::new();
     let file = std::fs::File::open(path).map_err(io)?;
@@ -180,6 +191,13 @@ fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
     let bytes = std::fs::read(path).map_err(io)?;
     read_bytes_asked(&bytes, Extension::from_path(path), asked)
         .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
+}
+
+/// The particles of a file of HDF5, or of one that names such; none of another.
+#[cfg(feature = "hdf5")]
+fn of_hdf5(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
+    let read = hdf5::read(path, asked).or_else(|| xdmf::read(path, asked))?;
+    Some(read.map_err(|error| parts::named(path, error)))
 }
 
 /// Reads one file, and beside what [`read`] gives attributes of one number each by name, into [`Particles::extras`]: case,
@@ -220,6 +238,10 @@ fn read_plain(
 ) -> Result<Particles, ReadError> {
     if let Some(text) = format::from_utf16(bytes) {
         return read_plain(&text, hint, gzip, asked);
+    }
+    #[cfg(feature = "hdf5")]
+    if bytes.starts_with(hdf5::MAGIC) {
+        return hdf5::File::of_bytes(bytes)?.read(asked);
     }
     let content = || source::Content::of_bytes(bytes);
     match format::detect(bytes, hint)? {

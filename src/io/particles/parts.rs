@@ -26,7 +26,7 @@ const START: u64 = 1 << 16;
 /// header of VTK XML are its elements without the texts that are longer than 64 characters. A block that LZ4 or LZMA has
 /// packed is unpacked as a whole, by LZMA with a dictionary of 64 MiB at most.
 ///
-/// This holds for all formats but JSON, text in UTF-16, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
+/// This holds for all formats but JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
 /// by deflate, and VTK XML whose texts have references (`&#32;`) or CDATA in them. Those are read as a whole: see
 /// [`in_memory`](Self::in_memory), but for the last, of which the header alone is as long as the file. Attributes of VTK
 /// have places of their own in the file: what gzip has packed is unpacked for each of them.
@@ -83,6 +83,12 @@ impl Parts<'static> {
             let parts = parts.map_err(|error| pieces.fault(error))?;
             return Ok(Self { path: Some(path.to_path_buf()), ..parts });
         }
+        #[cfg(feature = "hdf5")]
+        if let Some(all) = super::of_hdf5(path, &Asked::default()) {
+            let mut show = show;
+            let parts = Self::of_memory(all?, most, &mut show);
+            return Ok(Self { path: Some(path.to_path_buf()), ..parts });
+        }
         let file = std::fs::File::open(path).map_err(io)?;
         let hint = Extension::from_path(path);
         let parts = Input::new(file).and_then(|input| Self::new(&input, hint, most, show));
@@ -100,6 +106,10 @@ pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
     if let Some(pieces) = super::index::Pieces::of(path)? {
         return Ok(pieces.plan(&Asked::default())?.origin());
     }
+    #[cfg(feature = "hdf5")]
+    if let Some(all) = super::of_hdf5(path, &Asked::default()) {
+        return Ok(all?.origin);
+    }
     let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
     let input = Input::new(std::fs::File::open(path).map_err(io)?)?;
     let mut start = Vec::new();
@@ -111,10 +121,13 @@ pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
 }
 
 /// An error with the file it is about.
-fn named(path: &Path, error: ReadError) -> ReadError {
+pub(super) fn named(path: &Path, error: ReadError) -> ReadError {
     let path = path.to_path_buf();
     match error {
-        ReadError::Io { reason, .. } => ReadError::Io { path, reason },
+        ReadError::Io { path: own, reason } if own.as_os_str().is_empty() => {
+            ReadError::Io { path, reason }
+        }
+        error @ (ReadError::File { .. } | ReadError::Io { .. }) => error,
         error => ReadError::File { path, reason: Box::new(error) },
     }
 }
@@ -148,15 +161,7 @@ impl<'a> Parts<'a> {
                 Source::new(input, &input.whole(false)).fill(u64::MAX, &mut bytes)?;
                 let all = super::read_bytes(&bytes, hint)?;
                 drop(bytes);
-                show(&all);
-                let about = Particles {
-                    attributes: all.attributes.clone(),
-                    meanings: all.meanings.clone(),
-                    warnings: all.warnings.clone(),
-                    ..slice(&all, 0..0)
-                };
-                let total = all.positions.len();
-                Ok(Self { about, total, most, rest: Rest::Memory(Box::new(all), 0), path: None })
+                Ok(Self::of_memory(all, most, &mut show))
             }
             Err(error) => {
                 // Where the packing is at fault it is no use to look for faults in what comes out.
@@ -166,6 +171,18 @@ impl<'a> Parts<'a> {
                 Err(error)
             }
         }
+    }
+
+    fn of_memory(all: Particles, most: usize, show: &mut dyn FnMut(&Particles)) -> Self {
+        show(&all);
+        let about = Particles {
+            attributes: all.attributes.clone(),
+            meanings: all.meanings.clone(),
+            warnings: all.warnings.clone(),
+            ..slice(&all, 0..0)
+        };
+        let (total, most) = (all.positions.len(), most.max(1));
+        Self { about, total, most, rest: Rest::Memory(Box::new(all), 0), path: None }
     }
 
     fn of_plan(
@@ -274,7 +291,7 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
 }
 
 /// Where the particles of a file are; none of a file that can't be read in parts.
-fn plan<'a>(
+pub(super) fn plan<'a>(
     input: &Input<'a>,
     hint: Extension,
     gzip: bool,

@@ -127,7 +127,7 @@ impl<'a> Grid<'a> {
                 return Err(ReadError::Unsupported {
                     what: format!("XML of `{name}`, where a VTKFile element was expected,"),
                     advice: if name == "Xdmf" {
-                        "it names arrays of HDF5: save them as VTU, or as NPZ with h5py and np.savez"
+                        "it names arrays of HDF5: give it by its path, as .xdmf or .xmf, with these beside it"
                     } else {
                         "particles are VTK XML: save VTU or VTP"
                     },
