@@ -35,6 +35,8 @@ mod sequences;
 mod skipped;
 #[path = "formats/spacings.rs"]
 mod spacings;
+#[path = "formats/steps.rs"]
+mod steps;
 #[path = "formats/writers.rs"]
 mod writers;
 

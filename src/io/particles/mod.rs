@@ -50,6 +50,7 @@ mod hdf5;
 mod head;
 mod heading;
 mod index;
+mod join;
 mod json;
 mod lammps;
 mod meaning;
@@ -144,6 +145,12 @@ impl Particles {
     /// Takes particles out: those for which `kept` has false. What is beyond its end is kept.
     pub fn retain(&mut self, kept: &[bool]) {
         survey::retain(self, kept);
+    }
+
+    /// Appends the particles of another file of the same frame. What not both have is dropped with a warning, and so are ids that
+    /// both have of different particles; [`extras`](Self::extras) are NaN where one of them has none.
+    pub fn append(&mut self, other: Self) {
+        join::append(self, other);
     }
 
     /// Gives the particles another [`origin`](Self::origin), such as that of the first frame of a sequence.
