@@ -167,7 +167,7 @@ fn single_pngs_are_photographs() {
     folder.write("a_1.vtu", &water);
     folder.write("a_2.vtu", &water);
     let look = format!(
-        "--size 96x64 --supersample 1 {FRONT} --foam none --spray none --set none --sheets 1"
+        "--size 96x64 --supersample 1 {FRONT} --foam none --spray none --scene ground --sheets 1"
     );
     let png = |command: &str| {
         folder.run(&format!("{command} {look}")).ok();

@@ -1,6 +1,6 @@
 //! What people have: other axes and units, files that do not fit each other, and what is said of them.
 
-use super::support::{Folder, SIZE, SMALL};
+use super::support::{Folder, GROUND, SIZE, SMALL};
 
 /// Water that slopes from a wall on the left down to a floor, which it falls to: positions and velocities, y up.
 fn slope() -> Vec<[[f32; 3]; 2]> {
@@ -50,7 +50,7 @@ fn files_in_millimetres_are_told_and_drawn_in_metres() {
     folder.text("m.csv", &csv(&slope(), |p| p));
     folder.text("mm.csv", &csv(&slope(), |p| p.map(|c| 1000.0 * c)));
     let run = |file: &str, out: &str, more: &str| {
-        let common = format!("{SMALL} --radius 0.025 --foam none");
+        let common = format!("{GROUND} --radius 0.025 --foam none");
         folder.run(&format!("render {file}.csv -o {out}.png {common} {more}")).ok().stderr()
     };
     let plain = run("m", "m", "");
