@@ -17,6 +17,9 @@ mod dialects;
 mod extras;
 #[path = "formats/folder.rs"]
 mod folder;
+#[cfg(feature = "hdf5")]
+#[path = "formats/hdf5.rs"]
+mod hdf5;
 #[path = "formats/indices.rs"]
 mod indices;
 #[path = "formats/parts.rs"]
@@ -32,6 +35,8 @@ mod sequences;
 mod skipped;
 #[path = "formats/spacings.rs"]
 mod spacings;
+#[path = "formats/steps.rs"]
+mod steps;
 #[path = "formats/writers.rs"]
 mod writers;
 

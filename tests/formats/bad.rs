@@ -398,12 +398,20 @@ pub fn damaged(bytes: &[u8], next: &mut impl FnMut(usize) -> usize) -> Vec<u8> {
     bytes
 }
 
+/// How many times each file is damaged: more where `WHITEWATER_ROUNDS` says by how much, for an hour of it. `WHITEWATER_FORMAT`
+/// has those alone whose name begins so.
+pub fn rounds(usual: usize) -> usize {
+    let times = std::env::var("WHITEWATER_ROUNDS").ok().and_then(|times| times.parse().ok());
+    usual * times.unwrap_or(1)
+}
+
 #[test]
 fn mutations() {
     let mut next = numbers();
     let (mut cases, mut read) = (0, 0);
-    for s in samples::all() {
-        for _ in 0..16 {
+    let only = std::env::var("WHITEWATER_FORMAT").unwrap_or_default();
+    for s in samples::all().into_iter().filter(|s| s.name.starts_with(&only)) {
+        for _ in 0..rounds(16) {
             let bytes = damaged(&s.bytes, &mut next);
             let hint = if next(8) == 0 { HINTS[next(HINTS.len())] } else { s.hint };
             cases += 1;
@@ -411,7 +419,8 @@ fn mutations() {
         }
     }
     println!("{cases} damaged files, {read} of them read");
-    assert!(cases > 5000 && read > 0 && read < cases / 2, "{read} of {cases}");
+    assert!(!only.is_empty() || cases > 5000, "{cases}");
+    assert!(read > 0 && read < cases, "{read} of {cases}");
 }
 
 /// Sound files of other formats are named with the way out, and none of them is called damaged.
@@ -426,8 +435,9 @@ fn files_of_other_formats_are_named() {
         out
     };
     for (bytes, hint, parts) in [
+        #[cfg(not(feature = "hdf5"))]
         (&b"\x89HDF\r\n\x1a\n\0\0"[..], Extension::Unknown, ["HDF5", "h5py"]),
-        (b"Ogawa\xff\0\x01", Extension::Unknown, ["Alembic", "BGEO"]),
+        (&b"Ogawa\xff\0\x01"[..], Extension::Unknown, ["Alembic", "BGEO"]),
         (b"PXR-USDC\0", Extension::Unknown, ["USD", "BGEO"]),
         (b"#usda 1.0\n", Extension::Unknown, ["USD", "BGEO"]),
         (&zip("dam.usdc"), Extension::Unknown, ["USD", "BGEO"]),

@@ -8,13 +8,14 @@
 //! primitives and the whole, groups) is of no use here and is not read.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::Cursor;
 use super::columns::{AttributeType, PLACED, Table};
 use super::error::{Place, ReadError};
 use super::rows::{Field, Layout, Rows};
 
 /// What the header says, of a file or the beginning of one.
-pub(super) fn layout(bytes: &[u8], gzip: bool) -> Result<Layout, ReadError> {
+pub(super) fn layout(bytes: &[u8], gzip: bool, asked: &Asked) -> Result<Layout, ReadError> {
     let mut cursor = Cursor::new(bytes);
     cursor.take(5, "the BGEO magic")?;
     let mut header = [0_i32; 9];
@@ -36,7 +37,7 @@ pub(super) fn layout(bytes: &[u8], gzip: bool) -> Result<Layout, ReadError> {
     let points = count(points, "points")?;
     let point_attributes = count(point_attributes, "point attributes")?;
 
-    let mut table = Table::default();
+    let mut table = Table::new(asked);
     table.list("position", 3, AttributeType::F32);
     let mut fields = vec![Field::new(PLACED, 3, AttributeType::F32, 0)?];
     // x y z w come first.
@@ -94,5 +95,6 @@ pub(super) fn layout(bytes: &[u8], gzip: bool) -> Result<Layout, ReadError> {
         attributes: table.attributes,
         warnings: Vec::new(),
         format: Format::Bgeo { gzip },
+        asked: table.asked,
     })
 }

@@ -2,7 +2,7 @@
 
 use half::f16;
 
-use super::asked;
+use super::asked::Asked;
 use super::error::{Place, ReadError};
 use super::meaning::Meaning;
 use super::names::{self, Names};
@@ -161,6 +161,18 @@ impl Data {
                 Self::Int(v) => v.reserve_exact(grown),
             }
         }
+    }
+
+    /// Appends all of the others; false where they are of another form.
+    #[cfg(feature = "hdf5")]
+    pub(super) fn append(&mut self, other: Self) -> bool {
+        match (self, other) {
+            (Self::F32(v), Self::F32(mut more)) => v.append(&mut more),
+            (Self::F64(v), Self::F64(mut more)) => v.append(&mut more),
+            (Self::Int(v), Self::Int(mut more)) => v.append(&mut more),
+            _ => return false,
+        }
+        true
     }
 
     pub(super) fn clear(&mut self) {
@@ -331,23 +343,17 @@ pub(super) struct Table {
     pub(super) warnings: Vec<String>,
     /// Where the file says it.
     pub(super) time: Option<f64>,
-}
-
-/// Lists an attribute, and says whether its numbers are wanted.
-pub(super) fn list(
-    attributes: &mut Vec<Attribute>,
-    name: &str,
-    components: usize,
-    ty: AttributeType,
-) -> bool {
-    attributes.push(Attribute { name: name.into(), components, ty });
-    names::wanted(name)
+    pub(super) asked: Asked,
 }
 
 impl Table {
+    pub(super) fn new(asked: &Asked) -> Self {
+        Self { asked: asked.clone(), ..Self::default() }
+    }
+
     /// Lists an attribute, and says whether its numbers are wanted.
     pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
-        list(&mut self.attributes, name, components, ty)
+        self.asked.list(&mut self.attributes, name, components, ty)
     }
 
     pub(super) fn push(&mut self, name: &str, components: usize, data: Data) {
@@ -361,12 +367,13 @@ impl Table {
             self.columns.len() - 1
         });
         let shapes: Vec<_> = self.columns.iter().map(Column::shape).collect();
-        let roles = Roles::find(&shapes, placed, &self.attributes)?;
+        let roles = Roles::find(&shapes, placed, &self.attributes, &self.asked)?;
         roles.rows(&shapes)?;
         let meanings = roles.meanings(&shapes, &self.attributes);
         self.warnings.extend(roles.warnings());
         let columns = Columns::new(self.columns);
-        let mut survey = Survey::new(columns.origin(&roles));
+        let only = roles.steps.and_then(|_| self.asked.step()?.time);
+        let mut survey = Survey::new(columns.origin(&roles)).of_time(only);
         let mut particles = survey.part(&roles, columns, format);
         survey.drop_from(&mut particles);
         self.warnings.extend(survey.finish()?);
@@ -481,9 +488,9 @@ impl<'a> Search<'a> {
     }
 
     /// All columns that were asked for by name.
-    fn asked(&self) -> Vec<usize> {
+    fn asked(&self, asked: &Asked) -> Vec<usize> {
         let all = self.shapes.iter().zip(&self.plain).enumerate();
-        let asked = all.filter(|(_, (shape, plain))| shape.components == 1 && asked::has(plain));
+        let asked = all.filter(|(_, (shape, plain))| shape.components == 1 && asked.has(plain));
         asked.map(|(i, _)| i).collect()
     }
 
@@ -514,6 +521,7 @@ impl Roles {
         shapes: &[Shape<'_>],
         placed: Option<usize>,
         attributes: &[Attribute],
+        asked: &Asked,
     ) -> Result<Self, ReadError> {
         let search = Search::new(shapes);
         let positions = match placed {
@@ -545,7 +553,7 @@ impl Roles {
             })
         };
         let steps = search.scalar(names::STEP);
-        let mut extras = search.asked();
+        let mut extras = search.asked(asked);
         extras.retain(|extra| values(*extra) == of_one(positions));
         Ok(Self {
             ghosts: search.scalar(names::GHOST),

@@ -6,8 +6,9 @@
 //! NaN.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::show;
-use super::columns::{self, AttributeType, Column};
+use super::columns::{AttributeType, Column};
 use super::error::{Place, ReadError};
 use super::heading::{self, Heading, number_with_comma};
 use super::names::is_step;
@@ -16,7 +17,7 @@ use super::source::{Content, Source, inner_error};
 use super::table::{RowReader, Table};
 use super::xyz;
 
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let lines = heading::lines(content)?;
     let heading = Heading::of(&lines);
     let first = |line: &[u8]| {
@@ -31,13 +32,13 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         let names =
             std::iter::once("id".to_string()).chain((0..columns.saturating_sub(1)).map(unnamed));
         let heading = Heading { names: names.collect(), ..heading };
-        let mut table = open_at(content, heading, delimiter)?;
+        let mut table = open_at(content, heading, delimiter, asked)?;
         table.about.warnings.push(xyz::counted_warning(columns));
         return Ok(table);
     }
     match heading.delimiter {
-        Some(delimiter) => open_at(content, heading, delimiter),
-        None => xyz::open(content),
+        Some(delimiter) => open_at(content, heading, delimiter, asked),
+        None => xyz::open(content, asked),
     }
 }
 
@@ -46,6 +47,7 @@ pub(super) fn open_at<'a>(
     content: &Content<'a>,
     heading: Heading,
     delimiter: u8,
+    asked: &Asked,
 ) -> Result<Table<'a>, ReadError> {
     let mut builder = csv::ReaderBuilder::new();
     builder.has_headers(false).delimiter(delimiter).trim(csv::Trim::All).buffer_capacity(1 << 16);
@@ -59,13 +61,7 @@ pub(super) fn open_at<'a>(
         record: csv::ByteRecord::new(),
         unread: false,
     };
-    let mut about = About {
-        placed: None,
-        attributes: Vec::new(),
-        warnings: Vec::new(),
-        time: None,
-        format: Format::Csv,
-    };
+    let mut about = About::new(Format::Csv, asked);
     let mut columns = Vec::new();
     let header = !heading.names.is_empty();
     let mut names = heading.names;
@@ -82,7 +78,7 @@ pub(super) fn open_at<'a>(
     }
     about.warnings.extend(passed_over(heading.passed));
     for name in names {
-        let keep = columns::list(&mut about.attributes, &name, 1, AttributeType::Number);
+        let keep = about.list(&name, 1, AttributeType::Number);
         records.columns.push(keep.then_some(columns.len()));
         if keep {
             columns.push(Column::new(&name, 1, AttributeType::Number));

@@ -8,7 +8,8 @@ pub(super) const START: usize = 512;
 const EXPORT: &str = "export the particles as classic BGEO, VTU, PLY or NPZ";
 
 /// First bytes, what they are those of, and what to do.
-const MAGIC: [(&[u8], &str, &str); 40] = [
+const MAGIC: &[(&[u8], &str, &str)] = &[
+    #[cfg(not(feature = "hdf5"))]
     (
         b"\x89HDF\r\n\x1a\n",
         "HDF5",

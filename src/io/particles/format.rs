@@ -140,6 +140,10 @@ pub enum Format {
     RawF32,
     /// JSON arrays
     Json,
+    /// HDF5: VTKHDF, PySPH, H5Part, H5MD or arrays in a group
+    Hdf5,
+    /// XDMF, with the arrays that it names
+    Xdmf,
 }
 
 impl std::fmt::Display for Format {
@@ -180,6 +184,8 @@ impl std::fmt::Display for Format {
             Self::Lammps => f.write_str("LAMMPS dump, text"),
             Self::RawF32 => f.write_str("XYZ, raw little-endian f32"),
             Self::Json => f.write_str("JSON"),
+            Self::Hdf5 => f.write_str("HDF5"),
+            Self::Xdmf => f.write_str("XDMF"),
         }
     }
 }

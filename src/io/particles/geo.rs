@@ -5,15 +5,16 @@
 //! `x y z w (values)`, without brackets where there are no attributes. The rest is not read.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::{parse_number, show};
-use super::columns::{self, AttributeType, Column, PLACED};
+use super::columns::{AttributeType, Column, PLACED};
 use super::error::{Place, ReadError};
 use super::plan::About;
 use super::source::{Content, truncated};
 use super::table::{RowReader, Table};
 use super::text::Text;
 
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let mut text = Text::new(content.open(0, content.length())?);
     let mut number = 1_u64;
     let first = text.line()?.unwrap_or_default();
@@ -44,14 +45,8 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     }
     let (points, attributes) = (points.unwrap_or(0), attributes.unwrap_or(0));
 
-    let mut about = About {
-        placed: Some(0),
-        attributes: Vec::new(),
-        warnings: Vec::new(),
-        time: None,
-        format: Format::Geo,
-    };
-    columns::list(&mut about.attributes, "position", 3, AttributeType::F32);
+    let mut about = About { placed: Some(0), ..About::new(Format::Geo, asked) };
+    about.list("position", 3, AttributeType::F32);
     let mut columns = vec![Column::new(PLACED, 3, AttributeType::F32)];
     let mut fields = Vec::new();
     while (fields.len() as u64) < attributes {
@@ -84,8 +79,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
                 ));
             }
         };
-        let keep =
-            columns::list(&mut about.attributes, name, size, ty) && ty != AttributeType::Text;
+        let keep = about.list(name, size, ty) && ty != AttributeType::Text;
         fields.push(Field { size, column: keep.then_some(columns.len()) });
         if keep {
             columns.push(Column::new(name, size, ty));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::Document;
 
+use super::asked::Asked;
 use super::error::{Place, ReadError};
 use super::plan::Plan;
 use super::source::{Content, Input};
@@ -20,13 +21,13 @@ pub(super) struct Pieces {
 }
 
 /// A file that a list names; on Windows it may have backslashes.
-fn beside(folder: &Path, file: &str) -> PathBuf {
+pub(super) fn beside(folder: &Path, file: &str) -> PathBuf {
     let path = folder.join(file);
     if file.contains('\\') && !path.exists() { folder.join(file.replace('\\', "/")) } else { path }
 }
 
 /// The text of a list of files; none of another file.
-fn text(path: &Path, extensions: &[&str]) -> Option<String> {
+pub(super) fn text(path: &Path, extensions: &[&str]) -> Option<String> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     let short = std::fs::metadata(path).is_ok_and(|meta| meta.len() <= LONGEST);
     if !extensions.contains(&extension.as_str()) || !short {
@@ -69,7 +70,7 @@ impl Pieces {
     }
 
     /// The particles of all pieces, one after the other.
-    pub(super) fn plan(&self) -> Result<Plan<'static>, ReadError> {
+    pub(super) fn plan(&self, asked: &Asked) -> Result<Plan<'static>, ReadError> {
         let mut contents = Vec::new();
         for file in &self.files {
             let named = |error| match error {
@@ -88,7 +89,7 @@ impl Pieces {
                 self.blocks.join(", ")
             ));
         }
-        vtk_xml::plan_files(&contents, warnings)
+        vtk_xml::plan_files(&contents, warnings, asked)
     }
 
     /// What is at fault, by the piece where that is alone at fault.

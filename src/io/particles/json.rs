@@ -8,13 +8,14 @@
 
 use serde_json::{Map, Value};
 
+use super::asked::Asked;
 use super::bytes::show;
 use super::columns::{AttributeType, Data, Table};
 use super::error::{Place, ReadError};
 use super::names;
 use super::{Format, Particles};
 
-pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
+pub(super) fn read(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let value = match parse(bytes) {
         // Only where it is at fault: the numbers of Python are rare, and looking for them takes a copy.
@@ -24,7 +25,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Particles, ReadError> {
         },
         Ok(value) => value,
     };
-    let mut table = Table::default();
+    let mut table = Table::new(asked);
     match value {
         Value::Array(rows) => list(rows, &mut table)?,
         Value::Object(map) => object(map, &mut table)?,
@@ -121,7 +122,7 @@ fn list(mut rows: Vec<Value>, table: &mut Table) -> Result<(), ReadError> {
 }
 
 /// As pandas writes tables: lists of names and of rows, columns by the names of their rows, or rows by theirs.
-fn of_pandas(map: &mut Map<String, Value>) -> Option<Vec<Value>> {
+fn of_pandas(map: &mut Map<String, Value>, asked: &Asked) -> Option<Vec<Value>> {
     if let (Some(Value::Array(names)), Some(Value::Array(_))) =
         (map.get("columns"), map.get("data"))
     {
@@ -135,7 +136,7 @@ fn of_pandas(map: &mut Map<String, Value>) -> Option<Vec<Value>> {
         return Some(rows.into_iter().map(named).collect());
     }
     let columns: Vec<_> =
-        map.iter().filter(|(name, value)| names::wanted(name) && value.is_object()).collect();
+        map.iter().filter(|(name, value)| asked.wants(name) && value.is_object()).collect();
     let names: Vec<_> = columns.iter().map(|(name, _)| *name).collect();
     if names::may_have_positions(&names) {
         for value in map.values_mut() {
@@ -244,10 +245,10 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
             advice: "name it .series, with the files beside it",
         });
     }
-    if let Some(rows) = of_pandas(&mut map) {
+    if let Some(rows) = of_pandas(&mut map, &table.asked) {
         return list(rows, table);
     }
-    let known: Vec<&String> = map.keys().filter(|name| names::wanted(name)).collect();
+    let known: Vec<&String> = map.keys().filter(|name| table.asked.wants(name)).collect();
     if !names::may_have_positions(&known) {
         // The particles may be one level deeper.
         let mut inner: Vec<_> = map
@@ -272,7 +273,7 @@ fn object(mut map: Map<String, Value>, table: &mut Table) -> Result<(), ReadErro
     }
     for (name, value) in map {
         let Value::Array(rows) = value else { continue };
-        if !names::wanted(&name) {
+        if !table.asked.wants(&name) {
             let components = rows.first().and_then(Value::as_array).map_or(1, Vec::len);
             table.list(&name, components, AttributeType::Number);
             continue;

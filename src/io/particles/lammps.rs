@@ -1,11 +1,13 @@
 //! Dumps of LAMMPS and LIGGGHTS in text: `ITEM:` lines with what follows them, of which `ITEM: ATOMS` names the columns.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::{parse_number, show};
 use super::error::{Place, ReadError};
 use super::names::have_positions;
 use super::plan::About;
 use super::source::Content;
+use super::steps::{self, Start};
 use super::table::Table;
 use super::text::Text;
 use super::xyz;
@@ -16,9 +18,63 @@ pub(super) const STARTS: [&[u8]; 3] = [b"ITEM: TIMESTEP", b"ITEM: UNITS", b"ITEM
 /// Lines above the atoms: more are there in no dump.
 const LINES: u64 = 64;
 
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+/// Where the frames of a file begin, up to one of them.
+pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<Start>, ReadError> {
+    let (mut starts, mut text, mut number) = (Vec::new(), Text::of(content)?, 0_u64);
+    while upto.is_none_or(|upto| starts.len() <= upto + 1) {
+        let (at, lines) = (text.at(), number);
+        let (mut time, mut left, mut before) = (None, None::<u64>, Item::Other);
+        loop {
+            let Some(line) = text.line()? else { return Ok(starts) };
+            number += 1;
+            let line = line.trim_ascii();
+            let word = std::str::from_utf8(line).unwrap_or_default();
+            match before {
+                Item::Time => time = word.parse().ok(),
+                Item::Count => left = word.parse().ok(),
+                Item::Other => {}
+            }
+            before = match line {
+                b"ITEM: TIME" => Item::Time,
+                b"ITEM: NUMBER OF ATOMS" => Item::Count,
+                _ => Item::Other,
+            };
+            if line.starts_with(b"ITEM: ATOMS") || number - lines > LINES {
+                break;
+            }
+        }
+        starts.push(Start { at, lines, time });
+        for _ in 0..left.unwrap_or(0) {
+            if text.line()?.is_none() {
+                return Ok(starts);
+            }
+            number += 1;
+        }
+        text.skip_space()?;
+    }
+    Ok(starts)
+}
+
+/// What the line behind one is.
+enum Item {
+    Time,
+    Count,
+    Other,
+}
+
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
+    let starts = asked.step().map(|step| starts(content, Some(step.index))).transpose()?;
+    let part = asked.step().zip(starts);
+    match part.map_or(Ok(None), |(step, starts)| steps::part(content, &starts, step.index))? {
+        Some((content, _)) => open_one(&content, &asked.clone().of_step(None)),
+        None => open_one(content, asked),
+    }
+}
+
+fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let mut text = Text::of(content)?;
     let mut number = 0;
+    let (mut time, mut timed) = (None, false);
     let mut count = None;
     let mut counts = false;
     let (mut corners, mut bounds_left, mut tilted) = (Vec::new(), 0, false);
@@ -34,6 +90,11 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         let line = text.line()?.filter(|_| number < LINES);
         let line = line.ok_or_else(|| bad(b"none", number))?.trim_ascii().to_vec();
         number += 1;
+        if std::mem::take(&mut timed) {
+            time = parse_number(&line);
+            continue;
+        }
+        timed = line == b"ITEM: TIME";
         if std::mem::take(&mut counts) {
             let found = std::str::from_utf8(&line).ok().and_then(|line| line.parse::<u64>().ok());
             count = Some(found.ok_or_else(|| bad(&line, number))?);
@@ -80,15 +141,16 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
                 }
             }
         }
-        let about = About {
-            placed: None,
-            attributes: Vec::new(),
-            warnings: Vec::new(),
-            time: None,
-            format: Format::Lammps,
-        };
+        let about = About { time, ..About::new(Format::Lammps, asked) };
         let start = text.at();
         let text = Text::new(content.open(start, content.length())?);
-        return Ok(xyz::rows(text, number, Some(count), false, (&names, &sides), about));
+        return Ok(xyz::rows(
+            text,
+            content.lines_before() + number,
+            Some(count),
+            false,
+            (&names, &sides),
+            about,
+        ));
     }
 }

@@ -17,9 +17,10 @@
 //! | CSV (names of ParaView, DualSPHysics ..., or `x,y,z`), Tecplot, XYZ text, extended XYZ, XYZ raw `f32` triples | yes | |
 //! | JSON: arrays, objects of arrays, arrays of objects, lines | yes | |
 //! | dumps of LAMMPS and LIGGGHTS, text | yes | |
+//! | HDF5 (VTKHDF, PySPH, H5Part, H5MD, arrays in a group) and XDMF | with the feature `hdf5` | |
 //!
 //! [`Parts`] reads the same particles a part after the other, of files that are too large for the memory: all of these
-//! formats but JSON.
+//! formats but JSON, HDF5 and XDMF.
 //!
 //! Any of them may be wrapped in gzip. The content decides what a file is, the extension is only a hint.
 //! Names may have any case, blanks and units: `Pos.x [m]` is `pos_x`. A sound file that can't be taken for one frame of particles is
@@ -44,9 +45,12 @@ mod error;
 mod foreign;
 mod format;
 mod geo;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod head;
 mod heading;
 mod index;
+mod join;
 mod json;
 mod lammps;
 mod meaning;
@@ -59,23 +63,28 @@ mod rows;
 pub mod sequence;
 mod source;
 mod spacing;
+mod steps;
 mod survey;
 mod table;
 mod text;
 mod vtk_legacy;
 mod vtk_xml;
 mod write;
+#[cfg(feature = "hdf5")]
+mod xdmf;
 mod xyz;
 
 use std::io::Read as _;
 use std::path::Path;
 
+use asked::Asked;
 pub use columns::{Attribute, AttributeType, Extra};
 pub use error::{Place, ReadError, WriteError};
 pub use format::{Compression, Extension, Format, Storage, WriteFormat};
 pub use meaning::Meaning;
 pub use parts::{Parts, find_origin};
 pub use spacing::{estimate_densities, estimate_spacing};
+pub use steps::{Step, read_step, steps};
 pub use write::{write, write_to};
 
 /// One frame of particles as read from a file.
@@ -138,6 +147,12 @@ impl Particles {
         survey::retain(self, kept);
     }
 
+    /// Appends the particles of another file of the same frame. What not both have is dropped with a warning, and so are ids that
+    /// both have of different particles; [`extras`](Self::extras) are NaN where one of them has none.
+    pub fn append(&mut self, other: Self) {
+        join::append(self, other);
+    }
+
     /// Gives the particles another [`origin`](Self::origin), such as that of the first frame of a sequence.
     pub fn move_to(&mut self, origin: [f64; 3]) {
         if self.origin != origin {
@@ -158,12 +173,20 @@ impl Particles {
 /// [`ReadError::Io`] and [`ReadError::Directory`] where there is no file to read, else
 /// [`ReadError::File`] with the path and what [`read_bytes`] says.
 pub fn read(path: &Path) -> Result<Particles, ReadError> {
+    read_asked(path, &Asked::default())
+}
+
+fn read_asked(path: &Path, asked: &Asked) -> Result<Particles, ReadError> {
     let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
     if std::fs::metadata(path).map_err(io)?.is_dir() {
         return Err(ReadError::Directory { path: path.to_path_buf() });
     }
     if let Some(pieces) = index::Pieces::of(path)? {
-        return pieces.plan().and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
+        return pieces.plan(asked).and_then(plan::Plan::read).map_err(|error| pieces.fault(error));
+    }
+    #[cfg(feature = "hdf5")]
+    if let Some(read) = of_hdf5(path, asked) {
+        return read;
     }
     // A large file that can't be read isn't.
     let mut head = Vec::new();
@@ -173,8 +196,15 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
         return Err(ReadError::File { path: path.to_path_buf(), reason: Box::new(told) });
     }
     let bytes = std::fs::read(path).map_err(io)?;
-    read_bytes(&bytes, Extension::from_path(path))
+    read_bytes_asked(&bytes, Extension::from_path(path), asked)
         .map_err(|reason| ReadError::File { path: path.to_path_buf(), reason: Box::new(reason) })
+}
+
+/// The particles of a file of HDF5, or of one that names such; none of another.
+#[cfg(feature = "hdf5")]
+fn of_hdf5(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
+    let read = hdf5::read(path, asked).or_else(|| xdmf::read(path, asked))?;
+    Some(read.map_err(|error| parts::named(path, error)))
 }
 
 /// Reads one file, and beside what [`read`] gives attributes of one number each by name, into [`Particles::extras`]: case,
@@ -183,7 +213,7 @@ pub fn read(path: &Path) -> Result<Particles, ReadError> {
 /// # Errors
 /// Those of [`read`].
 pub fn read_with(path: &Path, extras: &[&str]) -> Result<Particles, ReadError> {
-    asked::with(extras, || read(path))
+    read_asked(path, &Asked::new(extras))
 }
 
 /// Whether these are names of one attribute, as [`read_with`] has it.
@@ -196,34 +226,47 @@ pub fn same_name(a: &str, b: &str) -> bool {
 /// # Errors
 /// Says what was expected, what was found, where, and what to do. It never panics, whatever the bytes.
 pub fn read_bytes(bytes: &[u8], hint: Extension) -> Result<Particles, ReadError> {
-    if bytes::is_gzip(bytes) {
-        let inner = bytes::gunzip(bytes)?;
-        return read_plain(&inner, hint, true);
-    }
-    read_plain(bytes, hint, false)
+    read_bytes_asked(bytes, hint, &Asked::default())
 }
 
-fn read_plain(bytes: &[u8], hint: Extension, gzip: bool) -> Result<Particles, ReadError> {
+fn read_bytes_asked(bytes: &[u8], hint: Extension, asked: &Asked) -> Result<Particles, ReadError> {
+    if bytes::is_gzip(bytes) {
+        let inner = bytes::gunzip(bytes)?;
+        return read_plain(&inner, hint, true, asked);
+    }
+    read_plain(bytes, hint, false, asked)
+}
+
+fn read_plain(
+    bytes: &[u8],
+    hint: Extension,
+    gzip: bool,
+    asked: &Asked,
+) -> Result<Particles, ReadError> {
     if let Some(text) = format::from_utf16(bytes) {
-        return read_plain(&text, hint, gzip);
+        return read_plain(&text, hint, gzip, asked);
+    }
+    #[cfg(feature = "hdf5")]
+    if bytes.starts_with(hdf5::MAGIC) {
+        return hdf5::File::of_bytes(bytes)?.read(asked);
     }
     let content = || source::Content::of_bytes(bytes);
     match format::detect(bytes, hint)? {
-        format::Reader::Bgeo => bgeo::layout(bytes, gzip)?.read(bytes),
-        format::Reader::Geo => table::plan(&content()?, geo::open)?.read(),
-        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?)?.read(),
-        format::Reader::VtkXml => vtk_xml::plan(&content()?)?.read(),
-        format::Reader::Ply => match ply::layout(bytes)?.0 {
+        format::Reader::Bgeo => bgeo::layout(bytes, gzip, asked)?.read(bytes),
+        format::Reader::Geo => table::plan(&content()?, geo::open, asked)?.read(),
+        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?, asked)?.read(),
+        format::Reader::VtkXml => vtk_xml::plan(&content()?, asked)?.read(),
+        format::Reader::Ply => match ply::layout(bytes, asked)?.0 {
             Some(layout) => layout.read(bytes),
-            None => table::plan(&content()?, ply::open)?.read(),
+            None => table::plan(&content()?, ply::open, asked)?.read(),
         },
-        format::Reader::Npy => numpy::read_npy(bytes),
-        format::Reader::Npz => numpy::read_npz(bytes),
-        format::Reader::Csv => table::plan(&content()?, comma::open)?.read(),
-        format::Reader::XyzText => table::plan(&content()?, xyz::open)?.read(),
-        format::Reader::Lammps => table::plan(&content()?, lammps::open)?.read(),
-        format::Reader::XyzRaw => xyz::raw(bytes.len() as u64)?.read(bytes),
-        format::Reader::Json => json::read(bytes),
+        format::Reader::Npy => numpy::read_npy(bytes, asked),
+        format::Reader::Npz => numpy::read_npz(bytes, asked),
+        format::Reader::Csv => table::plan(&content()?, comma::open, asked)?.read(),
+        format::Reader::XyzText => table::plan(&content()?, xyz::open, asked)?.read(),
+        format::Reader::Lammps => table::plan(&content()?, lammps::open, asked)?.read(),
+        format::Reader::XyzRaw => xyz::raw(bytes.len() as u64, asked)?.read(bytes),
+        format::Reader::Json => json::read(bytes, asked),
     }
 }
 

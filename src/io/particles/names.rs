@@ -4,8 +4,6 @@
 //! name. Components are `x y z`, or numbers from 0 or 1, bare or in brackets: `Points:0`, `v_1`, `velocity[2]`. What
 //! begins with `particle` or `part` means what the rest does: `Part id`, `particle_velocity_x`.
 
-use super::asked;
-
 /// Names with a meaning, as [`plain`] gives them, the surest first.
 pub(super) type Names = &'static [&'static str];
 
@@ -112,19 +110,13 @@ pub(super) fn triples(names: Names) -> impl Iterator<Item = [String; 3]> {
 }
 
 /// Whether a plain name has a meaning.
-fn known(name: &str) -> bool {
+pub(super) fn known(name: &str) -> bool {
     [POSITION, VELOCITY, DENSITY, ID, LIFETIME, KIND, GHOST, STEP]
         .iter()
         .any(|names| names.contains(&name))
         || [POSITION, VELOCITY]
             .iter()
             .any(|names| triples(names).any(|t| t.iter().any(|n| n == name)))
-}
-
-/// Whether an attribute of this name may be used, so that a reader need not unpack the others.
-pub(super) fn wanted(name: &str) -> bool {
-    let name = plain(name);
-    known(&name) || asked::has(&name)
 }
 
 /// Whether an attribute of this name is one of vectors.
@@ -185,11 +177,11 @@ mod tests {
     #[test]
     fn what_is_wanted() {
         for name in ["U", "u", "v_3", "v_0", "Idp", "origId", "Rhop", "Part id", "ux", "VX", "w"] {
-            assert!(wanted(name), "{name}");
+            assert!(known(&plain(name)), "{name}");
         }
         for name in ["xx", "d", "PART", "mass", "nx", "Points_Magnitude", "v_4", "v_mag", "", "age"]
         {
-            assert!(!wanted(name), "{name}");
+            assert!(!known(&plain(name)), "{name}");
         }
     }
 }

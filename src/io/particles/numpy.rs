@@ -12,6 +12,7 @@
 
 use std::io::{Cursor as IoCursor, Read};
 
+use super::asked::Asked;
 use super::bytes::{Cursor, show, unpack, unpack_limit};
 use super::columns::{Attribute, AttributeType, Column, Data, Table};
 use super::error::{Place, ReadError};
@@ -106,6 +107,7 @@ impl Header {
         header: u64,
         name: &str,
         placed: bool,
+        asked: &Asked,
     ) -> Result<(Rows, Rowed, Vec<String>), ReadError> {
         let mut warnings = Vec::new();
         let vector = !self.structured && (placed || names::is_vector(name));
@@ -124,7 +126,7 @@ impl Header {
                 });
             }
             let used =
-                self.members.iter().filter(|m| names::wanted(&m.name) && m.ty.size().is_some());
+                self.members.iter().filter(|m| asked.wants(&m.name) && m.ty.size().is_some());
             big_endian = used.clone().any(|member| member.big_endian);
             if used
                 .clone()
@@ -183,11 +185,11 @@ impl Header {
         cursor: &mut Cursor<'_>,
         name: &str,
         placed: bool,
-        warnings: &mut Vec<String>,
+        table: &mut Table,
     ) -> Result<Vec<Column>, ReadError> {
-        let (rows, rowed, told) = self.rows(0, name, placed)?;
+        let (rows, rowed, told) = self.rows(0, name, placed, &table.asked)?;
         let raw = cursor.take(rows.bytes(), &rows.what)?;
-        warnings.extend(told);
+        table.warnings.extend(told);
         let mut columns = rows.columns();
         if !rowed.transposed {
             rows.decode(raw, rows.count as usize, &vec![true; columns.len()], &mut columns);
@@ -231,15 +233,15 @@ impl Header {
 
 const NPY: &str = "array";
 
-pub(super) fn read_npy(bytes: &[u8]) -> Result<Particles, ReadError> {
-    if let Some(layout) = layout(bytes)?.0 {
+pub(super) fn read_npy(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
+    if let Some(layout) = layout(bytes, asked)?.0 {
         return layout.read(bytes);
     }
     let mut cursor = Cursor::new(bytes);
     let header = of_positions(&mut cursor)?;
-    let mut table = Table::default();
+    let mut table = Table::new(asked);
     header.list(&mut table, NPY);
-    let mut columns = header.columns(&mut cursor, NPY, true, &mut table.warnings)?.into_iter();
+    let mut columns = header.columns(&mut cursor, NPY, true, &mut table)?.into_iter();
     table.positions = columns.next().map(|column| (column.components, column.data));
     table.columns.extend(columns);
     table.assemble(Format::Npy)
@@ -247,19 +249,20 @@ pub(super) fn read_npy(bytes: &[u8]) -> Result<Particles, ReadError> {
 
 /// What the header of an NPY says and its length, of a file or the beginning of one; none where particle does not
 /// follow particle.
-pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
+pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64), ReadError> {
     let mut cursor = Cursor::new(bytes);
     let header = of_positions(&mut cursor)?;
     let length = cursor.at() as u64;
-    let mut table = Table::default();
+    let mut table = Table::new(asked);
     header.list(&mut table, NPY);
-    let (rows, rowed, warnings) = header.rows(length, NPY, true)?;
+    let (rows, rowed, warnings) = header.rows(length, NPY, true, asked)?;
     let layout = (!rowed.transposed).then_some(Layout {
         rows,
         placed: !header.structured,
         attributes: table.attributes,
         warnings,
         format: Format::Npy,
+        asked: asked.clone(),
     });
     Ok((layout, length))
 }
@@ -275,20 +278,19 @@ fn of_positions(cursor: &mut Cursor<'_>) -> Result<Header, ReadError> {
     Ok(header)
 }
 
-pub(super) fn read_npz(bytes: &[u8]) -> Result<Particles, ReadError> {
+pub(super) fn read_npz(bytes: &[u8], asked: &Asked) -> Result<Particles, ReadError> {
     let mut archive = zip::ZipArchive::new(IoCursor::new(bytes)).map_err(bad_zip)?;
     let mut budget = unpack_limit(bytes.len());
-    let (mut table, mut chosen) = choose(&mut archive)?;
+    let (mut table, mut chosen) = choose(&mut archive, asked)?;
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
-        let Some(name) = wanted_array(&mut file, &chosen) else { continue };
+        let Some(name) = wanted_array(&mut file, &chosen, asked) else { continue };
         let raw = unpack(&mut file, budget, &format!("array `{name}`"), 0)?;
         budget = budget.saturating_sub(raw.len());
         let mut cursor = Cursor::new(&raw);
         let header = header(&mut cursor)?;
         let placed = chosen.positions.as_ref() == Some(&name);
-        let mut columns =
-            header.columns(&mut cursor, &name, placed, &mut table.warnings)?.into_iter();
+        let mut columns = header.columns(&mut cursor, &name, placed, &mut table)?.into_iter();
         if placed {
             table.positions = columns.next().map(|column| (column.components, column.data));
         }
@@ -309,13 +311,13 @@ pub(super) struct Arrays {
 }
 
 /// What the headers of the arrays in a zip say; none where one can't be read row after row.
-pub(super) fn arrays(input: &Input<'_>) -> Result<Option<Arrays>, ReadError> {
+pub(super) fn arrays(input: &Input<'_>, asked: &Asked) -> Result<Option<Arrays>, ReadError> {
     let mut archive = zip::ZipArchive::new(input.section()).map_err(bad_zip)?;
-    let (mut table, mut chosen) = choose(&mut archive)?;
+    let (mut table, mut chosen) = choose(&mut archive, asked)?;
     let (mut found, mut placed, mut columns) = (Vec::new(), None, 0);
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
-        let Some(name) = wanted_array(&mut file, &chosen) else { continue };
+        let Some(name) = wanted_array(&mut file, &chosen, asked) else { continue };
         let packing = match file.compression() {
             zip::CompressionMethod::Stored => Packing::None,
             zip::CompressionMethod::Deflated => Packing::Deflate,
@@ -337,7 +339,7 @@ pub(super) fn arrays(input: &Input<'_>) -> Result<Option<Arrays>, ReadError> {
         });
         let (header, length) = header?;
         let of_positions = chosen.positions.as_ref() == Some(&name);
-        let (rows, rowed, told) = header.rows(length, &name, of_positions)?;
+        let (rows, rowed, told) = header.rows(length, &name, of_positions, asked)?;
         if rowed.transposed {
             return Ok(None);
         }
@@ -370,8 +372,9 @@ struct Chosen {
 /// Lists the arrays of a zip by their headers alone; one that cannot be read is no reason to stop.
 fn choose<R: Read + std::io::Seek>(
     archive: &mut zip::ZipArchive<R>,
+    asked: &Asked,
 ) -> Result<(Table, Chosen), ReadError> {
-    let (mut table, mut chosen) = (Table::default(), Chosen::default());
+    let (mut table, mut chosen) = (Table::new(asked), Chosen::default());
     let (mut all, mut able) = (Vec::new(), Vec::new());
     for i in 0..archive.len() {
         let mut file = archive.by_index(i).map_err(bad_zip)?;
@@ -381,13 +384,13 @@ fn choose<R: Read + std::io::Seek>(
         let _ = file.by_ref().take(4096).read_to_end(&mut head);
         let Ok(header) = header(&mut Cursor::new(&head)) else { continue };
         header.list(&mut table, &name);
-        if header.structured && !names::wanted(&name) {
+        if header.structured && !asked.wants(&name) {
             let fields = header.members.iter().map(|member| member.name.clone());
             all.extend(fields);
             chosen.structured.push(name);
             continue;
         }
-        if header.may_be_positions() && !names::wanted(&name) {
+        if header.may_be_positions() && !asked.wants(&name) {
             able.push(name.clone());
         }
         all.push(name);
@@ -413,9 +416,13 @@ fn choose<R: Read + std::io::Seek>(
 }
 
 /// The name of an array that may be used.
-fn wanted_array(file: &mut zip::read::ZipFile<'_, impl Read>, chosen: &Chosen) -> Option<String> {
+fn wanted_array(
+    file: &mut zip::read::ZipFile<'_, impl Read>,
+    chosen: &Chosen,
+    asked: &Asked,
+) -> Option<String> {
     let name = file.name().ok()?.strip_suffix(".npy")?.to_string();
-    let used = names::wanted(&name)
+    let used = asked.wants(&name)
         || chosen.structured.contains(&name)
         || chosen.positions.as_ref() == Some(&name);
     used.then_some(name)

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::columns::Attribute;
+use super::asked::Asked;
 use super::error::ReadError;
 use super::format::{self, Extension};
 use super::plan::{About, Pass, Plan, Surveyed, changed};
@@ -26,7 +26,7 @@ const START: u64 = 1 << 16;
 /// header of VTK XML are its elements without the texts that are longer than 64 characters. A block that LZ4 or LZMA has
 /// packed is unpacked as a whole, by LZMA with a dictionary of 64 MiB at most.
 ///
-/// This holds for all formats but JSON, text in UTF-16, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
+/// This holds for all formats but JSON, HDF5, XDMF, text in UTF-16, NPY and NPZ with arrays in Fortran's order, NPZ within gzip or packed other than
 /// by deflate, and VTK XML whose texts have references (`&#32;`) or CDATA in them. Those are read as a whole: see
 /// [`in_memory`](Self::in_memory), but for the last, of which the header alone is as long as the file. Attributes of VTK
 /// have places of their own in the file: what gzip has packed is unpacked for each of them.
@@ -77,8 +77,16 @@ impl Parts<'static> {
         }
         if let Some(pieces) = super::index::Pieces::of(path)? {
             let mut show = show;
-            let parts = pieces.plan().and_then(|plan| Self::of_plan(plan, most, &mut show));
+            let parts = pieces
+                .plan(&Asked::default())
+                .and_then(|plan| Self::of_plan(plan, most, &mut show));
             let parts = parts.map_err(|error| pieces.fault(error))?;
+            return Ok(Self { path: Some(path.to_path_buf()), ..parts });
+        }
+        #[cfg(feature = "hdf5")]
+        if let Some(all) = super::of_hdf5(path, &Asked::default()) {
+            let mut show = show;
+            let parts = Self::of_memory(all?, most, &mut show);
             return Ok(Self { path: Some(path.to_path_buf()), ..parts });
         }
         let file = std::fs::File::open(path).map_err(io)?;
@@ -96,23 +104,30 @@ impl Parts<'static> {
 /// Those of [`read`](super::read) that come before the particles.
 pub fn find_origin(path: &Path) -> Result<[f64; 3], ReadError> {
     if let Some(pieces) = super::index::Pieces::of(path)? {
-        return Ok(pieces.plan()?.origin());
+        return Ok(pieces.plan(&Asked::default())?.origin());
+    }
+    #[cfg(feature = "hdf5")]
+    if let Some(all) = super::of_hdf5(path, &Asked::default()) {
+        return Ok(all?.origin);
     }
     let io = |reason| ReadError::Io { path: path.to_path_buf(), reason };
     let input = Input::new(std::fs::File::open(path).map_err(io)?)?;
     let mut start = Vec::new();
     Source::new(&input, &input.whole(false)).fill(2, &mut start)?;
     let gzip = super::bytes::is_gzip(&start);
-    let plan =
-        plan(&input, Extension::from_path(path), gzip).map_err(|error| named(path, error))?;
+    let plan = plan(&input, Extension::from_path(path), gzip, &Asked::default())
+        .map_err(|error| named(path, error))?;
     plan.map_or_else(|| Ok(super::read(path)?.origin), |plan| Ok(plan.origin()))
 }
 
 /// An error with the file it is about.
-fn named(path: &Path, error: ReadError) -> ReadError {
+pub(super) fn named(path: &Path, error: ReadError) -> ReadError {
     let path = path.to_path_buf();
     match error {
-        ReadError::Io { reason, .. } => ReadError::Io { path, reason },
+        ReadError::Io { path: own, reason } if own.as_os_str().is_empty() => {
+            ReadError::Io { path, reason }
+        }
+        error @ (ReadError::File { .. } | ReadError::Io { .. }) => error,
         error => ReadError::File { path, reason: Box::new(error) },
     }
 }
@@ -136,7 +151,7 @@ impl<'a> Parts<'a> {
         let mut start = Vec::new();
         Source::new(input, &input.whole(false)).fill(2, &mut start)?;
         let gzip = super::bytes::is_gzip(&start);
-        let planned = plan(input, hint, gzip);
+        let planned = plan(input, hint, gzip, &Asked::default());
         let planned = planned
             .and_then(|plan| plan.map(|plan| Self::of_plan(plan, most, &mut show)).transpose());
         match planned {
@@ -146,15 +161,7 @@ impl<'a> Parts<'a> {
                 Source::new(input, &input.whole(false)).fill(u64::MAX, &mut bytes)?;
                 let all = super::read_bytes(&bytes, hint)?;
                 drop(bytes);
-                show(&all);
-                let about = Particles {
-                    attributes: all.attributes.clone(),
-                    meanings: all.meanings.clone(),
-                    warnings: all.warnings.clone(),
-                    ..slice(&all, 0..0)
-                };
-                let total = all.positions.len();
-                Ok(Self { about, total, most, rest: Rest::Memory(Box::new(all), 0), path: None })
+                Ok(Self::of_memory(all, most, &mut show))
             }
             Err(error) => {
                 // Where the packing is at fault it is no use to look for faults in what comes out.
@@ -164,6 +171,18 @@ impl<'a> Parts<'a> {
                 Err(error)
             }
         }
+    }
+
+    fn of_memory(all: Particles, most: usize, show: &mut dyn FnMut(&Particles)) -> Self {
+        show(&all);
+        let about = Particles {
+            attributes: all.attributes.clone(),
+            meanings: all.meanings.clone(),
+            warnings: all.warnings.clone(),
+            ..slice(&all, 0..0)
+        };
+        let (total, most) = (all.positions.len(), most.max(1));
+        Self { about, total, most, rest: Rest::Memory(Box::new(all), 0), path: None }
     }
 
     fn of_plan(
@@ -272,7 +291,12 @@ fn slice(all: &Particles, range: Range<usize>) -> Particles {
 }
 
 /// Where the particles of a file are; none of a file that can't be read in parts.
-fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Plan<'a>>, ReadError> {
+pub(super) fn plan<'a>(
+    input: &Input<'a>,
+    hint: Extension,
+    gzip: bool,
+    asked: &Asked,
+) -> Result<Option<Plan<'a>>, ReadError> {
     let piece = input.whole(gzip);
     let mut start = Vec::new();
     Source::new(input, &piece).fill(START, &mut start)?;
@@ -293,38 +317,42 @@ fn plan<'a>(input: &Input<'a>, hint: Extension, gzip: bool) -> Result<Option<Pla
     let mut source = Source::new(input, &piece);
     let layout = match reader {
         format::Reader::Bgeo => Some(source::header(&mut source, |head| {
-            let layout = bgeo::layout(head, gzip)?;
+            let layout = bgeo::layout(head, gzip, asked)?;
             let length = layout.rows.header;
             Ok((layout, length))
         })?),
-        format::Reader::Ply => source::header(&mut source, ply::layout)?,
-        format::Reader::Npy => source::header(&mut source, numpy::layout)?,
+        format::Reader::Ply => source::header(&mut source, |head| ply::layout(head, asked))?,
+        format::Reader::Npy => source::header(&mut source, |head| numpy::layout(head, asked))?,
         format::Reader::Npz if !gzip => {
-            let Some(arrays) = numpy::arrays(input)? else { return Ok(None) };
+            let Some(arrays) = numpy::arrays(input, asked)? else { return Ok(None) };
             let numpy::Arrays { rows, placed, attributes, warnings } = arrays;
-            let about = About { placed, attributes, warnings, time: None, format: Format::Npz };
+            let about = About { placed, attributes, warnings, ..About::new(Format::Npz, asked) };
             return of_rows(input, rows, about).map(Some);
         }
         _ => None,
     };
-    if let Some(Layout { rows, placed, attributes, warnings, format }) = layout {
+    if let Some(Layout { rows, placed, attributes, warnings, format, .. }) = layout {
         let placed = placed.then_some(0);
-        let about = About { placed, attributes, warnings, time: None, format };
+        let about = About { placed, attributes, warnings, ..About::new(format, asked) };
         return of_rows(input, vec![(piece, rows)], about).map(Some);
     }
     let content = || Content::new(input, gzip);
     Ok(Some(match reader {
-        format::Reader::Csv => table::plan(&content()?, comma::open)?,
-        format::Reader::XyzText => table::plan(&content()?, xyz::open)?,
-        format::Reader::Lammps => table::plan(&content()?, lammps::open)?,
+        format::Reader::Csv => table::plan(&content()?, comma::open, asked)?,
+        format::Reader::XyzText => table::plan(&content()?, xyz::open, asked)?,
+        format::Reader::Lammps => table::plan(&content()?, lammps::open, asked)?,
         format::Reader::XyzRaw => {
-            let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length())?;
-            of_rows(input, vec![(piece, rows)], about(Some(0), attributes, format))?
+            let Layout { rows, attributes, format, .. } = xyz::raw(content()?.length(), asked)?;
+            of_rows(
+                input,
+                vec![(piece, rows)],
+                About { placed: Some(0), attributes, ..About::new(format, asked) },
+            )?
         }
-        format::Reader::Geo => table::plan(&content()?, geo::open)?,
-        format::Reader::Ply => table::plan(&content()?, ply::open)?,
-        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?)?,
-        format::Reader::VtkXml => vtk_xml::plan(&content()?)?,
+        format::Reader::Geo => table::plan(&content()?, geo::open, asked)?,
+        format::Reader::Ply => table::plan(&content()?, ply::open, asked)?,
+        format::Reader::VtkLegacy => vtk_legacy::plan(&content()?, asked)?,
+        format::Reader::VtkXml => vtk_xml::plan(&content()?, asked)?,
         _ => return Ok(None),
     }))
 }
@@ -347,8 +375,4 @@ fn of_rows<'a>(
         })
     });
     Plan::new(tracks.collect(), about, input.unpack_limit())
-}
-
-fn about(placed: Option<usize>, attributes: Vec<Attribute>, format: Format) -> About {
-    About { placed, attributes, warnings: Vec::new(), time: None, format }
 }

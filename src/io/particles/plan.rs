@@ -1,6 +1,7 @@
 //! How the particles of a file are read from the first on, as often as needed: all at once, or a part after the other.
 
-use super::columns::{Attribute, Column, Data, Roles, Shape};
+use super::asked::Asked;
+use super::columns::{Attribute, AttributeType, Column, Data, Roles, Shape};
 use super::error::{Place, ReadError};
 use super::meaning::Meaning;
 use super::survey::{Columns, FIRST, Survey};
@@ -11,6 +12,8 @@ pub(super) const CHUNK: u64 = 1 << 18;
 
 /// Particles that are read at a time where only their faults are looked for.
 const CHECKED: usize = 1 << 12;
+/// And where their times are.
+const PART: usize = 1 << 16;
 
 /// Some of the columns of a file, which are read side by side with those of other tracks.
 pub(super) struct Track<'a> {
@@ -59,6 +62,8 @@ pub(super) struct Plan<'a> {
     format: Format,
     /// The most that all tracks together may unpack.
     limit: u64,
+    /// The time of the particles that are asked for, where each has one.
+    only: Option<f64>,
 }
 
 /// What a header says beside where the particles are.
@@ -70,6 +75,25 @@ pub(super) struct About {
     /// Of the frame.
     pub(super) time: Option<f64>,
     pub(super) format: Format,
+    pub(super) asked: Asked,
+}
+
+impl About {
+    pub(super) fn new(format: Format, asked: &Asked) -> Self {
+        Self {
+            placed: None,
+            attributes: Vec::new(),
+            warnings: Vec::new(),
+            time: None,
+            format,
+            asked: asked.clone(),
+        }
+    }
+
+    /// Lists an attribute, and says whether its numbers are wanted.
+    pub(super) fn list(&mut self, name: &str, components: usize, ty: AttributeType) -> bool {
+        self.asked.list(&mut self.attributes, name, components, ty)
+    }
 }
 
 /// What was found when all particles were read for the first time.
@@ -85,18 +109,31 @@ pub(super) struct Surveyed {
 
 impl<'a> Plan<'a> {
     pub(super) fn new(tracks: Vec<Track<'a>>, about: About, limit: u64) -> Result<Self, ReadError> {
-        let About { placed, attributes, mut warnings, time, format } = about;
+        let About { placed, attributes, mut warnings, time, format, asked } = about;
         let shapes: Vec<_> = tracks.iter().flat_map(shapes).collect();
-        let roles = Roles::find(&shapes, placed, &attributes)?;
+        let roles = Roles::find(&shapes, placed, &attributes, &asked)?;
         let meanings = roles.meanings(&shapes, &attributes);
         warnings.extend(roles.warnings());
         let known = tracks.iter().all(|track| track.lengths.is_some());
         let rows = if known { Some(roles.rows(&shapes)?) } else { None };
+        let only = roles.steps.and_then(|_| asked.step()?.time);
         let mut used = vec![false; shapes.len()];
         for i in roles.used() {
             used.get_mut(i).into_iter().for_each(|used| *used = true);
         }
-        Ok(Self { tracks, used, roles, rows, attributes, meanings, warnings, time, format, limit })
+        Ok(Self {
+            tracks,
+            used,
+            roles,
+            rows,
+            attributes,
+            meanings,
+            warnings,
+            time,
+            format,
+            limit,
+            only,
+        })
     }
 
     /// Each track, with the columns of it that are used.
@@ -144,7 +181,7 @@ impl<'a> Plan<'a> {
         Ok(Pass {
             streams: streams.collect::<Result<_, _>>()?,
             left: self.rows.unwrap_or(usize::MAX),
-            survey: Survey::new(self.origin()),
+            survey: Survey::new(self.origin()).of_time(self.only),
             room: Vec::new(),
         })
     }
@@ -168,7 +205,7 @@ impl<'a> Plan<'a> {
             columns.append(&mut own);
         }
         let columns = Columns::new(columns);
-        let mut survey = Survey::new(columns.origin(&self.roles));
+        let mut survey = Survey::new(columns.origin(&self.roles)).of_time(self.only);
         let mut particles = survey.part(&self.roles, columns, self.format);
         survey.drop_from(&mut particles);
         let mut warnings = self.warnings;
@@ -198,7 +235,11 @@ impl<'a> Plan<'a> {
         let columns = self.tracks.iter().flat_map(|track| track.columns.clone()).collect();
         let columns = Columns::new(columns);
         let mut pass = self.start()?;
-        let mut about = Survey::new(pass.survey.origin()).part(&self.roles, columns, self.format);
+        let mut about = Survey::new(pass.survey.origin()).of_time(self.only).part(
+            &self.roles,
+            columns,
+            self.format,
+        );
         let mut only = Some(about.clone());
         let mut first = true;
         while let Some(part) = pass.part(self, most)? {
@@ -219,6 +260,16 @@ impl<'a> Plan<'a> {
             only.time = about.time;
         });
         Ok(Surveyed { about, rows, total, only })
+    }
+
+    /// The times of the frames that all particles together are, sorted; none where they are one.
+    pub(super) fn times(&self) -> Result<Vec<f64>, ReadError> {
+        if self.roles.steps.is_none() {
+            return Ok(Vec::new());
+        }
+        let mut pass = self.start()?;
+        while pass.part(self, PART)?.is_some() {}
+        Ok(pass.survey.times())
     }
 
     /// From now on there have to be as many.

@@ -8,8 +8,9 @@
 //! known when it is compiled: 870 bytes for one that has 28 in the file.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::{Cursor, parse_number, show};
-use super::columns::{self, AttributeType, Column, Data};
+use super::columns::{AttributeType, Column, Data};
 use super::error::{Place, ReadError};
 use super::plan::About;
 use super::rows::{Field, Layout, Rows};
@@ -52,7 +53,7 @@ enum Encoding {
 
 /// What the header says and its length, of a file or the beginning of one; none where rows differ in length: of text,
 /// and where there are lists up to the vertices.
-pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
+pub(super) fn layout(bytes: &[u8], asked: &Asked) -> Result<(Option<Layout>, u64), ReadError> {
     let mut cursor = Cursor::new(bytes);
     let (encoding, elements) = header(&mut cursor)?;
     let header = cursor.at() as u64;
@@ -68,7 +69,7 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
     let mut fields = Vec::new();
     let mut offset = 0;
     for property in &vertex.properties {
-        if columns::list(&mut attributes, &property.name, 1, property.ty) {
+        if asked.list(&mut attributes, &property.name, 1, property.ty) {
             fields.push(Field::new(&property.name, 1, property.ty, offset)?);
         }
         offset += property.ty.size().unwrap_or(0);
@@ -88,6 +89,7 @@ pub(super) fn layout(bytes: &[u8]) -> Result<(Option<Layout>, u64), ReadError> {
         attributes,
         warnings: faces(&elements),
         format: Format::PlyBinary { big_endian },
+        asked: asked.clone(),
     };
     Ok((Some(layout), header))
 }
@@ -193,7 +195,7 @@ fn scalar(name: &str) -> Option<AttributeType> {
 }
 
 /// Vertices of a file that is no rows of one length.
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
     let header = |head: &[u8]| {
         let mut cursor = Cursor::new(head);
         let header = header(&mut cursor)?;
@@ -212,18 +214,11 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         Encoding::Ascii => Format::PlyAscii,
         encoding => Format::PlyBinary { big_endian: encoding == Encoding::Big },
     };
-    let mut about = About {
-        placed: None,
-        attributes: Vec::new(),
-        warnings: faces(&elements),
-        time: None,
-        format,
-    };
+    let mut about = About { warnings: faces(&elements), ..About::new(format, asked) };
     let (mut columns, mut taken) = (Vec::new(), Vec::new());
     for property in &vertex.properties {
         let ty = property.list.map_or(property.ty, |_| AttributeType::List);
-        let keep =
-            columns::list(&mut about.attributes, &property.name, 1, ty) && property.list.is_none();
+        let keep = about.list(&property.name, 1, ty) && property.list.is_none();
         taken.push(keep.then_some(columns.len()));
         if keep {
             columns.push(Column::new(&property.name, 1, property.ty));

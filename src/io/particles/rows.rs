@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use super::asked::Asked;
 use super::bytes::Cursor;
 use super::columns::{Attribute, AttributeType, Column, Roles, Shape, Table};
 use super::error::ReadError;
@@ -165,6 +166,7 @@ pub(super) struct Layout {
     pub(super) attributes: Vec<Attribute>,
     pub(super) warnings: Vec<String>,
     pub(super) format: Format,
+    pub(super) asked: Asked,
 }
 
 impl Layout {
@@ -181,7 +183,7 @@ impl Layout {
                 values: rows.count.saturating_mul(c.components as u64),
             })
             .collect();
-        Roles::find(&shapes, self.placed.then_some(0), &self.attributes)?;
+        Roles::find(&shapes, self.placed.then_some(0), &self.attributes, &self.asked)?;
         let mut cursor = Cursor::new(bytes);
         cursor.take(rows.header, "the header")?;
         for (what, length) in &rows.between {
@@ -192,7 +194,7 @@ impl Layout {
         let used = vec![true; columns.len()];
         rows.decode(raw, rows.count as usize, &used, &mut columns);
         let positions = self.placed.then(|| columns.remove(0)).map(|c| (c.components, c.data));
-        let Self { attributes, warnings, format, .. } = self;
-        Table { positions, columns, attributes, warnings, time: None }.assemble(format)
+        let Self { attributes, warnings, format, asked, .. } = self;
+        Table { positions, columns, attributes, warnings, time: None, asked }.assemble(format)
     }
 }

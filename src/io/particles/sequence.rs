@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use super::index;
+use super::steps::Step;
 
 /// One file of a sequence.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,6 +17,21 @@ pub struct Frame {
     pub time: Option<f64>,
     /// The file.
     pub path: PathBuf,
+    /// Other files whose particles are of the same frame.
+    pub also: Vec<PathBuf>,
+    /// The frame of the file where it holds several; [`expand`] does not look into files.
+    pub step: Option<Step>,
+}
+
+impl Frame {
+    fn new(number: u64, time: Option<f64>, path: PathBuf) -> Self {
+        Self { number, time, path, also: Vec::new(), step: None }
+    }
+
+    /// All files of the frame.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        std::iter::once(&self.path).chain(&self.also).map(PathBuf::as_path)
+    }
 }
 
 /// Why inputs give no frames.
@@ -136,6 +152,21 @@ pub fn expand<S: AsRef<str>>(
     inputs: &[S],
     frames: Option<RangeInclusive<u64>>,
 ) -> Result<Vec<Frame>, SequenceError> {
+    within(expand_all(inputs, false)?, frames)
+}
+
+/// The same, where files of one number are parts of one frame: [`Frame::also`].
+///
+/// # Errors
+/// Those of [`expand`], but for two files of one number.
+pub fn expand_joined<S: AsRef<str>>(
+    inputs: &[S],
+    frames: Option<RangeInclusive<u64>>,
+) -> Result<Vec<Frame>, SequenceError> {
+    within(expand_all(inputs, true)?, frames)
+}
+
+fn expand_all<S: AsRef<str>>(inputs: &[S], join: bool) -> Result<Vec<Frame>, SequenceError> {
     if inputs.is_empty() {
         return Err(SequenceError::NoInput);
     }
@@ -163,12 +194,19 @@ pub fn expand<S: AsRef<str>>(
         return Err(SequenceError::Piece { file: file.clone(), index });
     }
 
-    let mut found = number(named);
-    found.sort_by_key(|f| f.number);
-    for pair in found.windows(2) {
-        if let [a, b] = pair
-            && a.number == b.number
-        {
+    // Files that a list has at one time are those of ranks, or of blocks.
+    let listed = named.iter().all(|named| named.listed);
+    let mut all = number(named);
+    all.sort_by_key(|f| f.number);
+    let mut found: Vec<Frame> = Vec::new();
+    for b in all {
+        let Some(a) = found.last_mut().filter(|a| a.number == b.number) else {
+            found.push(b);
+            continue;
+        };
+        if join || listed {
+            a.also.push(b.path);
+        } else {
             return Err(SequenceError::Twice {
                 number: a.number,
                 first: a.path.clone(),
@@ -177,6 +215,17 @@ pub fn expand<S: AsRef<str>>(
             });
         }
     }
+    Ok(found)
+}
+
+/// Those of the frames whose numbers are in a range.
+///
+/// # Errors
+/// [`SequenceError::OutsideRange`] where none is.
+pub fn within(
+    mut found: Vec<Frame>,
+    frames: Option<RangeInclusive<u64>>,
+) -> Result<Vec<Frame>, SequenceError> {
     let Some(range) = frames else {
         return Ok(found);
     };
@@ -308,7 +357,7 @@ fn advice(first: &Path, second: &Path) -> String {
     let (a, b) = (name(first).unwrap_or_default(), name(second).unwrap_or_default());
     let text = |name: &str| name.chars().filter(|c| !c.is_ascii_digit()).collect::<String>();
     if text(&a) == text(&b) {
-        let index = "name the file that lists them (.pvtu, .pvtp, .pvd), or narrow the pattern to one sequence";
+        let index = "name the file that lists them (.pvtu, .pvtp, .pvd), have them put together (--join of the tool), or narrow the pattern to one sequence";
         return format!("if these are pieces of one frame, {index}");
     }
     // The number of a frame is mostly the last.
@@ -316,7 +365,7 @@ fn advice(first: &Path, second: &Path) -> String {
     let (head, tail) = a.split_at_checked(end).unwrap_or_default();
     let pattern = format!("{}*{tail}", head.trim_end_matches(|c: char| c.is_ascii_digit()));
     format!(
-        "narrow the pattern to one sequence, such as '{}'",
+        "narrow the pattern to one sequence, such as '{}', or have them put together (--join of the tool)",
         first.with_file_name(pattern).display()
     )
 }
@@ -347,6 +396,8 @@ struct Named {
     levels: Vec<Vec<Part>>,
     /// Number and time, where they are said elsewhere.
     said: Option<(u64, Option<f64>)>,
+    /// Whether a list of files says it.
+    listed: bool,
     path: PathBuf,
 }
 
@@ -364,7 +415,8 @@ fn listed_frames(mut files: Vec<(PathBuf, Option<f64>)>) -> Vec<Named> {
             Some((number, _)) => number + 1,
             None => 0,
         };
-        frames.push(Named::new(path, Some((number, time))));
+        let named = Named::new(path, Some((number, time)));
+        frames.push(Named { listed: true, ..named });
     }
     frames
 }
@@ -375,7 +427,7 @@ impl Named {
             path.components().rev().map(|c| c.as_os_str().to_string_lossy().into_owned());
         let mut levels = vec![parts(stem(&names.next().unwrap_or_default()))];
         levels.extend(names.map(|name| parts(&name)));
-        Self { levels, said, path }
+        Self { levels, said, listed: false, path }
     }
 
     fn cmp(&self, other: &Self) -> Ordering {
@@ -556,18 +608,17 @@ fn number(mut named: Vec<Named>) -> Vec<Frame> {
     if named.iter().all(|named| named.said.is_some()) {
         let frame = |named: Named| {
             let (number, time) = named.said.unwrap_or_default();
-            Frame { number, time, path: named.path }
+            Frame::new(number, time, named.path)
         };
         return named.into_iter().map(frame).collect();
     }
     let Some(numbers) = telling(&named) else {
-        let frame =
-            |(i, named): (usize, Named)| Frame { number: i as u64, time: None, path: named.path };
+        let frame = |(i, named): (usize, Named)| Frame::new(i as u64, None, named.path);
         return named.into_iter().enumerate().map(frame).collect();
     };
     let whole: Option<Vec<u64>> = numbers.iter().map(|number| number.whole).collect();
     if let Some(whole) = whole {
-        let frame = |(named, number): (Named, u64)| Frame { number, time: None, path: named.path };
+        let frame = |(named, number): (Named, u64)| Frame::new(number, None, named.path);
         return named.into_iter().zip(whole).map(frame).collect();
     }
     // Times as programs write them have all the same decimals, or none that is 0 at their end.
@@ -601,7 +652,7 @@ fn number(mut named: Vec<Named>) -> Vec<Frame> {
         last = Some((i, number));
         let time = numbers.get(i).map(|number| number.value).filter(|_| decimal);
         if let Some(named) = named.get_mut(i) {
-            frames.push(Frame { number, time, path: std::mem::take(&mut named.path) });
+            frames.push(Frame::new(number, time, std::mem::take(&mut named.path)));
         }
     }
     frames

@@ -49,6 +49,8 @@ pub(super) struct Content<'a> {
     input: Input<'a>,
     piece: Piece,
     length: u64,
+    /// Lines of the file before it.
+    lines: u64,
 }
 
 impl<'a> Content<'a> {
@@ -61,7 +63,7 @@ impl<'a> Content<'a> {
             source.finish()?;
             length = source.at();
         }
-        Ok(Self { input: input.clone(), piece, length })
+        Ok(Self { input: input.clone(), piece, length, lines: 0 })
     }
 
     /// Bytes that lie in memory.
@@ -71,6 +73,30 @@ impl<'a> Content<'a> {
 
     pub(super) fn length(&self) -> u64 {
         self.length
+    }
+
+    pub(super) fn lines_before(&self) -> u64 {
+        self.lines
+    }
+
+    /// A stretch of it, behind so many lines, as a content of its own. Of what is packed it is kept in memory.
+    pub(super) fn part(&self, start: u64, end: u64, lines: u64) -> Result<Self, ReadError> {
+        let (start, end) = (start.min(self.length), end.min(self.length));
+        let part = if self.piece.packing == Packing::None {
+            let from = self.piece.start;
+            let section = Section {
+                input: self.input.clone(),
+                start: from + start,
+                at: from + start,
+                end: from + end,
+            };
+            Self::new(&Input::new(section)?, false)?
+        } else {
+            let mut bytes = Vec::new();
+            self.open(start, end)?.fill(end.saturating_sub(start), &mut bytes)?;
+            Self::of_bytes(bytes)?
+        };
+        Ok(Self { lines, ..part })
     }
 
     /// The most that numbers which are packed in it may unpack to.

@@ -183,6 +183,9 @@ pub(super) struct Survey {
     origin: [f64; 3],
     seen: usize,
     ghosts: usize,
+    /// The time of the frame that is asked for, and particles of others.
+    only: Option<f64>,
+    others: usize,
     /// Positions of a few thousand, evenly through the file, the first of each `step` particles.
     samples: Vec<[f64; 3]>,
     step: usize,
@@ -204,6 +207,8 @@ impl Survey {
             origin,
             seen: 0,
             ghosts: 0,
+            only: None,
+            others: 0,
             samples: Vec::new(),
             step: 1,
             not_finite: 0,
@@ -214,6 +219,11 @@ impl Survey {
             numbered: None,
             steps: Steps::default(),
         }
+    }
+
+    /// Of the particles of one time alone, of several that they have.
+    pub(super) fn of_time(self, only: Option<f64>) -> Self {
+        Self { only, ..self }
     }
 
     /// Of particles that were all seen before.
@@ -232,11 +242,15 @@ impl Survey {
 
     /// Those of them that are no ghosts.
     pub(super) fn kept(&self) -> usize {
-        self.seen - self.ghosts
+        self.seen - self.ghosts - self.others
     }
 
     /// The time of all of them, where they have one.
     pub(super) fn time(&self) -> Option<f64> {
+        self.only.or(self.one_time())
+    }
+
+    fn one_time(&self) -> Option<f64> {
         self.steps.first.filter(|time| self.steps.different.len() == 1 && time.is_finite())
     }
 
@@ -277,7 +291,10 @@ impl Survey {
             let copy = |bits: i64| if levels { bits > 0 } else { bits & 3 != 0 };
             (0..rows).map(|i| !copy(bits(i))).collect()
         });
-        if let Some(column) = roles.steps.filter(|_| self.asks) {
+        let own: Option<Vec<bool>> = self.only.zip(roles.steps).map(|(time, column)| {
+            (0..rows).map(|i| columns.f64(column, i).to_bits() == time.to_bits()).collect()
+        });
+        if let Some(column) = roles.steps.filter(|_| self.asks && self.only.is_none()) {
             if self.steps.name.is_empty() {
                 self.steps.name = columns.0.get(column).map_or(String::new(), |c| c.name.clone());
             }
@@ -319,9 +336,21 @@ impl Survey {
             origin: self.origin,
             ..Particles::from_positions(positions)
         };
-        if let Some(kept) = kept.filter(|kept| kept.contains(&false)) {
+        let ghosts = kept.filter(|kept| kept.contains(&false));
+        if let Some(kept) = &ghosts {
             self.ghosts += kept.iter().filter(|kept| !**kept).count();
-            retain(&mut particles, &kept);
+            retain(&mut particles, kept);
+        }
+        if let Some(own) = own.filter(|own| own.contains(&false)) {
+            // Ghosts have gone from the particles.
+            let own: Vec<bool> = match &ghosts {
+                Some(kept) => {
+                    own.iter().zip(kept).filter(|(_, kept)| **kept).map(|(o, _)| *o).collect()
+                }
+                None => own,
+            };
+            self.others += own.iter().filter(|own| !**own).count();
+            retain(&mut particles, &own);
         }
         if self.asks {
             self.not_finite += super::count_non_finite(&particles.positions);
@@ -403,7 +432,8 @@ impl Survey {
         Ok(told.chain(not_finite).chain(dropped).chain(repeated).chain(doubled).collect())
     }
 
-    fn one_frame(&self) -> Result<(), ReadError> {
+    /// Whether these are the particles of several frames.
+    fn several(&self) -> bool {
         let steps = &self.steps;
         let count = steps.different.len();
         let blocks = steps.changes + 1 == count && self.seen >= 2 * count;
@@ -412,9 +442,26 @@ impl Survey {
             false => self.numbers.share() > REPEATED_IDS && self.numbers.most() <= count,
             true => blocks,
         };
-        if !(2..=STEPS).contains(&count) || !several {
+        (2..=STEPS).contains(&count) && several
+    }
+
+    /// The times of several frames, sorted.
+    pub(super) fn times(&self) -> Vec<f64> {
+        if !self.several() {
+            return Vec::new();
+        }
+        let all = self.steps.different.iter().map(|bits| f64::from_bits(*bits));
+        let mut times: Vec<f64> = all.filter(|time| time.is_finite()).collect();
+        times.sort_unstable_by(f64::total_cmp);
+        times
+    }
+
+    fn one_frame(&self) -> Result<(), ReadError> {
+        if !self.several() {
             return Ok(());
         }
+        let steps = &self.steps;
+        let count = steps.different.len();
         let (first, last) = (steps.first.unwrap_or_default(), steps.last.unwrap_or_default());
         Err(ReadError::Unsupported {
             what: format!(

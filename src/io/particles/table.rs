@@ -1,5 +1,6 @@
 //! Particles as rows that have not one length, one after the other, most of them of text: CSV, XYZ, GEO and PLY.
 
+use super::asked::Asked;
 use super::columns::Column;
 use super::error::ReadError;
 use super::plan::{About, Plan, Stream, Track};
@@ -23,13 +24,17 @@ pub(super) trait RowReader: Send {
 }
 
 /// What reads the beginning of a file, up to the first row.
-type Open = for<'a> fn(&Content<'a>) -> Result<Table<'a>, ReadError>;
+type Open = for<'a> fn(&Content<'a>, &Asked) -> Result<Table<'a>, ReadError>;
 
-pub(super) fn plan<'a>(content: &Content<'a>, open: Open) -> Result<Plan<'a>, ReadError> {
-    let Table { columns, about, .. } = open(content)?;
-    let from = content.clone();
+pub(super) fn plan<'a>(
+    content: &Content<'a>,
+    open: Open,
+    asked: &Asked,
+) -> Result<Plan<'a>, ReadError> {
+    let Table { columns, about, .. } = open(content, asked)?;
+    let (from, asked) = (content.clone(), asked.clone());
     let start = move |used: &[bool]| {
-        let stream = TableStream { rows: open(&from)?.rows, used: used.to_vec() };
+        let stream = TableStream { rows: open(&from, &asked)?.rows, used: used.to_vec() };
         Ok(Box::new(stream) as Box<dyn Stream + 'a>)
     };
     let track = Track { columns, lengths: None, what: "the rows".into(), open: Box::new(start) };

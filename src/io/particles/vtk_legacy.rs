@@ -11,8 +11,9 @@
 
 use super::Format;
 use super::arrays::{self, Array, Segment, Stored};
+use super::asked::Asked;
 use super::bytes::show;
-use super::columns::{self, Attribute, AttributeType, Column, Data, PLACED};
+use super::columns::{Attribute, AttributeType, Column, Data, PLACED};
 use super::error::{Place, ReadError};
 use super::plan::{About, Plan, Track};
 use super::rows::{self, Field, Rows};
@@ -20,10 +21,10 @@ use super::source::{Content, truncated};
 use super::text::Text;
 use super::vtk_xml::{is_point, mesh_warning};
 
-pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
-    let found = Reader::read(content, false).map_err(|error| {
+pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>, ReadError> {
+    let found = Reader::read(content, false, asked).map_err(|error| {
         // Where a number is missing, lines are taken for what they are not: that number is at fault.
-        Reader::read(content, true).err().unwrap_or(error)
+        Reader::read(content, true, asked).err().unwrap_or(error)
     })?;
     let found_cells = (found.cells, found.cell, found.vertices);
     let Reader { binary, version, attributes, mut warnings, mut found, points, time, .. } = found;
@@ -37,7 +38,7 @@ pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
     let tracks = found.into_iter().map(|found| found.track(content, binary));
     let tracks = tracks.collect::<Result<_, _>>()?;
     let format = Format::VtkLegacy { version, binary };
-    let about = About { placed: Some(0), attributes, warnings, time, format };
+    let about = About { placed: Some(0), attributes, warnings, time, format, asked: asked.clone() };
     Plan::new(tracks, about, content.unpack_limit())
 }
 
@@ -109,6 +110,7 @@ struct Reader<'a> {
     rows: Option<u64>,
     /// Whether the current attributes are those of the points.
     wanted: bool,
+    asked: Asked,
 }
 
 /// The words of a section's first line, its keyword among them.
@@ -158,7 +160,7 @@ impl<'l> Words<'l> {
 
 impl<'a> Reader<'a> {
     /// Finds what there is, to the end of the file.
-    fn read(content: &Content<'a>, check: bool) -> Result<Self, ReadError> {
+    fn read(content: &Content<'a>, check: bool, asked: &Asked) -> Result<Self, ReadError> {
         let mut text = Text::new(content.open(0, content.length())?);
         let first = text.line()?.unwrap_or_default();
         let version = version(first).ok_or_else(|| {
@@ -192,6 +194,7 @@ impl<'a> Reader<'a> {
             vertices: 0,
             rows: None,
             wanted: false,
+            asked: asked.clone(),
         };
         while let Some(line) = reader.keyword_line()? {
             if !reader.section(&line)? {
@@ -241,7 +244,7 @@ impl<'a> Reader<'a> {
                 if ty.size().is_none() {
                     return Err(w.bad("a type of numbers for the points"));
                 }
-                columns::list(&mut self.attributes, "Points", 3, ty);
+                self.asked.list(&mut self.attributes, "Points", 3, ty);
                 let (name, what, start) = (PLACED.into(), "POINTS".into(), self.text.at());
                 self.values(ty, n.saturating_mul(3), "POINTS", true)?;
                 self.points = Some(Found { name, what, components: 3, ty, rows: n, start });
@@ -390,7 +393,7 @@ impl<'a> Reader<'a> {
         let name = percent_decoded(name);
         let size = usize::try_from(components).unwrap_or(usize::MAX);
         let keep = self.wanted
-            && columns::list(&mut self.attributes, &name, size, ty)
+            && self.asked.list(&mut self.attributes, &name, size, ty)
             && ty.size().is_some();
         let start = self.text.at();
         self.values(ty, rows.saturating_mul(components), &name, keep)?;

@@ -12,27 +12,28 @@ use std::path::Path;
 use roxmltree::Node;
 
 use super::arrays::{self, Array, Segment, Stored};
+use super::asked::Asked;
 use super::bytes::show;
-use super::columns::{self, Attribute, AttributeType, Column, PLACED};
+use super::columns::{Attribute, AttributeType, Column, PLACED};
 use super::encoded::Encoding;
 use super::error::{Place, ReadError};
 use super::head::{Head, Words};
-use super::names;
 use super::plan::{About, Plan};
 use super::source::Content;
 use super::text::Text;
 use super::{Compression, Format, Storage};
 
-pub(super) fn plan<'a>(content: &Content<'a>) -> Result<Plan<'a>, ReadError> {
-    plan_files(&[(Path::new(""), content.clone())], Vec::new())
+pub(super) fn plan<'a>(content: &Content<'a>, asked: &Asked) -> Result<Plan<'a>, ReadError> {
+    plan_files(&[(Path::new(""), content.clone())], Vec::new(), asked)
 }
 
 /// Pieces in several files, those of one frame. Errors tell the file, where it has a name.
 pub(super) fn plan_files<'a>(
     files: &[(&Path, Content<'a>)],
     warnings: Vec<String>,
+    asked: &Asked,
 ) -> Result<Plan<'a>, ReadError> {
-    let mut grid = Grid { warnings, ..Grid::default() };
+    let mut grid = Grid { warnings, asked: asked.clone(), ..Grid::default() };
     for (path, content) in files {
         let mut read = || {
             let mut cut = grid.clone();
@@ -65,11 +66,12 @@ struct Grid<'a> {
     /// Those of a mesh, and what they are.
     cells: u64,
     cell: &'static str,
+    asked: Asked,
 }
 
 impl<'a> Grid<'a> {
     fn plan(self, several: bool) -> Result<Plan<'a>, ReadError> {
-        let Self { mut attributes, mut found, mut warnings, time, limit, .. } = self;
+        let Self { mut attributes, mut found, mut warnings, time, limit, asked, .. } = self;
         // A grid without points has no particles, which is no fault.
         if found.is_empty() {
             let none = Array { name: PLACED.into(), components: 3, segments: Vec::new() };
@@ -96,7 +98,7 @@ impl<'a> Grid<'a> {
             warnings.push(mesh_warning(self.cells, self.cell));
         }
         let format = self.format.unwrap_or(Format::Vtu(Storage::Ascii, Compression::None));
-        let about = About { placed: Some(0), attributes, warnings, time, format };
+        let about = About { placed: Some(0), attributes, warnings, time, format, asked };
         let tracks = found.into_iter().map(|(column, array)| arrays::track(column, array));
         Plan::new(tracks.collect(), about, limit)
     }
@@ -125,7 +127,7 @@ impl<'a> Grid<'a> {
                 return Err(ReadError::Unsupported {
                     what: format!("XML of `{name}`, where a VTKFile element was expected,"),
                     advice: if name == "Xdmf" {
-                        "it names arrays of HDF5: save them as VTU, or as NPZ with h5py and np.savez"
+                        "it names arrays of HDF5: give it by its path, as .xdmf or .xmf, with these beside it"
                     } else {
                         "particles are VTK XML: save VTU or VTP"
                     },
@@ -184,7 +186,7 @@ impl<'a> Grid<'a> {
                 ));
             }
             if first_piece {
-                columns::list(&mut self.attributes, &name, components, ty);
+                self.asked.list(&mut self.attributes, &name, components, ty);
                 let storage = reader.storage(&array)?;
                 self.format = Some(match vtp {
                     true => Format::Vtp(storage, compression),
@@ -207,9 +209,9 @@ impl<'a> Grid<'a> {
             for array in point_data.children().filter(|n| n.has_tag_name("DataArray")) {
                 let (name, components, ty) = reader.described(&array)?;
                 let wanted = if first_piece {
-                    columns::list(&mut self.attributes, &name, components, ty)
+                    self.asked.list(&mut self.attributes, &name, components, ty)
                 } else {
-                    names::wanted(&name)
+                    self.asked.wants(&name)
                 };
                 if !wanted || ty.size().is_none() {
                     continue;

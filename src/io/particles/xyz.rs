@@ -9,8 +9,9 @@
 //! words, is the element.
 
 use super::Format;
+use super::asked::Asked;
 use super::bytes::{parse_number, show};
-use super::columns::{self, AttributeType, Column, PLACED};
+use super::columns::{AttributeType, Column, PLACED};
 use super::comma::{self, passed_over, unnamed};
 use super::error::{Place, ReadError};
 use super::heading::{self, Heading, Line, is_comment, number_with_comma};
@@ -18,11 +19,12 @@ use super::names;
 use super::plan::About;
 use super::rows::{Field, Layout, Rows};
 use super::source::Content;
+use super::steps::{self, Start};
 use super::table::{RowReader, Table};
 use super::text::Text;
 
 /// So many bytes of raw triples.
-pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
+pub(super) fn raw(length: u64, asked: &Asked) -> Result<Layout, ReadError> {
     if !length.is_multiple_of(12) {
         return Err(ReadError::malformed(
             "text, or raw f32 triples of 12 bytes each",
@@ -31,7 +33,7 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
         ));
     }
     let mut attributes = Vec::new();
-    columns::list(&mut attributes, "position", 3, AttributeType::F32);
+    asked.list(&mut attributes, "position", 3, AttributeType::F32);
     Ok(Layout {
         rows: Rows {
             what: "the points".into(),
@@ -46,17 +48,66 @@ pub(super) fn raw(length: u64) -> Result<Layout, ReadError> {
         attributes,
         warnings: Vec::new(),
         format: Format::RawF32,
+        asked: asked.clone(),
     })
 }
 
-pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
-    let mut about = About {
-        placed: None,
-        attributes: Vec::new(),
-        warnings: Vec::new(),
-        time: None,
-        format: Format::Xyz,
-    };
+/// Where the frames of a counted file begin, up to one of them; none of another file.
+pub(super) fn starts(content: &Content<'_>, upto: Option<usize>) -> Result<Vec<Start>, ReadError> {
+    let lines = heading::lines(content)?;
+    let Some(Counted { heading, .. }) = Counted::of(&lines) else { return Ok(Vec::new()) };
+    let first = lines.iter().position(|line| !is_comment(&line.text)).unwrap_or(0);
+    let commented = heading.line > first as u64 + 1;
+    let (mut starts, mut text, mut number) = (Vec::new(), Text::of(content)?, 0_u64);
+    while upto.is_none_or(|upto| starts.len() <= upto + 1) {
+        let (at, lines) = (text.at(), number);
+        let Some(line) = text.line()? else { break };
+        number += 1;
+        if is_comment(line) {
+            continue;
+        }
+        let count = std::str::from_utf8(line.trim_ascii()).ok().and_then(|line| line.parse().ok());
+        let Some(count) = count else { break };
+        let mut time = None;
+        if commented {
+            time = text.line()?.and_then(time_in);
+            number += 1;
+        }
+        starts.push(Start { at, lines, time });
+        let mut left: u64 = count;
+        while left > 0 {
+            let Some(line) = text.line()? else { return Ok(starts) };
+            number += 1;
+            left -= u64::from(!is_comment(line));
+        }
+    }
+    Ok(starts)
+}
+
+/// The time that a comment says: `Time=0.1`.
+fn time_in(comment: &[u8]) -> Option<f64> {
+    let text = std::str::from_utf8(comment).ok()?.to_ascii_lowercase();
+    let words = text.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '=' | ':' | '"'));
+    let mut words = words.filter(|word| !word.is_empty());
+    words.find(|word| matches!(*word, "time" | "t"))?;
+    words.next()?.parse().ok()
+}
+
+pub(super) fn open<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
+    let starts = asked.step().map(|step| starts(content, Some(step.index))).transpose()?;
+    let part = asked.step().zip(starts);
+    if let Some((content, time)) =
+        part.map_or(Ok(None), |(step, starts)| steps::part(content, &starts, step.index))?
+    {
+        let mut table = open_one(&content, &asked.clone().of_step(None))?;
+        table.about.time = table.about.time.or(time);
+        return Ok(table);
+    }
+    open_one(content, asked)
+}
+
+fn open_one<'a>(content: &Content<'a>, asked: &Asked) -> Result<Table<'a>, ReadError> {
+    let mut about = About::new(Format::Xyz, asked);
     let lines = heading::lines(content)?;
     let counted = Counted::of(&lines);
     let (heading, promised) = match counted {
@@ -65,7 +116,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
     };
     let named = !heading.names.is_empty();
     if let (Some(delimiter), true, None) = (heading.delimiter, named, promised) {
-        return comma::open_at(content, heading, delimiter);
+        return comma::open_at(content, heading, delimiter, asked);
     }
     about.warnings.extend(passed_over(heading.passed));
     let first = lines.iter().find(|line| line.start >= heading.at && !is_comment(&line.text));
@@ -79,7 +130,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
             let row: Vec<_> = words(&line.text, commas).collect();
             let from = element(&lines, heading.at, commas, promised.is_some());
             if row.len() < from + 2 {
-                return Err(bad_line(&line.text, heading.line + 1));
+                return Err(bad_line(&line.text, content.lines_before() + heading.line + 1));
             }
             let counts = promised.is_none()
                 && counts(&lines, heading.at, |line| words(line, commas).next().and_then(number));
@@ -98,7 +149,7 @@ pub(super) fn open<'a>(content: &Content<'a>) -> Result<Table<'a>, ReadError> {
         names.extend((0..3).map(unnamed));
     }
     let text = Text::new(content.open(heading.at, content.length())?);
-    Ok(rows(text, heading.line, promised, commas, (&names, &[]), about))
+    Ok(rows(text, content.lines_before() + heading.line, promised, commas, (&names, &[]), about))
 }
 
 /// A column that is parts of the side of a box, and where that begins and ends.
@@ -121,7 +172,7 @@ pub(super) fn rows<'a>(
             Some(name) => (name, AttributeType::Text),
             None => (name.as_str(), AttributeType::Number),
         };
-        let keep = columns::list(&mut about.attributes, name, 1, ty) && ty == AttributeType::Number;
+        let keep = about.list(name, 1, ty) && ty == AttributeType::Number;
         rows.columns.push(keep.then_some(columns.len()));
         if keep {
             let side = sides.iter().find(|(side, ..)| *side == name);

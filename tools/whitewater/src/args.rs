@@ -76,7 +76,8 @@ pub enum Command {
 #[derive(Args, Debug)]
 pub struct RenderArgs {
     /// Particle files: a folder with one sequence in it, names, a pattern such as 'fluid_*.bgeo', or 'fluid_%04d.bgeo'
-    /// (%d where numbers have no zeros in front). 'whitewater info' says what they hold
+    /// (%d where numbers have no zeros in front); or one file that holds all frames (a table with a column of times, XYZ, a dump of
+    /// LAMMPS, VTKHDF, XDMF), which are counted from 0. 'whitewater info' says what they hold
     #[arg(required_unless_present_any = ["bubbles", "shore"], value_name = "INPUT")]
     pub inputs: Vec<String>,
     /// Bubble foam: 'one' (a blob from near), 'slope' (a thousand slide down one; frames from 0 on, 60 a second), 'box'
@@ -129,6 +130,9 @@ pub struct RenderArgs {
     /// read again as any others
     #[arg(long, value_name = "FILE")]
     pub write_whitewater: Option<PathBuf>,
+    /// Puts files of one number together as one frame: phases, or the parts of a run on several processors, in a file each
+    #[arg(long)]
+    pub join: bool,
     /// Which axis of the particles points up; z is turned to y, scene and camera are y-up [default: z where the water lies on
     /// the lower end of z and is open above, or comes down along it, which is said; else y]
     #[arg(long, value_enum)]

@@ -183,7 +183,7 @@ impl Files {
                     "--whitewater: expected 'generate' or files, found both or one of it twice";
                 return Err(Failure::usage(why));
             };
-            let found = frames::expand(std::slice::from_ref(files), None)?;
+            let found = frames::files(std::slice::from_ref(files), false)?;
             let alone = single.filter(|_| found.len() == 1);
             for frame in found {
                 let number = alone.unwrap_or(frame.number);

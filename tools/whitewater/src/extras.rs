@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use glam::Vec3;
+use whitewater::io::particles::sequence::Frame;
 use whitewater::io::particles::{self, Extra, Particles, same_name};
 
 use crate::failure::{Failure, Outcome};
@@ -26,6 +27,8 @@ const PHASES: [&str; 13] = [
 ];
 /// Names of radii.
 const RADII: [&str; 4] = ["radius", "radii", "particle radius", "pscale"];
+/// Names of twice that: of LAMMPS, and of OpenFOAM's clouds.
+const DIAMETERS: [&str; 3] = ["diameter", "diam", "d"];
 /// An attribute that tells phases has no more values.
 const MOST: usize = 16;
 /// Share of positions that are there twice, from which on copies are left out.
@@ -88,11 +91,19 @@ impl Condition {
     }
 }
 
-/// Reads a file with what is looked at here.
-pub fn read(path: &Path, conditions: &[Condition]) -> Outcome<Particles> {
+/// Reads a frame with what is looked at here.
+pub fn read(frame: &Frame, conditions: &[Condition]) -> Outcome<Particles> {
     let asked = conditions.iter().map(|condition| condition.name.as_str());
-    let names: Vec<&str> = PHASES.into_iter().chain(RADII).chain(asked).collect();
-    Ok(particles::read_with(path, &names)?)
+    let radii = RADII.into_iter().chain(DIAMETERS);
+    let names: Vec<&str> = PHASES.into_iter().chain(radii).chain(asked).collect();
+    if let Some(step) = frame.step {
+        return Ok(particles::read_step(&frame.path, step, &names)?);
+    }
+    let mut all = particles::read_with(&frame.path, &names)?;
+    for path in &frame.also {
+        all.append(particles::read_with(path, &names)?);
+    }
+    Ok(all)
 }
 
 /// Leaves the particles for which all conditions hold.
@@ -203,8 +214,10 @@ fn liquid(particles: &Particles, name: &str, values: &BTreeMap<i64, usize>) -> i
 
 /// The smallest radius of the particles, the middle one and the largest, in the unit of the file.
 pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
-    let extra = RADII.iter().find_map(|name| find(particles, name))?;
-    let mut radii: Vec<f32> = extra.values.iter().map(|r| *r as f32).collect();
+    let radius = RADII.iter().find_map(|name| Some((find(particles, name)?, 1.0)));
+    let diameter = || DIAMETERS.iter().find_map(|name| Some((find(particles, name)?, 0.5)));
+    let (extra, of) = radius.or_else(diameter)?;
+    let mut radii: Vec<f32> = extra.values.iter().map(|r| (of * *r) as f32).collect();
     radii.retain(|radius| radius.is_finite() && *radius > 0.0);
     radii.sort_unstable_by(f32::total_cmp);
     Some([*radii.first()?, *radii.get(radii.len() / 2)?, *radii.last()?])
@@ -212,7 +225,7 @@ pub fn radii(particles: &Particles) -> Option<[f32; 3]> {
 
 /// Whether an attribute is taken for radii.
 pub fn is_radius(name: &str) -> bool {
-    RADII.iter().any(|radius| same_name(radius, name))
+    RADII.iter().chain(&DIAMETERS).any(|radius| same_name(radius, name))
 }
 
 /// Leaves one of particles that are at one place, where many are; says how many went.

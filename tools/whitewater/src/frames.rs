@@ -5,13 +5,46 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use whitewater::io::particles::sequence::{self, Frame, SequenceError};
+use whitewater::io::particles::{self, Step};
 
 use crate::failure::{Failure, Outcome};
 
-/// The frames of one sequence. A folder of one sequence is that; where nothing fits a name, what would is said.
-pub fn expand(inputs: &[String], range: Option<RangeInclusive<u64>>) -> Outcome<Vec<Frame>> {
+/// The frames of one sequence, or those of one file that holds several. A folder of one sequence is that; where nothing fits a
+/// name, what would is said. `join`: files of one number are one frame.
+pub fn expand(inputs: &[String], join: bool) -> Outcome<Vec<Frame>> {
+    Ok(in_files(files(inputs, join)?))
+}
+
+/// The same without a look into files.
+pub fn files(inputs: &[String], join: bool) -> Outcome<Vec<Frame>> {
     let inputs = inputs.iter().map(|input| in_folder(input)).collect::<Outcome<Vec<_>>>()?;
-    sequence::expand(&inputs, range).map_err(advised)
+    let expand = if join { sequence::expand_joined } else { sequence::expand };
+    expand(&inputs, None).map_err(advised)
+}
+
+/// Those of them that are in a range.
+pub fn within(all: &[Frame], range: Option<RangeInclusive<u64>>) -> Outcome<Vec<Frame>> {
+    Ok(sequence::within(all.to_vec(), range)?)
+}
+
+/// The frames of a file that holds several, in its place.
+pub fn in_files(frames: Vec<Frame>) -> Vec<Frame> {
+    let [frame] = frames.as_slice() else { return frames };
+    if !frame.also.is_empty() {
+        return frames;
+    }
+    // A file that can't be read tells when its turn comes.
+    let steps = particles::steps(&frame.path).unwrap_or_default();
+    if steps.is_empty() {
+        return frames;
+    }
+    let of = |step: Step| Frame {
+        number: step.index as u64,
+        time: step.time,
+        step: Some(step),
+        ..frame.clone()
+    };
+    steps.into_iter().map(of).collect()
 }
 
 /// A failure to expand inputs, with advice where their form is that of another program.
@@ -30,7 +63,7 @@ pub fn advised(error: SequenceError) -> Failure {
 }
 
 /// Extensions of particle files; a second one, of packing, may follow.
-const EXTENSIONS: [&str; 19] = [
+const EXTENSIONS: [&str; 26] = [
     "bgeo",
     "geo",
     "vtk",
@@ -50,6 +83,13 @@ const EXTENSIONS: [&str; 19] = [
     "dump",
     "lammpstrj",
     "tab",
+    "h5",
+    "hdf5",
+    "vtkhdf",
+    "h5part",
+    "h5md",
+    "xdmf",
+    "xmf",
 ];
 
 /// The input, or of a folder the pattern of the one sequence in it.
@@ -149,7 +189,6 @@ pub fn unread(name: &str) -> Option<&'static str> {
         "bi4" | "ibi4" | "obi4" => {
             "DualSPHysics' own format: PartVTK -dirin FOLDER -savevtk PartFluid -onlytype:-all,+fluid writes VTK"
         }
-        "hdf5" | "h5" => "of HDF5 that PySPH wrote 'pysph dump_vtk FOLDER' makes VTU",
         "pkl" | "pickle" => "a pickle: save positions and velocities by numpy.savez",
         "abc" | "usd" | "usdc" | "vdb" | "bhclassic" => {
             "save the points as BGEO (Houdini's .bhclassic), PLY, VTU or CSV"

@@ -22,7 +22,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
     let mut failed = Vec::new();
     for frame in &frames {
         let path = frame.path.display().to_string();
-        match extras::read(&frame.path, &[]) {
+        match extras::read(frame, &[]) {
             Ok(particles) => {
                 let value = describe(&path, frame.number, &particles);
                 if args.json {
@@ -58,7 +58,7 @@ pub fn run(args: &InfoArgs) -> Outcome<()> {
 
 /// The frames of one sequence; of files that are none, those of each input by itself.
 fn expand(inputs: &[String]) -> Result<Vec<Frame>, SequenceError> {
-    match sequence::expand(inputs, None) {
+    match sequence::expand(inputs, None).map(frames::in_files) {
         Err(SequenceError::Twice { .. }) if inputs.len() > 1 => {
             let each = |input| sequence::expand(std::slice::from_ref(input), None);
             let mut frames = inputs.iter().map(each).collect::<Result<Vec<_>, _>>()?.concat();
@@ -134,6 +134,10 @@ fn meaning(particles: &Particles, name: &str) -> Option<Meaning> {
 fn beside(particles: &Particles, name: &str) -> Option<String> {
     if extras::is_radius(name) {
         return extras::radii(particles).map(|_| "radius".into());
+    }
+    let times = ["time", "timestep", "time value", "step", "frame"];
+    if particles.time.is_some() && times.iter().any(|time| particles::same_name(time, name)) {
+        return Some("time".into());
     }
     let phases = extras::phases(particles);
     phases

@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
 
     /// A frame without what is found or told of it.
     pub fn as_it_is(&self, frame: &Frame) -> Outcome<Particles> {
-        let mut particles = extras::read(&frame.path, self.conditions)?;
+        let mut particles = extras::read(frame, self.conditions)?;
         extras::select(&mut particles, self.conditions, &frame.path)?;
         let told = extras::told(&particles, self.conditions);
         let copies = extras::without_copies(&mut particles);

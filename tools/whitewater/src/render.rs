@@ -54,11 +54,8 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
         None => None,
     };
     let range = args.frames.as_deref().map(sequence::parse_range).transpose()?;
-    let all = frames::expand(&args.inputs, None)?;
-    let frames = match range {
-        Some(range) => frames::expand(&args.inputs, Some(range))?,
-        None => all.clone(),
-    };
+    let all = frames::expand(&args.inputs, args.join)?;
+    let frames = frames::within(&all, range)?;
     let frames: Vec<Frame> = frames.into_iter().step_by(args.every.get()).collect();
     // Of one file as many pictures as a turn has.
     let still = args.turntable.filter(|_| all.len() == 1 && !frames.is_empty());
@@ -134,7 +131,11 @@ pub fn run(args: &RenderArgs) -> Outcome<()> {
     let fps = moving.then(|| said.unwrap_or(DEFAULT_FPS * step));
     let scale = args.unit.map(Unit::metres).or(args.scale).unwrap_or(1.0);
     // One that can't be read tells when its turn comes.
-    let origin = all.first().and_then(|first| particles::find_origin(&first.path).ok());
+    let origin = |first: &Frame| match first.step {
+        Some(step) => Ok(particles::read_step(&first.path, step, &[])?.origin),
+        None => particles::find_origin(&first.path),
+    };
+    let origin = all.first().and_then(|first| origin(first).ok());
     let origin = origin.unwrap_or_default();
     let mut placing = Placing { up: args.up_axis.unwrap_or(Up::Y), scale, origin };
     let mut reader = Reader::new(&all, placing, &args.conditions, fps);

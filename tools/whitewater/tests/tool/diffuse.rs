@@ -2,7 +2,7 @@
 
 use whitewater::io::particles::{Particles, read};
 
-use super::support::{FRONT, Folder, SMALL, block};
+use super::support::{FRONT, Folder, GROUND, SMALL, block};
 
 /// Foam before the block's middle, a bubble in it; one that is gone.
 const FOAM: &str =
@@ -96,7 +96,7 @@ fn few_particles_and_many_read_as_foam() {
         foam.ids = Some((0..count).collect());
         folder.write(&format!("{name}.ply"), &foam);
     }
-    let common = format!("render a.ply {SMALL} {FRONT} --supersample 1");
+    let common = format!("render a.ply {GROUND} {FRONT} --supersample 1");
     let middle = |name: &str, channel: &str| {
         let picture = folder.picture(name);
         let data = picture.channel(channel).unwrap();
@@ -148,7 +148,7 @@ fn what_is_read_in_parts_is_what_is_read_at_once() {
     let folder = Folder::new();
     folder.particles("a.ply", block(4));
     folder.text("look.toml", "[diffuse]\nradius = 0.01\n");
-    let count: u32 = 150_000;
+    let count: u32 = 140_000;
     let unit =
         |i: u32, salt: u32| (i.wrapping_mul(2_654_435_761).rotate_left(salt) >> 22) as f32 / 1024.0;
     let mut particles = Particles::from_positions(
@@ -199,7 +199,7 @@ fn what_is_read_in_parts_is_what_is_read_at_once() {
         (
             "one",
             "+named_1.json +named_2.json",
-            &["+named.bgeo.gz", "+named.vtu", "+named_1.csv +named_2.csv"][..],
+            &["+named.bgeo.gz", "+named_1.csv +named_2.csv"][..],
         ),
         (
             "all",
@@ -209,7 +209,7 @@ fn what_is_read_in_parts_is_what_is_read_at_once() {
         (
             "some",
             "+plain_1.json +plain_2.json +spray=named_1.json +spray=named_2.json",
-            &["+plain.npz +spray=named.ply", "+plain_1.csv +plain_2.csv +spray=named.vtu"],
+            &["+plain.npz +spray=named.vtu"],
         ),
     ] {
         let whole = draw(whole, &format!("{what}_whole.exr"));

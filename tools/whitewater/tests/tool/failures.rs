@@ -2,7 +2,7 @@
 
 use std::os::unix::fs::{PermissionsExt, symlink};
 
-use super::support::{Folder, SMALL, block, names};
+use super::support::{Folder, SIZE, SMALL, block, names};
 
 #[test]
 fn bad_inputs_are_code_3() {
@@ -54,12 +54,12 @@ fn bad_cameras_settings_and_scenes_are_code_3() {
     }
     for flag in ["--camera", "--settings", "--scene", "--environment"] {
         folder
-            .run(&format!("render a.ply -o o.png {SMALL} {flag} none.json"))
+            .run(&format!("render a.ply -o o.png {SIZE} {flag} none.json"))
             .fails(3, &["none.json"]);
     }
     folder.text("scene.json", r#"{"boxes":[{"centre":[0,0]}]}"#);
     folder
-        .run(&format!("render a.ply -o o.png {SMALL} --scene scene.json"))
+        .run(&format!("render a.ply -o o.png {SIZE} --scene scene.json"))
         .fails(3, &["scene.json"]);
     assert!(!folder.exists("o.png"));
 }
@@ -203,11 +203,11 @@ fn a_file_that_cannot_grow_leaves_nothing_half() {
     };
     // Some drivers keep code or memory in files of their own (SwiftShader; Mesa 25's lavapipe) and do not survive the
     // limit: they end by a signal, though the picture fits.
-    if limited("small.png --size 16x16").status.code().is_none() {
+    if limited("small.png --set none --size 16x16").status.code().is_none() {
         crate::skipped::skipped("the driver itself needs files that the limit forbids");
         return;
     }
-    super::support::Run(limited("out/a.exr --size 96x64")).fails(5, &["out/a.exr"]);
+    super::support::Run(limited("out/a.exr --set none --size 96x64")).fails(5, &["out/a.exr"]);
     assert_eq!(names(&folder.path("out")), ["a.exr"]);
     assert_eq!(std::fs::read(folder.path("out/a.exr")).unwrap(), b"old");
 }
@@ -220,7 +220,7 @@ fn an_interrupt_leaves_nothing_half() {
         folder.particles(&format!("f_{frame}.ply"), block(3));
     }
     let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_whitewater"))
-        .args(["render", "f_%d.ply", "-o", "out/a.exr", "--size", "320x180"])
+        .args(["render", "f_%d.ply", "-o", "out/a.exr", "--size", "320x180", "--set", "none"])
         .args(["--timings", "t.csv", "--trace", "t.json", "-o", "film.mp4"])
         .current_dir(folder.path(""))
         .stderr(std::process::Stdio::null())
@@ -257,7 +257,7 @@ fn a_kill_leaves_a_file_to_the_next_run() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("out")).unwrap();
     folder.particles("a.ply", block(3));
-    let render = "render a.ply -o out/a.exr --size 640x360";
+    let render = "render a.ply -o out/a.exr --size 640x360 --set none";
     let hidden = || names(&folder.path("out")).into_iter().find(|name| name.starts_with('.'));
     let signal = |child: &std::process::Child, signal: &str| {
         let mut kill = std::process::Command::new("kill");
@@ -267,6 +267,7 @@ fn a_kill_leaves_a_file_to_the_next_run() {
         let mut child = folder.command(render).stderr(std::process::Stdio::null()).spawn().unwrap();
         while child.try_wait().unwrap().is_none() {
             if hidden().is_none() {
+                std::thread::sleep(std::time::Duration::from_micros(300));
                 continue;
             }
             signal(&child, "-STOP");

@@ -3,13 +3,13 @@
 use whitewater::io::particles::Particles;
 use whitewater::io::picture::{EMPTY, Layers};
 
-use super::support::{FRONT, Folder, SMALL, SPACING, block};
+use super::support::{FRONT, Folder, GROUND, SIZE, SMALL, SPACING, block};
 
 #[test]
 fn a_block_of_water_has_all_its_layers() {
     let folder = Folder::new();
     folder.particles("a.ply", block(8));
-    folder.run(&format!("render a.ply -o a.exr -o a.png {SMALL} {FRONT} --validate")).ok();
+    folder.run(&format!("render a.ply -o a.exr -o a.png {GROUND} {FRONT} --validate")).ok();
     let exr = folder.picture("a.exr");
     let mut names: Vec<_> = exr.channels.iter().map(|c| c.name.as_str()).collect();
     names.sort_unstable();
@@ -82,7 +82,7 @@ fn water_is_told_before_and_behind_foam() {
     water.velocities = Some(water.positions.iter().map(torn).collect());
     folder.write("a.vtu", &water);
     let look = "--foam 1 --spray none --sheets 1 --supersample 1 --thickness-level 0";
-    folder.run(&format!("render a.vtu -o a.exr {SMALL} {FRONT} {look} --validate")).ok();
+    folder.run(&format!("render a.vtu -o a.exr {GROUND} {FRONT} {look} --validate")).ok();
     let exr = folder.picture("a.exr");
     let of = |name: &str| exr.channel(&format!("water.{name}")).unwrap();
     let (all, foam) = (of("thickness"), of("foam.Z"));
@@ -134,8 +134,7 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
     folder.write("a.vtu", &water);
     let of = |more: &str| {
         let view = "--eye 0,0,4 --target 0,0,0 --fov 30 --radius 0.05 --set none --medium milk --foam none --spray none";
-        let command =
-            format!("render a.vtu -o a.exr --size 120x80 {view} --supersample 2 --validate {more}");
+        let command = format!("render a.vtu -o a.exr --size 120x80 {view} --supersample 2 {more}");
         folder.run(&command).ok();
         covered(&folder.picture("a.exr"))
     };
@@ -143,12 +142,12 @@ fn shutter_and_lens_blur_by_motion_and_depth() {
     let metre = 80.0 / (2.0 * 4.0 * 15.0_f32.to_radians().tan());
     let near = |found: usize, expected: f32| (found as f32 - expected).abs() <= 2.0;
     let [wide, high] = of("");
-    let [blurred, as_high] = of("--shutter 1/10 --samples 16");
+    let [blurred, as_high] = of("--shutter 1/10 --samples 8 --validate");
     assert!(
         near(blurred, wide as f32 + 0.2 * metre) && near(as_high, high as f32),
         "{blurred} {wide}"
     );
-    let sharp = of("--aperture 0.2 --samples 16");
+    let sharp = of("--aperture 0.2 --samples 8");
     // Edges are within 0.2 m of the focus: a circle of 0.2 * 0.2 / 4 m at most.
     assert!(near(sharp[0], wide as f32 + 0.01 * metre) && near(sharp[1], high as f32), "{sharp:?}");
     let circle = 0.2 * (4.0 / 2.0 - 1.0) * metre;
@@ -167,8 +166,9 @@ fn single_pngs_are_photographs() {
     water.velocities = Some(vec![[2.0, 0.0, 0.0]; water.positions.len()]);
     folder.write("a_1.vtu", &water);
     folder.write("a_2.vtu", &water);
-    let look =
-        format!("--size 96x64 --supersample 1 {FRONT} --foam none --spray none --set studio");
+    let look = format!(
+        "--size 96x64 --supersample 1 {FRONT} --foam none --spray none --scene ground --sheets 1"
+    );
     let png = |command: &str| {
         folder.run(&format!("{command} {look}")).ok();
         folder.picture("o.png").rgb().unwrap()
@@ -188,8 +188,8 @@ fn the_ladder_has_its_rungs() {
     let folder = Folder::new();
     folder.particles("a.ply", block(8));
     // Without walls: what stands in the water is lit through it from the second rung on.
-    let look = "--scene ground --shadows none --layers ladder,scene";
-    let command = format!("render a.ply -o a.exr {SMALL} {FRONT} {look}");
+    let look = "--shadows none --layers ladder,scene";
+    let command = format!("render a.ply -o a.exr {GROUND} {FRONT} {look}");
     folder.run(&command).ok();
     let exr = folder.picture("a.exr");
     let at = |name: &str, x: usize, y: usize| {
@@ -217,7 +217,9 @@ fn the_baselines_noise_is_drawn_where_it_is_asked_for() {
         ("foam", "--noise foam"),
         ("flat", "--noise foam --settings flat.toml"),
     ] {
-        folder.run(&format!("render a.ply -o {name}.exr {SMALL} {FRONT} {more} --validate")).ok();
+        let validate = if name == "foam" { "--validate" } else { "" };
+        let command = format!("render a.ply -o {name}.exr {SMALL} {FRONT} {more} {validate}");
+        folder.run(&command).ok();
     }
     let [none, surface, foam, flat] =
         ["none", "surface", "foam", "flat"].map(|name| folder.picture(&format!("{name}.exr")));
@@ -233,12 +235,9 @@ fn odd_and_tiny_sizes_and_levels_are_drawn() {
     let folder = Folder::new();
     folder.particles("a.ply", block(4));
     for (size, more) in [
-        ("1x1", ""),
-        ("7x3", "--smoothing-level 2"),
-        ("3x1", "--smoothing-level 0"),
-        ("33x65", "--smoothing-level 1 --thickness-level 0"),
-        ("31x17", "--splat compute --rule source"),
-        ("31x17", "--splat raster --rule fixed:20"),
+        ("1x1", "--scene ground --smoothing-level 2 --splat compute --rule source"),
+        ("3x1", "--scene ground --smoothing-level 0 --splat raster --rule fixed:20"),
+        ("33x65", "--thickness-level 0"),
     ] {
         folder.run(&format!("render a.ply -o a.exr -o a.png --size {size} {more} --validate")).ok();
         let (exr, png) = (folder.picture("a.exr"), folder.picture("a.png"));
@@ -251,7 +250,7 @@ fn odd_and_tiny_sizes_and_levels_are_drawn() {
 fn no_particles_are_a_picture_of_the_ground() {
     let folder = Folder::new();
     folder.particles("none.ply", Vec::new());
-    folder.run(&format!("render none.ply -o a.exr {SMALL}")).ok();
+    folder.run(&format!("render none.ply -o a.exr {GROUND}")).ok();
     let exr = folder.picture("a.exr");
     assert!(exr.channel("water.depth.Z").unwrap().iter().all(|z| *z == EMPTY));
     assert!(exr.channel("scene.Z").unwrap().iter().any(|z| *z < EMPTY));
@@ -333,7 +332,7 @@ fn settings_and_environment_change_the_picture() {
         ("c", "--environment sky.exr"),
         ("d", "--sun 1,0.2,0"),
     ] {
-        folder.run(&format!("render a.ply -o {out}.exr {SMALL} {FRONT} {more}")).ok();
+        folder.run(&format!("render a.ply -o {out}.exr {GROUND} {FRONT} {more}")).ok();
     }
     for other in ["b", "c", "d"] {
         folder.run(&format!("compare a.exr {other}.exr --tolerance 0.001")).fails(1, &["RMSE"]);
@@ -352,9 +351,8 @@ fn light_is_shown_as_asked() {
         shown.iter().flatten().sum::<f32>() / (3.0 * shown.len() as f32)
     };
     for (name, more) in [
-        ("auto", "--exposure auto"),
+        ("auto", "--exposure auto --tone aces"),
         ("none", ""),
-        ("film", "--tone aces"),
         ("dark", "--exposure -1"),
         ("linear", "--tone linear"),
         ("neutral", "--tone neutral"),
@@ -365,7 +363,7 @@ fn light_is_shown_as_asked() {
         folder.run(&format!("compare auto.exr {name}.exr --tolerance 0")).ok();
     }
     let file = |name: &str| std::fs::read(folder.path(name)).unwrap();
-    assert!(file("auto.png") == file("none.png") && file("auto.png") == file("film.png"));
+    assert!(file("auto.png") == file("none.png"));
     assert!(mean("dark.png") < 0.85 * mean("auto.png"));
     for (i, a) in ["auto.png", "linear.png", "neutral.png", "agx.png"].iter().enumerate() {
         for b in ["linear.png", "neutral.png", "agx.png"].iter().skip(i) {
@@ -381,7 +379,7 @@ fn light_is_shown_as_asked() {
 fn water_alone_has_the_share_that_it_hides() {
     let folder = Folder::new();
     folder.particles("a.ply", block(8));
-    let common = format!("render a.ply {SMALL} {FRONT} --set none --validate");
+    let common = format!("render a.ply {SIZE} {FRONT} --set none --validate");
     folder.run(&format!("{common} -o a.exr -o a.png")).ok();
     let exr = folder.picture("a.exr");
     let (rgb, alpha) = (exr.rgb().unwrap(), exr.channel("A").unwrap());
@@ -406,10 +404,11 @@ fn sets_differ() {
     // Wide, low water that fills a box.
     let all = block(20).into_iter().filter(|p| p[1] < 0.45).collect();
     folder.particles("a.ply", all);
-    let common = format!("render a.ply {SMALL} --radius 0.05");
+    let common = format!("render a.ply {SIZE} --radius 0.05 --supersample 1");
     let sets = ["pool", "studio", "beach", "lab"];
     for set in sets {
-        folder.run(&format!("{common} -o {set}.exr --set {set} --layers scene")).ok();
+        let said = if set == "pool" { String::new() } else { format!("--set {set}") };
+        folder.run(&format!("{common} -o {set}.exr {said} --layers scene")).ok();
     }
     for set in &sets[1..] {
         folder.run(&format!("compare pool.exr {set}.exr --tolerance 0.001")).fails(1, &["RMSE"]);
@@ -417,8 +416,6 @@ fn sets_differ() {
         let middle = |name: &str| folder.picture(name).channel("scene.Z").unwrap()[48 * 96 + 48];
         assert_eq!(middle("pool.exr"), middle(&format!("{set}.exr")), "{set}");
     }
-    folder.run(&format!("{common} -o none.exr --layers scene")).ok();
-    folder.run("compare pool.exr none.exr --tolerance 0").ok();
     folder.run(&format!("{common} -o b.exr --set lab --scene ground")).fails_at_once();
 }
 
@@ -456,8 +453,8 @@ fn liquids_have_their_colours() {
     let file = std::fs::File::create(folder.path("sky.exr")).unwrap();
     whitewater::io::picture::write_exr(&sky, file).unwrap();
     let colour = |medium: &str| {
-        let more = "--environment sky.exr --scene ground --layers none --spray none";
-        let command = format!("render a.ply -o a.exr {SMALL} {FRONT} {more} --medium {medium}");
+        let more = "--environment sky.exr --layers none --spray none --sheets 1";
+        let command = format!("render a.ply -o a.exr {GROUND} {FRONT} {more} --medium {medium}");
         folder.run(&command).ok();
         folder.picture("a.exr").rgb().unwrap()[32 * 96 + 48]
     };
@@ -472,16 +469,16 @@ fn liquids_have_their_colours() {
     assert!(deep < 0.2 * r, "{deep}");
     let [r, g, b] = colour("lava");
     assert!(r > 2.0 * g && g > b, "lava {r} {g} {b}");
-    let [r, g, b] = colour("glacier");
-    assert!(b > 1.1 * r && g > 1.1 * r, "glacier {r} {g} {b}");
     let [r, g, b] = colour("river:10");
     assert!(r > 1.1 * g && g > 1.2 * b, "river {r} {g} {b}");
     // What a picture was drawn with draws it again.
     let text =
         folder.picture("a.exr").attributes.iter().find(|(k, _)| k == "settings").unwrap().1.clone();
     folder.text("again.toml", &text);
-    let more = "--environment sky.exr --scene ground --layers none --spray none";
-    folder.run(&format!("render a.ply -o b.exr {SMALL} {FRONT} {more} --settings again.toml")).ok();
+    let more = "--environment sky.exr --layers none --spray none --sheets 1";
+    folder
+        .run(&format!("render a.ply -o b.exr {GROUND} {FRONT} {more} --settings again.toml"))
+        .ok();
     folder.run("compare a.exr b.exr --tolerance 0").ok();
     folder.run("render a.ply -o a.png --medium mud").fails_at_once();
     folder.run("render a.ply -o a.png --medium milk:x").fails_at_once();
@@ -557,16 +554,6 @@ fn a_pictures_settings_draw_it_again() {
     folder.run("compare a.exr c.exr --tolerance 0.001").fails(1, &["RMSE"]);
 }
 
-#[test]
-fn the_demo_is_drawn() {
-    let folder = Folder::new();
-    folder.run(&format!("demo -o demo.exr -o demo.png {SMALL}")).ok();
-    let exr = folder.picture("demo.exr");
-    let water = exr.channel("water.depth.Z").unwrap().iter().filter(|z| **z < EMPTY).count();
-    assert!(water > 96 * 64 / 20, "{water} pixels of water");
-    assert!(folder.exists("demo.png"));
-}
-
 /// The demo against pictures that were looked at, in mean FLIP, by the tone curve that leaves dim colours as they are.
 /// Drivers differ in the snapping of triangles, and where the refraction ends by the texels they gather: SwiftShader is
 /// 0.013 from lavapipe, which made the pictures. What must be seen is a change of the look: another sun is 0.40.
@@ -580,13 +567,17 @@ fn the_demo_is_its_reference() {
         [("demo", ""), ("demo-near", "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40")]
     {
         folder
-            .run(&format!("demo -o {name}.png --size 320x180 --samples 1 --tone neutral {view}"))
+            .run(&format!("demo -o {name}.png -o {name}.exr --size 320x180 --tone neutral {view}"))
             .ok();
         // A failure leaves the picture beside its reference.
         std::fs::create_dir_all(out).unwrap();
         std::fs::copy(folder.path(&format!("{name}.png")), format!("{out}/{name}-actual.png"))
             .unwrap();
         folder.run(&format!("compare {name}.png {references}/{name}.png {flip}")).ok();
+        let exr = folder.picture(&format!("{name}.exr"));
+        let depth = exr.channel("water.depth.Z").unwrap();
+        let water = depth.iter().filter(|z| **z < EMPTY).count();
+        assert!(water > depth.len() / 20, "{water} pixels of water");
     }
     folder
         .run("demo -o other.png --size 320x180 --samples 1 --tone neutral --sun 0.6,0.5,0.6")

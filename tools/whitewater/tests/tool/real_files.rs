@@ -1,6 +1,6 @@
 //! What people have: other axes and units, files that do not fit each other, and what is said of them.
 
-use super::support::{Folder, SMALL};
+use super::support::{Folder, GROUND, SIZE, SMALL};
 
 /// Water that slopes from a wall on the left down to a floor, which it falls to: positions and velocities, y up.
 fn slope() -> Vec<[[f32; 3]; 2]> {
@@ -50,7 +50,7 @@ fn files_in_millimetres_are_told_and_drawn_in_metres() {
     folder.text("m.csv", &csv(&slope(), |p| p));
     folder.text("mm.csv", &csv(&slope(), |p| p.map(|c| 1000.0 * c)));
     let run = |file: &str, out: &str, more: &str| {
-        let common = format!("{SMALL} --radius 0.025 --foam none");
+        let common = format!("{GROUND} --radius 0.025 --foam none");
         folder.run(&format!("render {file}.csv -o {out}.png {common} {more}")).ok().stderr()
     };
     let plain = run("m", "m", "");
@@ -183,7 +183,7 @@ fn two_dimensions_are_told_and_seen_from_the_front() {
     folder.text("xy.csv", &csv(&sheet, |p| p));
     folder.text("xz.csv", &csv(&sheet, |[x, y, z]| [x, -z, y]));
     for file in ["xy", "xz"] {
-        let common = format!("{SMALL} --layers water.depth");
+        let common = format!("{SIZE} --set studio --layers water.depth");
         let said = folder.run(&format!("render {file}.csv -o {file}.exr {common}")).ok().stderr();
         assert!(said.contains("two-dimensional: drawn as a sheet one spacing thick"), "{said}");
         assert_eq!(said.contains("z is up in the files"), file == "xz", "{said}");
@@ -232,4 +232,45 @@ fn a_folder_of_steps_becomes_a_film() {
         .fails(3, &["several sequences", "'out/dump.*' (4 files)", "'out/foam_*.csv' (1 file)"]);
     folder.text("a.bi4", "DATA");
     folder.run("render a.bi4 -o a.png").fails(3, &["a.bi4", "PartVTK"]);
+}
+
+/// A file of several frames is a sequence, at the rate of its times; files of one number are put together where told.
+#[test]
+fn frames_in_one_file_and_files_of_one_frame() {
+    let folder = Folder::new();
+    let rows = |time: f32| -> String {
+        let row = |(i, [[x, y, z], _]): (usize, &[[f32; 3]; 2])| {
+            format!("{time},{i},{},{y},{z},1,0,0\n", x + time)
+        };
+        slope().iter().enumerate().map(row).collect()
+    };
+    let head = "Time [s],Idp,x,y,z,vx,vy,vz\n";
+    folder.text("all.csv", &format!("{head}{}{}{}", rows(0.0), rows(0.04), rows(0.08)));
+    for (i, time) in [0.0, 0.04, 0.08].into_iter().enumerate() {
+        folder.text(&format!("f_{i}.csv"), &format!("{head}{}", rows(time)));
+    }
+    let common = format!("{SMALL} --layers motion --foam none");
+    let said = folder.run(&format!("render all.csv -o a_%d.exr {common}")).ok().stderr();
+    assert!(said.contains("25 frames a second (found"), "{said}");
+    folder.run(&format!("render f_*.csv -o b_%d.exr {common}")).ok();
+    for frame in 0..3 {
+        folder.run(&format!("compare a_{frame}.exr b_{frame}.exr")).ok();
+    }
+    folder.run(&format!("render all.csv -o c.exr {common} --frames 2")).ok();
+    folder.run("compare a_2.exr c.0002.exr").ok();
+    folder.run("render all.csv -o c.exr --frames 7").fails(3, &["0 to 2"]);
+    let text = folder.run("info all.csv").ok().stdout();
+    for part in ["frame       2", "time        0.04", "Time [s] (number x 1): time"] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    // One file of each half.
+    let (left, right): (Vec<_>, Vec<_>) = slope().into_iter().partition(|[p, _]| p[0] < 0.5);
+    folder.text("whole_1.csv", &csv(&[left.clone(), right.clone()].concat(), |p| p));
+    folder.text("left_1.csv", &csv(&left, |p| p));
+    folder.text("right_1.csv", &csv(&right, |p| p));
+    let halves = format!("render left_1.csv right_1.csv -o d.exr {common}");
+    folder.run(&halves).fails(3, &["both frame 1", "--join"]);
+    folder.run(&format!("{halves} --join")).ok();
+    folder.run(&format!("render whole_1.csv -o e.exr {common}")).ok();
+    folder.run("compare d.exr e.exr").ok();
 }

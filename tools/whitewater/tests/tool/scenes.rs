@@ -1,6 +1,6 @@
 //! Scenes: simulated, with parts that move, under a camera that moves.
 
-use super::support::{Folder, SMALL, block, names};
+use super::support::{Folder, SIZE, block, names};
 
 #[test]
 fn what_is_simulated_can_be_drawn() {
@@ -13,7 +13,7 @@ fn what_is_simulated_can_be_drawn() {
     folder.run(&format!("{command} --threads 3")).ok();
     assert!(before == all.map(|name| std::fs::read(folder.path("c").join(name)).unwrap()));
     let view = "--scene c/scene.json --camera c/camera.json --supersample 1";
-    folder.run(&format!("render c/corridor_*.bgeo -o p_%d.png {view} {SMALL}")).ok();
+    folder.run(&format!("render c/corridor_*.bgeo -o p_%d.png {view} {SIZE}")).ok();
     assert!(folder.exists("p_7.png") && folder.exists("p_8.png"));
 }
 
@@ -47,7 +47,7 @@ fn parts_and_the_camera_move_by_the_number_of_the_frame() {
                     {"frame":9,"eye":[2,0.5,2],"target":[0,0.2,0]}]}"#,
     );
     let draw = |name: &str, view: &str, more: &str| {
-        let look = format!("--scene s.json --radius 0.05 --supersample 1 {SMALL}");
+        let look = format!("--scene s.json --radius 0.05 --supersample 1 {SIZE}");
         folder.run(&format!("render f_*.ply -o {name}_%d.exr {view} {look} {more}")).ok();
     };
     let still = "--eye 0,0.5,2 --target 0,0.2,0";
@@ -82,7 +82,7 @@ fn blobs_fall_on_the_scene() {
     );
     folder.text("few.toml", "[bubbles]\ntemplates = 1\nbubbles = 8\nmap = 16\n");
     let view = "--eye 0.6,0.3,3 --target 0.6,0.3,0 --fov 40 --supersample 1";
-    let look = format!("{view} {SMALL} --settings few.toml --scene s.json --validate");
+    let look = format!("{view} {SIZE} --settings few.toml --scene s.json --validate");
     folder.run(&format!("render --bubbles b.json --frames 45-45 -o b_%d.exr {look}")).ok();
     let picture = folder.picture("b_45.exr");
     let z = picture.channel("bubbles.Z").unwrap();

@@ -146,8 +146,12 @@ pub fn block(n: usize) -> Vec<[f32; 3]> {
         .collect()
 }
 
-/// Small and quick.
-/// Single pictures are no means of several, so that they are quick.
-pub const SMALL: &str = "--size 96x64 --samples 1";
+/// Small and quick: a single picture is no mean of several, nothing is behind the water, and it is one sheet. However small a
+/// picture is, setting up takes as long: that of a set, whose light is found, as long as all the rest.
+pub const SMALL: &str = "--size 96x64 --samples 1 --set none --sheets 1";
+/// The same with all layers, over a ground.
+pub const GROUND: &str = "--size 96x64 --samples 1 --scene ground";
+/// The same where a scene is said, or the set is what matters.
+pub const SIZE: &str = "--size 96x64 --samples 1";
 /// From 2 in front of the middle of `block(8)`, straight on.
 pub const FRONT: &str = "--eye 0,0.35,2.35 --target 0,0.35,0 --fov 40 --radius 0.05";

@@ -1,0 +1,26 @@
+//! Files of several frames: each of them is read, or says why not.
+#![no_main]
+
+use std::path::PathBuf;
+
+use libfuzzer_sys::fuzz_target;
+use whitewater::io::particles::{read_step, steps};
+
+/// Beginnings that lead to several frames, and the extensions that go with them.
+const STARTS: [(&[u8], &str); 4] = [
+    (b"1\nTime=0\n0 0 0\n1\nTime=1\n", "xyz"),
+    (b"time,x,y,z\n0,1,2,3\n0,1,2,4\n1,", "csv"),
+    (b"ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z\n1 2 3 4\nITEM: TIMESTEP\n", "dump"),
+    (b"", "xyz"),
+];
+
+fuzz_target!(|data: &[u8]| {
+    for (start, extension) in STARTS {
+        let path: PathBuf =
+            std::env::temp_dir().join(format!("steps-{}.{extension}", std::process::id()));
+        std::fs::write(&path, [start, data].concat()).expect("a file");
+        for step in steps(&path).unwrap_or_default().into_iter().take(16) {
+            let _ = read_step(&path, step, &["time"]);
+        }
+    }
+});

@@ -1,0 +1,627 @@
+//! HDF5: VTKHDF, the output of PySPH, H5Part and H5MD, and whatever else keeps positions in a group.
+//!
+//! The container is read by the crate hdf5-reader, in Rust alone; which of its arrays are what is said here.
+//!
+//! - VTKHDF: group `VTKHDF`, of type PolyData or UnstructuredGrid, or of blocks of these. Points of all parts and steps lie one
+//!   after the other; group `Steps` tells where those of a step begin.
+//! - PySPH: `particles/NAME/arrays`, an array for each property; the time is attribute `t` of `solver_data`. Of several kinds of
+//!   particles those are taken that are called fluid.
+//! - H5Part: groups `Step#N`. The same of any groups that differ in a number: each is a frame.
+//! - H5MD: `particles/NAME/position/value` of shape (frames, particles, 3), and the same of other properties.
+//! - Others: the group that has an array of positions, or several, which are put together.
+//!
+//! Only the arrays of the frame that is asked for are read, those with a meaning alone. No more memory is asked for than the
+//! size of the file warrants.
+
+use std::io::Read as _;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use hdf5_reader::error::Error;
+use hdf5_reader::group::Group;
+use hdf5_reader::storage::{BytesStorage, FileStorage, Storage};
+use hdf5_reader::{Dataset, Datatype, Hdf5File, OpenOptions, SliceInfo, SliceInfoElem};
+
+use super::asked::Asked;
+use super::bytes::unpack_limit;
+use super::columns::{AttributeType, Data, Table};
+use super::error::{Place, ReadError};
+use super::names;
+use super::vtk_xml::{is_point, mesh_warning};
+use super::{Format, Particles};
+
+/// What such a file begins with.
+pub(super) const MAGIC: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// Whether a path is that of such a file.
+fn is_one(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let file = std::fs::File::open(path);
+    let read = file.and_then(|file| file.take(MAGIC.len() as u64).read_to_end(&mut start));
+    read.is_ok() && start == MAGIC
+}
+
+/// The times of the frames of a file; none of one of another format.
+pub(super) fn times(path: &Path) -> Option<Result<Vec<Option<f64>>, ReadError>> {
+    is_one(path).then(|| File::open(path)?.times())
+}
+
+/// The particles of a file; none of one of another format.
+pub(super) fn read(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
+    is_one(path).then(|| File::open(path)?.read(asked))
+}
+
+/// Groups that are looked into, and how deep.
+const GROUPS: usize = 1 << 12;
+const DEEP: usize = 6;
+/// Bytes of a header, and of a chunk, that are no lie: HDF5 itself makes smaller ones.
+const HEADER: usize = 1 << 22;
+
+/// A file that is open.
+pub(super) struct File {
+    file: Hdf5File,
+}
+
+/// Where the particles of a frame are.
+struct Frame {
+    time: Option<f64>,
+    parts: Vec<Part>,
+}
+
+/// Some of the particles of a frame: those of a group.
+struct Part {
+    /// What it is called.
+    name: String,
+    arrays: Vec<Array>,
+    warnings: Vec<String>,
+}
+
+/// An attribute.
+struct Array {
+    name: String,
+    dataset: Dataset,
+    rows: Rows,
+}
+
+/// Which numbers of a dataset are those of the particles.
+#[derive(Clone)]
+enum Rows {
+    All,
+    /// Rows of the first dimension.
+    Some(Range<u64>),
+    /// Of a dataset whose first dimension is frames.
+    Frame(u64),
+}
+
+impl File {
+    /// Of a file, of which what is needed is read.
+    pub(super) fn open(path: &Path) -> Result<Self, ReadError> {
+        Self::of(Arc::new(FileStorage::open(path).map_err(failed)?))
+    }
+
+    /// Of what lies in memory.
+    pub(super) fn of_bytes(bytes: &[u8]) -> Result<Self, ReadError> {
+        Self::of(Arc::new(BytesStorage::new(bytes.to_vec())))
+    }
+
+    fn of(storage: Arc<dyn Storage>) -> Result<Self, ReadError> {
+        let limit = unpack_limit(usize::try_from(storage.len()).unwrap_or(usize::MAX));
+        let options = OpenOptions::default()
+            .with_max_read_bytes(limit)
+            .with_max_chunk_bytes(limit)
+            .with_max_object_header_bytes(HEADER)
+            .with_chunk_cache_bytes(0);
+        let file = Hdf5File::from_storage_with_options(storage, options).map_err(failed)?;
+        Ok(Self { file })
+    }
+
+    /// A dataset by its path.
+    pub(super) fn numbers(&self, path: &str) -> Result<(Vec<u64>, Data), ReadError> {
+        let dataset = self.file.dataset(path).map_err(failed)?;
+        let shape = dataset.shape().to_vec();
+        let ty = type_of(&dataset);
+        Ok((shape, numbers(&dataset, ty, &Rows::All)?))
+    }
+
+    /// The times of the frames, where they are known.
+    pub(super) fn times(&self) -> Result<Vec<Option<f64>>, ReadError> {
+        Ok(self.frames()?.iter().map(|frame| frame.time).collect())
+    }
+
+    pub(super) fn read(&self, asked: &Asked) -> Result<Particles, ReadError> {
+        let mut frames = self.frames()?;
+        let count = frames.len();
+        let frame = match asked.step() {
+            Some(step) => step.index,
+            None if count > 1 => return Err(several(count)),
+            None => 0,
+        };
+        if frame >= count {
+            return Err(ReadError::malformed(
+                format!("frame {frame}"),
+                format!("{count} frames"),
+                Place::Unknown,
+            ));
+        }
+        frames.swap_remove(frame).read(asked)
+    }
+
+    fn frames(&self) -> Result<Vec<Frame>, ReadError> {
+        let root = self.file.root_group().map_err(failed)?;
+        if let Ok(grid) = root.group("VTKHDF") {
+            return of_vtk(&grid);
+        }
+        let mut frames = of_others(&root)?;
+        let time = root.group("solver_data").ok().and_then(|data| number(&data, &["t"]));
+        if let [frame] = frames.as_mut_slice() {
+            frame.time = frame.time.or(time);
+        }
+        Ok(frames)
+    }
+}
+
+/// A file of several frames where one is read.
+fn several(count: usize) -> ReadError {
+    ReadError::Unsupported {
+        what: format!("an HDF5 file of {count} frames, of which none is named,"),
+        advice: "write a file for each frame, numbered by it",
+    }
+}
+
+/// What the crate says of a file.
+fn failed(error: Error) -> ReadError {
+    match error {
+        Error::Io(reason) => ReadError::Io { path: std::path::PathBuf::new(), reason },
+        Error::UnsupportedFilter(what) => ReadError::Unsupported {
+            what: format!("HDF5 that is packed by another program ({what})"),
+            advice: "save it with compression='gzip', or without",
+        },
+        error @ (Error::UnsupportedEncoding(_) | Error::ResourceLimit(_)) => {
+            ReadError::Unsupported {
+                what: format!("this HDF5 ({error})"),
+                advice: "save it again by h5repack, or its arrays as NPZ",
+            }
+        }
+        error => ReadError::malformed("sound HDF5", error.to_string(), Place::Unknown),
+    }
+}
+
+/// How the numbers of a dataset are stored.
+fn type_of(dataset: &Dataset) -> AttributeType {
+    use AttributeType as T;
+    match dataset.dtype() {
+        Datatype::FloatingPoint { size: 4, .. } => T::F32,
+        Datatype::FloatingPoint { size: 8, .. } => T::F64,
+        Datatype::FixedPoint { size, signed, .. } => match (size, signed) {
+            (1, true) => T::I8,
+            (1, false) => T::U8,
+            (2, true) => T::I16,
+            (2, false) => T::U16,
+            (4, true) => T::I32,
+            (4, false) => T::U32,
+            (8, true) => T::I64,
+            (8, false) => T::U64,
+            _ => T::Other,
+        },
+        Datatype::String { .. } => T::Text,
+        _ => T::Other,
+    }
+}
+
+/// Some numbers of a dataset, in their order.
+fn numbers(dataset: &Dataset, ty: AttributeType, rows: &Rows) -> Result<Data, ReadError> {
+    use AttributeType as T;
+    let all = SliceInfoElem::Slice { start: 0, end: u64::MAX, step: 1 };
+    let mut selections = vec![all; dataset.ndim()];
+    if let Some(first) = selections.first_mut() {
+        *first = match rows {
+            Rows::All => first.clone(),
+            Rows::Some(rows) => SliceInfoElem::Slice { start: rows.start, end: rows.end, step: 1 },
+            Rows::Frame(frame) => SliceInfoElem::Index(*frame),
+        };
+    }
+    let selection = SliceInfo { selections };
+    /// Numbers of one type, made others.
+    macro_rules! read {
+        ($number:ty, $data:ident, $target:ty) => {{
+            let read = dataset.read_slice::<$number>(&selection).map_err(failed)?;
+            Data::$data(read.iter().map(|x| *x as $target).collect())
+        }};
+    }
+    Ok(match ty {
+        T::F32 => read!(f32, F32, f32),
+        T::F64 => read!(f64, F64, f64),
+        T::I8 => read!(i8, Int, i64),
+        T::U8 => read!(u8, Int, i64),
+        T::I16 => read!(i16, Int, i64),
+        T::U16 => read!(u16, Int, i64),
+        T::I32 => read!(i32, Int, i64),
+        T::U32 => read!(u32, Int, i64),
+        T::I64 => read!(i64, Int, i64),
+        T::U64 => {
+            let read = dataset.read_slice::<u64>(&selection).map_err(failed)?;
+            Data::Int(read.iter().map(|x| i64::try_from(*x).unwrap_or(i64::MAX)).collect())
+        }
+        _ => Data::NONE,
+    })
+}
+
+/// The whole numbers of a list.
+fn list(group: &Group, name: &str) -> Result<Vec<u64>, ReadError> {
+    let dataset = group.dataset(name).map_err(failed)?;
+    let data = numbers(&dataset, type_of(&dataset), &Rows::All)?;
+    let value = |i| data.f64(i).map_or(0, |x| x as u64);
+    Ok((0..data.len()).map(value).collect())
+}
+
+/// The first number there is among attributes of these names.
+fn number(group: &Group, names: &[&str]) -> Option<f64> {
+    let all = names.iter().filter_map(|name| group.attribute(name).ok());
+    all.into_iter().find_map(|attribute| {
+        attribute.read_as_f64().ok().or_else(|| attribute.read_1d::<f64>().ok()?.first().copied())
+    })
+}
+
+impl Array {
+    fn new(name: &str, dataset: Dataset, rows: Rows) -> Self {
+        Self { name: name.into(), dataset, rows }
+    }
+
+    /// Particles, and numbers of each.
+    fn shape(&self) -> (u64, usize) {
+        let shape = self.dataset.shape();
+        let shape = match self.rows {
+            Rows::Frame(_) => shape.get(1..).unwrap_or_default(),
+            _ => shape,
+        };
+        let (rows, rest) = shape.split_first().map_or((1, &[][..]), |(rows, rest)| (*rows, rest));
+        let components = rest.iter().fold(1_u64, |n, d| n.saturating_mul(*d));
+        let rows = match &self.rows {
+            Rows::Some(some) => some.end.min(rows).saturating_sub(some.start),
+            _ => rows,
+        };
+        (rows, usize::try_from(components).unwrap_or(usize::MAX))
+    }
+}
+
+impl Frame {
+    fn read(self, asked: &Asked) -> Result<Particles, ReadError> {
+        let Self { time, mut parts } = self;
+        if parts.iter().any(Part::has_some) {
+            parts.retain(Part::has_some);
+        }
+        let mut table = Table::new(asked);
+        table.time = time;
+        let several = parts.len() > 1;
+        if several {
+            let names: Vec<_> = parts.iter().map(|part| part.name.as_str()).collect();
+            table.warnings.push(format!(
+                "{} groups are put together: {}; where some of them are walls, give the file of the water alone",
+                names.len(),
+                names.join(", ")
+            ));
+        }
+        let parts: Vec<Part> = parts.into_iter().map(Part::without_empty).collect();
+        let mut all: Vec<(String, usize, Data, usize)> = Vec::new();
+        let count = parts.len();
+        for (i, part) in parts.into_iter().enumerate() {
+            table.warnings.extend(part.warnings);
+            for array in part.arrays {
+                let ((rows, components), ty) = (array.shape(), type_of(&array.dataset));
+                let known = table.attributes.iter().any(|a| a.name == array.name);
+                let wanted = match known {
+                    true => asked.wants(&array.name),
+                    false => table.list(&array.name, components, ty),
+                };
+                if !wanted || ty.size().is_none() {
+                    continue;
+                }
+                let data = numbers(&array.dataset, ty, &array.rows)?;
+                let expected = rows.saturating_mul(components as u64);
+                if data.len() as u64 != expected {
+                    let (attribute, found) = (array.name, data.len() as u64);
+                    return Err(ReadError::Length { attribute, expected, found });
+                }
+                let same = all.iter_mut().find(|(name, ..)| *name == array.name);
+                match same {
+                    Some((_, before, to, parts)) if *before == components && *parts == i => {
+                        if to.append(data) {
+                            *parts += 1;
+                        }
+                    }
+                    None if i == 0 => all.push((array.name, components, data, 1)),
+                    _ => {}
+                }
+            }
+        }
+        for (name, components, data, parts) in all {
+            if parts < count {
+                table
+                    .warnings
+                    .push(format!("attribute `{name}` is dropped: not all groups have it"));
+                continue;
+            }
+            table.push(&name, components, data);
+        }
+        table.assemble(Format::Hdf5)
+    }
+}
+
+impl Part {
+    fn has_some(&self) -> bool {
+        self.arrays.iter().any(|array| array.shape().0 > 0)
+    }
+
+    /// What is there for other particles only, or for none: PySPH has an empty array of each property that is not stored.
+    fn without_empty(mut self) -> Self {
+        let some = self.has_some();
+        self.arrays.retain(|array| !some || array.shape().0 > 0);
+        self
+    }
+}
+
+/// The frames of a file of VTK.
+fn of_vtk(grid: &Group) -> Result<Vec<Frame>, ReadError> {
+    let kind = |group: &Group| {
+        let attribute = group.attribute("Type").ok();
+        attribute.and_then(|a| a.read_string().ok()).unwrap_or_default()
+    };
+    let own = kind(grid);
+    let own = own.trim_end_matches('\0');
+    let blocks: Vec<Group> = match own {
+        "PolyData" | "UnstructuredGrid" => vec![grid.clone()],
+        "MultiBlockDataSet" | "PartitionedDataSetCollection" => {
+            let groups = grid.groups().map_err(failed)?;
+            groups.into_iter().filter(|group| group.dataset("Points").is_ok()).collect()
+        }
+        _ => {
+            return Err(ReadError::Unsupported {
+                what: format!("VTKHDF of type {own}"),
+                advice: "particles are PolyData or UnstructuredGrid: save one of these",
+            });
+        }
+    };
+    let mut frames: Vec<Frame> = Vec::new();
+    for block in &blocks {
+        let steps = block.group("Steps").or_else(|_| grid.group("Steps")).ok();
+        let counts = list(block, "NumberOfPoints")?;
+        let steps = steps.as_ref().map(|steps| Steps::of(steps, block)).transpose()?;
+        let total = steps.as_ref().map_or(1, |steps| steps.values.len()).max(1);
+        if total > GROUPS {
+            return Err(ReadError::malformed("some steps", total.to_string(), Place::Unknown));
+        }
+        for step in 0..total {
+            let (first, parts) = match &steps {
+                Some(steps) => steps.at(step),
+                None => (0, 0..counts.len() as u64),
+            };
+            let some = parts.start as usize..parts.end as usize;
+            let points = counts.get(some).unwrap_or_default();
+            let points = points.iter().fold(0_u64, |sum, n| sum.saturating_add(*n));
+            let rows = |first: u64| Rows::Some(first..first.saturating_add(points));
+            let dataset = block.dataset("Points").map_err(failed)?;
+            let mut arrays = vec![Array::new("Points", dataset, rows(first))];
+            let data = block.group("PointData").ok().map(|data| data.datasets());
+            for dataset in data.transpose().map_err(failed)?.unwrap_or_default() {
+                let name = leaf(dataset.name());
+                let offsets = steps.as_ref().and_then(|steps| steps.offset(&name, step));
+                arrays.push(Array::new(&name, dataset, rows(offsets.unwrap_or(first))));
+            }
+            let part = Part {
+                name: leaf(block.name()),
+                arrays,
+                warnings: mesh(block).into_iter().collect(),
+            };
+            if frames.len() <= step {
+                let time = steps.as_ref().and_then(|steps| steps.values.get(step).copied());
+                frames.push(Frame { time, parts: Vec::new() });
+            }
+            if let Some(frame) = frames.get_mut(step) {
+                frame.parts.push(part);
+            }
+        }
+    }
+    if frames.is_empty() {
+        return Err(ReadError::malformed("blocks of points", "none", Place::Unknown));
+    }
+    Ok(frames)
+}
+
+/// Where those of each step begin.
+struct Steps {
+    values: Vec<f64>,
+    points: Vec<u64>,
+    parts: Vec<u64>,
+    counts: Vec<u64>,
+    /// Of arrays that have offsets of their own.
+    arrays: Vec<(String, Vec<u64>)>,
+}
+
+impl Steps {
+    fn of(steps: &Group, block: &Group) -> Result<Self, ReadError> {
+        let dataset = steps.dataset("Values").map_err(failed)?;
+        let data = numbers(&dataset, type_of(&dataset), &Rows::All)?;
+        let values: Vec<f64> = (0..data.len()).filter_map(|i| data.f64(i)).collect();
+        // The steps of a collection are those of its blocks.
+        let own = block.group("Steps").unwrap_or_else(|_| steps.clone());
+        let mut arrays = Vec::new();
+        if let Ok(group) = own.group("PointDataOffsets") {
+            for dataset in group.datasets().map_err(failed)? {
+                let name = leaf(dataset.name());
+                let offsets = list(&group, &name)?;
+                arrays.push((name, offsets));
+            }
+        }
+        let points = list(&own, "PointOffsets")?;
+        let parts = list(&own, "PartOffsets").unwrap_or_else(|_| vec![0; values.len()]);
+        let counts = list(&own, "NumberOfParts").unwrap_or_else(|_| vec![1; values.len()]);
+        Ok(Self { values, points, parts, counts, arrays })
+    }
+
+    /// The first point of a step, and its parts.
+    fn at(&self, step: usize) -> (u64, Range<u64>) {
+        let of = |list: &[u64]| list.get(step).copied().unwrap_or(0);
+        let part = of(&self.parts);
+        (of(&self.points), part..part.saturating_add(of(&self.counts)))
+    }
+
+    fn offset(&self, name: &str, step: usize) -> Option<u64> {
+        let (_, offsets) = self.arrays.iter().find(|(array, _)| array == name)?;
+        offsets.get(step).copied()
+    }
+}
+
+/// What is said of a mesh.
+fn mesh(block: &Group) -> Option<String> {
+    let cells = |name: &str| {
+        let group = block.group(name).ok()?;
+        Some(
+            list(&group, "NumberOfCells").ok()?.iter().fold(0_u64, |sum, n| sum.saturating_add(*n)),
+        )
+    };
+    let polygons = cells("Polygons").unwrap_or(0).saturating_add(cells("Strips").unwrap_or(0));
+    if polygons > 0 && cells("Vertices").unwrap_or(0) == 0 {
+        return Some(mesh_warning(polygons, "polygons"));
+    }
+    let types = list(block, "Types").unwrap_or_default();
+    let more = types.iter().filter(|ty| !is_point(**ty as f64)).count();
+    (2 * more > types.len()).then(|| mesh_warning(types.len() as u64, "cells"))
+}
+
+/// The last name of a path.
+fn leaf(path: &str) -> String {
+    path.rsplit('/').next().unwrap_or(path).to_string()
+}
+
+/// A group that has positions.
+struct Found {
+    path: String,
+    /// The attributes of each of its frames: one, but for H5MD.
+    frames: Vec<(Option<f64>, Vec<Array>)>,
+}
+
+/// The frames of a file without a convention that is known, and of those by their names.
+fn of_others(root: &Group) -> Result<Vec<Frame>, ReadError> {
+    let (mut found, mut looked, mut seen) = (Vec::new(), 0, Vec::new());
+    search(root, "", 0, &mut looked, &mut found, &mut seen)?;
+    let frame = |time, parts| Frame { time, parts };
+    let part = |name: &str, arrays| Part { name: name.into(), arrays, warnings: Vec::new() };
+    if found.is_empty() {
+        let names: Vec<_> = seen.into_iter().take(24).collect();
+        let found = if names.is_empty() { "no arrays at all".into() } else { names.join(", ") };
+        return Err(ReadError::NoPositions { expected: names::POSITION_NAMES, found });
+    }
+    // Groups that differ in a number are frames.
+    let numbers: Option<Vec<f64>> =
+        found.iter().map(|found: &Found| in_name(&leaf(&found.path))).collect();
+    let texts = |path: &str| path.replace(|c: char| c.is_ascii_digit() || "+-.eE".contains(c), "");
+    let first = found.first().map(|found| texts(&found.path)).unwrap_or_default();
+    let alike = found.iter().all(|found| texts(&found.path) == first);
+    if let (Some(numbers), true, true) = (numbers, alike, found.len() > 1) {
+        let mut all: Vec<(f64, Found)> = numbers.into_iter().zip(found).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let frames = all.into_iter().flat_map(|(_, Found { path, frames })| {
+            frames.into_iter().map(move |(time, arrays)| frame(time, vec![part(&path, arrays)]))
+        });
+        return Ok(frames.collect());
+    }
+    // Walls lie beside the fluid, in groups that are called otherwise.
+    let fluid = |found: &Found| {
+        let path = found.path.to_lowercase();
+        ["fluid", "water", "liquid"].iter().any(|name| path.contains(name))
+    };
+    let mut passed = Vec::new();
+    if found.iter().any(fluid) {
+        found.retain(|found| {
+            let kept = fluid(found);
+            if !kept {
+                passed.push(found.path.clone());
+            }
+            kept
+        });
+    }
+    let mut frames: Vec<Frame> = Vec::new();
+    for Found { path, frames: own } in found {
+        for (i, (time, arrays)) in own.into_iter().enumerate() {
+            if frames.len() <= i {
+                frames.push(frame(time, Vec::new()));
+            }
+            if let Some(frame) = frames.get_mut(i) {
+                frame.parts.push(part(&path, arrays));
+            }
+        }
+    }
+    if let (false, Some(part)) =
+        (passed.is_empty(), frames.first_mut().and_then(|frame| frame.parts.first_mut()))
+    {
+        part.warnings.push(format!("groups that are no fluid are not read: {}", passed.join(", ")));
+    }
+    Ok(frames)
+}
+
+/// The last number in a name.
+fn in_name(name: &str) -> Option<f64> {
+    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
+    let end = name.rfind(|c: char| c.is_ascii_digit())? + 1;
+    let head = name.get(..end)?;
+    let start = head.rfind(|c| !number(c)).map_or(0, |i| {
+        i + head.get(i..).map_or(1, |rest| rest.chars().next().map_or(1, char::len_utf8))
+    });
+    let text = head.get(start..)?;
+    // What stands before a number may end in a minus.
+    (0..text.len()).find_map(|from| text.get(from..)?.parse().ok())
+}
+
+/// Looks for groups with positions, in this one and below it.
+fn search(
+    group: &Group,
+    path: &str,
+    depth: usize,
+    looked: &mut usize,
+    found: &mut Vec<Found>,
+    seen: &mut Vec<String>,
+) -> Result<(), ReadError> {
+    *looked += 1;
+    if *looked > GROUPS || depth > DEEP {
+        return Ok(());
+    }
+    let (groups, datasets) = group.members().map_err(failed)?;
+    let time = number(group, &["TimeValue", "time", "Time", "t"]);
+    let arrays: Vec<Array> = datasets
+        .into_iter()
+        .map(|dataset| Array::new(&leaf(dataset.name()), dataset, Rows::All))
+        .collect();
+    seen.extend(arrays.iter().map(|array| format!("{path}/{}", array.name)));
+    let names: Vec<&str> = arrays.iter().map(|array| array.name.as_str()).collect();
+    if names::may_have_positions(&names) {
+        found.push(Found { path: path.into(), frames: vec![(time, arrays)] });
+    }
+    // H5MD: a group for each property, its values in one dataset.
+    let value = |group: &Group| {
+        let dataset = group.dataset("value").ok()?;
+        let frames = dataset.shape().first().copied().filter(|_| dataset.ndim() >= 2)?;
+        Some((leaf(group.name()), dataset, frames))
+    };
+    let position = groups.iter().find(|group| leaf(group.name()) == "position");
+    if let Some((_, _, frames)) = position.and_then(value).filter(|(_, d, _)| d.ndim() == 3) {
+        let all: Vec<_> = groups.iter().filter_map(value).collect();
+        let times = position.and_then(|position| {
+            let dataset = position.dataset("time").ok()?;
+            numbers(&dataset, type_of(&dataset), &Rows::All).ok()
+        });
+        let frames = (0..frames.min(GROUPS as u64)).map(|frame| {
+            let own = all.iter().filter(|(_, _, count)| *count > frame);
+            let arrays =
+                own.map(|(name, dataset, _)| Array::new(name, dataset.clone(), Rows::Frame(frame)));
+            (times.as_ref().and_then(|times| times.f64(frame as usize)), arrays.collect())
+        });
+        found.push(Found { path: path.into(), frames: frames.collect() });
+        return Ok(());
+    }
+    for inner in &groups {
+        let path = format!("{path}/{}", leaf(inner.name()));
+        search(inner, &path, depth + 1, looked, found, seen)?;
+    }
+    Ok(())
+}

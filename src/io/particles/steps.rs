@@ -1,0 +1,88 @@
+//! Files that hold several frames: which they are, and one of them.
+
+use std::path::Path;
+
+use super::asked::Asked;
+use super::error::ReadError;
+use super::format::{self, Extension};
+use super::source::{Content, Input, Source};
+use super::{Particles, bytes, index, lammps, parts, read_asked, xyz};
+
+/// One of the frames of a file that holds several.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Its place among them, from 0.
+    pub index: usize,
+    /// Its time, where the file says it, in its unit. In a table with a column of times it tells which rows are its own.
+    pub time: Option<f64>,
+}
+
+/// Where a frame begins in a text.
+pub(super) struct Start {
+    pub(super) at: u64,
+    /// Lines before it.
+    pub(super) lines: u64,
+    pub(super) time: Option<f64>,
+}
+
+/// The frames of a file, in the order of the file or, of a table with a column of times, in theirs; none of a file that
+/// holds one. Several are told in counted XYZ and dumps of LAMMPS one after the other, in tables of any format by a column of
+/// times or steps, and in HDF5 and XDMF with their steps. The file is read once for it where that is the only way.
+///
+/// # Errors
+/// Those of [`read`](super::read), as far as it is read.
+pub fn steps(path: &Path) -> Result<Vec<Step>, ReadError> {
+    if index::Pieces::of(path)?.is_some() {
+        return Ok(Vec::new());
+    }
+    let times = times(path).map_err(|error| parts::named(path, error))?;
+    if times.len() < 2 {
+        return Ok(Vec::new());
+    }
+    Ok(times.into_iter().enumerate().map(|(index, time)| Step { index, time }).collect())
+}
+
+/// Reads one frame of a file that holds several, as [`read_with`](super::read_with) does.
+///
+/// # Errors
+/// Those of [`read`](super::read).
+pub fn read_step(path: &Path, step: Step, extras: &[&str]) -> Result<Particles, ReadError> {
+    read_asked(path, &Asked::new(extras).of_step(Some(step)))
+}
+
+fn times(path: &Path) -> Result<Vec<Option<f64>>, ReadError> {
+    #[cfg(feature = "hdf5")]
+    if let Some(times) = super::hdf5::times(path).or_else(|| super::xdmf::times(path)) {
+        return times;
+    }
+    let hint = Extension::from_path(path);
+    let file = std::fs::File::open(path).map_err(super::source::io_error)?;
+    let input = Input::new(file)?;
+    let mut start = Vec::new();
+    Source::new(&input, &input.whole(false)).fill(2, &mut start)?;
+    let gzip = bytes::is_gzip(&start);
+    start.clear();
+    Source::new(&input, &input.whole(gzip)).fill(1 << 12, &mut start)?;
+    let starts = match format::detect(&start, hint) {
+        Ok(format::Reader::XyzText) => xyz::starts(&Content::new(&input, gzip)?, None)?,
+        Ok(format::Reader::Lammps) => lammps::starts(&Content::new(&input, gzip)?, None)?,
+        _ => Vec::new(),
+    };
+    if starts.len() > 1 {
+        return Ok(starts.into_iter().map(|start| start.time).collect());
+    }
+    let plan = parts::plan(&input, hint, gzip, &Asked::default())?;
+    let times = plan.map_or(Ok(Vec::new()), |plan| plan.times())?;
+    Ok(times.into_iter().map(Some).collect())
+}
+
+/// The part of a text that is the frame of a place, which these are the beginnings of.
+pub(super) fn part<'a>(
+    content: &Content<'a>,
+    starts: &[Start],
+    index: usize,
+) -> Result<Option<(Content<'a>, Option<f64>)>, ReadError> {
+    let Some(start) = starts.get(index) else { return Ok(None) };
+    let end = starts.get(index + 1).map_or(content.length(), |next| next.at);
+    Ok(Some((content.part(start.at, end, start.lines)?, start.time)))
+}

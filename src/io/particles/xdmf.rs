@@ -1,0 +1,298 @@
+//! XDMF: a text that says which arrays of HDF5 files, or numbers in it, are points and attributes of which frame.
+//!
+//! A `Grid` has a `Geometry` of points and `Attribute`s at nodes; grids of a temporal collection are frames, those of a spatial one
+//! parts of a frame. A grid without points has those of the first grid, as writers of time series leave them out. The numbers
+//! of a `DataItem` stand in it, in an array of an HDF5 file beside it (`file.h5:/path`), or in another item that it refers to.
+
+use std::path::Path;
+
+use roxmltree::{Document, Node};
+
+use super::asked::Asked;
+use super::columns::{AttributeType, Data, Table};
+use super::error::{Place, ReadError};
+use super::hdf5::File;
+use super::index;
+use super::{Format, Particles};
+
+/// The most grids of a file.
+const GRIDS: usize = 1 << 16;
+
+/// The text of a file by its name; none of another.
+fn text(path: &Path) -> Option<String> {
+    index::text(path, &["xdmf", "xmf", "xdmf2", "xdmf3"])
+}
+
+/// The times of the frames of a file; none of one of another format.
+pub(super) fn times(path: &Path) -> Option<Result<Vec<Option<f64>>, ReadError>> {
+    let text = text(path)?;
+    Some(parse(&text).and_then(|document| {
+        let frames = frames(&document)?;
+        Ok(frames.iter().map(|frame| frame.time).collect())
+    }))
+}
+
+/// The particles of a file; none of one of another format.
+pub(super) fn read(path: &Path, asked: &Asked) -> Option<Result<Particles, ReadError>> {
+    let text = text(path)?;
+    Some(parse(&text).and_then(|document| of_document(&document, path, asked)))
+}
+
+fn parse(text: &str) -> Result<Document<'_>, ReadError> {
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    Document::parse_with_options(text, options)
+        .map_err(|e| ReadError::malformed("XML", e.to_string(), Place::Line(e.pos().row.into())))
+}
+
+/// The grids of a frame.
+struct Frame<'d, 'i> {
+    time: Option<f64>,
+    grids: Vec<Node<'d, 'i>>,
+}
+
+fn is(node: &Node<'_, '_>, name: &str) -> bool {
+    node.tag_name().name() == name
+}
+
+fn child<'d, 'i>(node: &Node<'d, 'i>, name: &str) -> Option<Node<'d, 'i>> {
+    node.children().find(|node| is(node, name))
+}
+
+/// The time that a grid says.
+fn time(grid: &Node<'_, '_>) -> Option<f64> {
+    child(grid, "Time")?.attribute("Value")?.trim().parse().ok()
+}
+
+fn frames<'d>(document: &'d Document<'_>) -> Result<Vec<Frame<'d, 'd>>, ReadError> {
+    let root = document.root_element();
+    if !is(&root, "Xdmf") {
+        return Err(ReadError::malformed("XDMF", root.tag_name().name(), Place::Unknown));
+    }
+    let uniform = |grid: &Node<'_, '_>| {
+        is(grid, "Grid") && matches!(grid.attribute("GridType"), None | Some("Uniform"))
+    };
+    let temporal = root.descendants().find(|grid| {
+        is(grid, "Grid")
+            && grid.attribute("GridType") == Some("Collection")
+            && grid.attribute("CollectionType") == Some("Temporal")
+    });
+    let mut frames = Vec::new();
+    match temporal {
+        Some(all) => {
+            for grid in all.children().filter(|node| is(node, "Grid")).take(GRIDS) {
+                let grids = grid.descendants().filter(uniform).collect();
+                frames.push(Frame { time: time(&grid), grids });
+            }
+        }
+        None => {
+            let grids: Vec<_> = root.descendants().filter(uniform).take(GRIDS).collect();
+            let time = grids.iter().find_map(time);
+            frames.push(Frame { time, grids });
+        }
+    }
+    if frames.iter().all(|frame| frame.grids.is_empty()) {
+        return Err(ReadError::malformed("a Grid with a Geometry", "none", Place::Unknown));
+    }
+    Ok(frames)
+}
+
+fn of_document(
+    document: &Document<'_>,
+    path: &Path,
+    asked: &Asked,
+) -> Result<Particles, ReadError> {
+    let mut frames = frames(document)?;
+    let count = frames.len();
+    let index = match asked.step() {
+        Some(step) => step.index.min(count - 1),
+        None if count > 1 => {
+            return Err(ReadError::Unsupported {
+                what: format!("an XDMF file of {count} frames, of which none is named,"),
+                advice: "write a file for each frame, numbered by it",
+            });
+        }
+        None => 0,
+    };
+    let frame = frames.swap_remove(index);
+    let mut table = Table::new(asked);
+    table.time = frame.time;
+    let mut reader = Reader { document, path, open: None };
+    let geometry = |grid: &Node<'_, '_>| child(grid, "Geometry").is_some();
+    // Those of a series are written once.
+    let shared = document.descendants().find(|node| is(node, "Geometry"));
+    let mut all: Vec<(String, usize, Data, usize)> = Vec::new();
+    let grids: Vec<_> = match frame.grids.iter().any(geometry) {
+        true => frame.grids.into_iter().filter(geometry).collect(),
+        false => frame.grids,
+    };
+    let count = grids.len();
+    for (i, grid) in grids.iter().enumerate() {
+        let Some(points) = child(grid, "Geometry").or(shared) else {
+            return Err(ReadError::malformed("a Geometry in the Grid", "none", Place::Unknown));
+        };
+        for (name, components, data) in reader.points(&points)? {
+            if i == 0 {
+                table.list(&name, components, AttributeType::Number);
+            }
+            put(&mut all, i, &name, components, data);
+        }
+        for attribute in grid.children().filter(|node| is(node, "Attribute")) {
+            let node = matches!(attribute.attribute("Center"), None | Some("Node"));
+            let name = attribute.attribute("Name").unwrap_or("unnamed");
+            let Some(item) = child(&attribute, "DataItem").filter(|_| node) else { continue };
+            let shape = dimensions(&reader.referred(item)?);
+            let components = components(&shape);
+            let known = table.attributes.iter().any(|a| a.name == name);
+            let wanted = match known {
+                true => asked.wants(name),
+                false => table.list(name, components, AttributeType::Number),
+            };
+            if wanted {
+                let (shape, data) = reader.item(item)?;
+                put(&mut all, i, name, self::components(&shape), data);
+            }
+        }
+    }
+    for (name, components, data, grids) in all {
+        if grids == count {
+            table.push(&name, components, data);
+        } else {
+            table.warnings.push(format!("attribute `{name}` is dropped: not all grids have it"));
+        }
+    }
+    table.assemble(Format::Xdmf)
+}
+
+/// Adds the numbers of a grid to those of the grids before it.
+fn put(
+    all: &mut Vec<(String, usize, Data, usize)>,
+    i: usize,
+    name: &str,
+    components: usize,
+    data: Data,
+) {
+    match all.iter_mut().find(|(known, ..)| known == name) {
+        Some((_, before, to, grids)) if *before == components && *grids == i => {
+            *grids += usize::from(to.append(data));
+        }
+        None if i == 0 => all.push((name.into(), components, data, 1)),
+        _ => {}
+    }
+}
+
+/// Numbers of each particle.
+fn components(shape: &[u64]) -> usize {
+    let rest = shape.get(1..).unwrap_or_default().iter();
+    usize::try_from(rest.fold(1_u64, |n, d| n.saturating_mul(*d))).unwrap_or(usize::MAX)
+}
+
+/// The extents of an item.
+fn dimensions(item: &Node<'_, '_>) -> Vec<u64> {
+    let text = item.attribute("Dimensions").unwrap_or_default();
+    text.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Reads items.
+struct Reader<'d, 'i, 'p> {
+    document: &'d Document<'i>,
+    path: &'p Path,
+    /// The file that was read last.
+    open: Option<(String, File)>,
+}
+
+impl<'d> Reader<'d, '_, '_> {
+    /// The points of a geometry: of two or three components, or an array for each.
+    fn points(&mut self, geometry: &Node<'d, 'd>) -> Result<Vec<(String, usize, Data)>, ReadError> {
+        let kind = geometry.attribute("GeometryType").or_else(|| geometry.attribute("Type"));
+        let items = geometry.children().filter(|node| is(node, "DataItem"));
+        let read: Vec<_> = items.map(|item| self.item(item)).collect::<Result<_, _>>()?;
+        let kind = kind.unwrap_or("XYZ").to_ascii_uppercase();
+        let unsupported = || ReadError::Unsupported {
+            what: format!("an XDMF geometry of type {kind}"),
+            advice: "write points as XYZ, XY or X_Y_Z",
+        };
+        let components = match kind.as_str() {
+            "XYZ" => 3,
+            "XY" => 2,
+            "X_Y_Z" | "X_Y" => {
+                let names = ["x", "y", "z"].into_iter();
+                let all = names.zip(read).map(|(name, (_, data))| (name.to_string(), 1, data));
+                return Ok(all.collect());
+            }
+            _ => return Err(unsupported()),
+        };
+        let (_, data) = read.into_iter().next().ok_or_else(unsupported)?;
+        Ok(vec![("position".into(), components, data)])
+    }
+
+    /// The item that one refers to, or itself.
+    fn referred(&self, item: Node<'d, 'd>) -> Result<Node<'d, 'd>, ReadError> {
+        let Some(path) = item.attribute("Reference") else { return Ok(item) };
+        let path = if path == "XML" { item.text().unwrap_or_default() } else { path };
+        // Such as /Xdmf/Domain/DataItem[@Name="p"], of which the name is enough.
+        let name = path.split(['"', '\'']).nth(1).unwrap_or_default();
+        let mut items = self.document.descendants().filter(|node| is(node, "DataItem"));
+        items
+            .find(|node| {
+                node.attribute("Name") == Some(name) && node.attribute("Reference").is_none()
+            })
+            .ok_or_else(|| {
+                ReadError::malformed("the DataItem that one refers to", path.trim(), Place::Unknown)
+            })
+    }
+
+    /// The extents and the numbers of an item.
+    fn item(&mut self, item: Node<'d, 'd>) -> Result<(Vec<u64>, Data), ReadError> {
+        let item = self.referred(item)?;
+        let text = item.text().unwrap_or_default();
+        if !matches!(item.attribute("ItemType"), None | Some("Uniform")) {
+            return Err(ReadError::Unsupported {
+                what: format!("an XDMF item of type {}", item.attribute("ItemType").unwrap_or("")),
+                advice: "write whole arrays, one for each frame",
+            });
+        }
+        let expected = dimensions(&item);
+        let (shape, data) = match item.attribute("Format").unwrap_or("XML") {
+            "XML" => {
+                let mut data = Data::F64(Vec::new());
+                for word in text.split_ascii_whitespace() {
+                    if !data.push_text(word.as_bytes()) {
+                        return Err(ReadError::malformed("a number", word, Place::Unknown));
+                    }
+                }
+                (expected.clone(), data)
+            }
+            "HDF" => self.array(text.trim())?,
+            other => {
+                return Err(ReadError::Unsupported {
+                    what: format!("an XDMF item of format {other}"),
+                    advice: "write its arrays as HDF, or in the text (XML)",
+                });
+            }
+        };
+        let product = |shape: &[u64]| shape.iter().fold(1_u64, |n, d| n.saturating_mul(*d));
+        let shape = if expected.is_empty() { shape } else { expected };
+        if product(&shape) != data.len() as u64 {
+            return Err(ReadError::Length {
+                attribute: text.trim().chars().take(64).collect(),
+                expected: product(&shape),
+                found: data.len() as u64,
+            });
+        }
+        Ok((shape, data))
+    }
+
+    /// An array by the name of its file and its path in it.
+    fn array(&mut self, name: &str) -> Result<(Vec<u64>, Data), ReadError> {
+        let bad = || ReadError::malformed("file.h5:/path of an array", name, Place::Unknown);
+        let (file, path) = name.rsplit_once(':').ok_or_else(bad)?;
+        let beside = index::beside(self.path.parent().unwrap_or(Path::new("")), file);
+        let known = self.open.as_ref().is_some_and(|(open, _)| open == file);
+        if !known {
+            let open = File::open(&beside).map_err(|error| super::parts::named(&beside, error))?;
+            self.open = Some((file.to_string(), open));
+        }
+        let (_, open) = self.open.as_ref().ok_or_else(bad)?;
+        open.numbers(path).map_err(|error| super::parts::named(&beside, error))
+    }
+}

@@ -1,0 +1,155 @@
+//! HDF5 and XDMF, as their real writers make them: `hdf5/make.py`.
+
+use std::path::{Path, PathBuf};
+
+use super::bad::{damaged, numbers};
+use super::samples::{self, Has};
+use super::{allocation, folder::Folder};
+use whitewater::io::particles::{
+    Extension, Format, Particles, Parts, ReadError, Step, read, read_bytes, read_step, steps,
+};
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats/hdf5").join(name)
+}
+
+/// Moved back along x.
+fn moved(mut particles: Particles, by: f32) -> Particles {
+    particles.positions.iter_mut().for_each(|p| p[0] -= by);
+    particles
+}
+
+fn times(name: &str) -> Vec<Option<f64>> {
+    steps(&path(name)).unwrap().into_iter().map(|step| step.time).collect()
+}
+
+fn frame(name: &str, index: usize) -> Particles {
+    let all = steps(&path(name)).unwrap();
+    read_step(&path(name), all[index], &[]).unwrap()
+}
+
+#[test]
+fn files_of_one_frame_are_the_cloud() {
+    for name in ["pysph.hdf5", "grid.vtkhdf", "plain.h5", "cloud.xdmf"] {
+        let particles = read(&path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        samples::check(name, &particles, Has::All);
+        let xdmf = name.ends_with("xdmf");
+        assert_eq!(particles.format, if xdmf { Format::Xdmf } else { Format::Hdf5 }, "{name}");
+        assert!(steps(&path(name)).unwrap().is_empty(), "{name}");
+        if !xdmf {
+            let bytes = std::fs::read(path(name)).unwrap();
+            samples::check(name, &read_bytes(&bytes, Extension::Unknown).unwrap(), Has::All);
+        }
+        let parts = Parts::open(&path(name), 4).unwrap();
+        assert_eq!(parts.total(), samples::COUNT, "{name}");
+    }
+}
+
+/// Walls lie beside the fluid; the time is that of the solver.
+#[test]
+fn of_pysph_the_fluid_is_read() {
+    let particles = read(&path("pysph.hdf5")).unwrap();
+    assert_eq!(particles.time, Some(0.25));
+    let told = "groups that are no fluid are not read: /particles/boundary/arrays";
+    assert_eq!(particles.warnings, [told]);
+    let names: Vec<_> = particles.attributes.iter().map(|a| a.name.as_str()).collect();
+    assert!(names.contains(&"h") && !names.contains(&"au"), "{names:?}");
+    let extra = whitewater::io::particles::read_with(&path("pysph.hdf5"), &["h"]).unwrap();
+    assert_eq!(extra.extras[0].values, [0.1; 11]);
+}
+
+/// Steps of VTK, of which each has a particle less, and groups that differ in a number, which come in its order.
+#[test]
+fn steps_are_frames() {
+    assert_eq!(times("steps.vtkhdf"), [0.0, 0.5, 1.0].map(Some));
+    for i in 0..3 {
+        let found = moved(frame("steps.vtkhdf", i), i as f32);
+        let cloud = samples::cloud();
+        let left = samples::COUNT - i;
+        assert_eq!(found.positions, cloud.positions[..left], "{i}");
+        assert_eq!(found.velocities.unwrap(), cloud.velocities.unwrap()[..left], "{i}");
+        assert_eq!(found.ids.unwrap(), cloud.ids.unwrap()[..left], "{i}");
+        assert_eq!(found.time, Some(0.5 * i as f64));
+        assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+    }
+    let found = times("steps.h5part");
+    assert!(found.iter().zip([0.0, 0.1, 0.2, 1.0]).all(|(a, b)| (a.unwrap() - b).abs() < 1e-12));
+    for (i, step) in [0.0, 1.0, 2.0, 10.0].into_iter().enumerate() {
+        samples::check("h5part", &moved(frame("steps.h5part", i), step), Has::All);
+    }
+    assert_eq!(times("h5md.h5"), [Some(0.0), Some(0.5)]);
+    for i in 0..2 {
+        let found = moved(frame("h5md.h5", i), i as f32);
+        assert_eq!(found.positions, samples::cloud().positions);
+        assert_eq!((found.velocities, found.ids), {
+            let cloud = samples::cloud();
+            (cloud.velocities, cloud.ids)
+        });
+    }
+    // One that is not named is none.
+    let error = read(&path("steps.vtkhdf")).unwrap_err().to_string();
+    assert!(error.contains("3 frames") && error.contains("steps.vtkhdf"), "{error}");
+    let none = Step { index: 3, time: None };
+    read_step(&path("steps.vtkhdf"), none, &[]).unwrap_err();
+}
+
+/// Points that are written once are those of all frames.
+#[test]
+fn a_series_of_xdmf_is_frames() {
+    assert_eq!(times("series.xdmf"), [Some(0.0), Some(0.5)]);
+    samples::check("series", &frame("series.xdmf", 0), Has::All);
+    let second = frame("series.xdmf", 1);
+    let twice = samples::cloud().velocities.unwrap().iter().map(|v| v.map(|c| 2.0 * c)).collect();
+    assert_eq!(second.velocities, Some(twice));
+    assert_eq!(second.time, Some(0.5));
+    let folder = Folder::new("xdmf");
+    let text = std::fs::read_to_string(path("cloud.xdmf")).unwrap();
+    let alone = folder.put("alone.xmf", &text);
+    let error = read(&alone).unwrap_err().to_string();
+    assert!(error.contains("cloud.h5") && error.contains("check the name"), "{error}");
+    // Numbers in the text, and components apart.
+    let apart = "<Xdmf><Domain><Grid><Geometry GeometryType=\"X_Y_Z\"><DataItem Dimensions=\"2\">1 2</DataItem>\
+                 <DataItem Dimensions=\"2\">3 4</DataItem><DataItem Dimensions=\"2\">5 6</DataItem></Geometry>\
+                 <Attribute Name=\"rho\"><DataItem Dimensions=\"2\">8 9</DataItem></Attribute></Grid></Domain></Xdmf>";
+    let found = read(&folder.put("apart.xmf", apart)).unwrap();
+    assert_eq!(found.positions, [[1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
+    assert_eq!(found.densities, Some(vec![8.0, 9.0]));
+    let error = read(&folder.put("short.xmf", apart.replace("8 9", "8"))).unwrap_err();
+    assert!(error.to_string().contains("expected 2 values"), "{error}");
+}
+
+#[test]
+fn what_is_not_read_is_named() {
+    let error = read(&path("lzf.h5")).unwrap_err();
+    let text = error.to_string();
+    assert!(text.contains("lzf.h5") && text.contains("compression='gzip'"), "{text}");
+    let error = read(&path("series.h5")).unwrap_err().to_string();
+    assert!(error.contains("expected positions") && error.contains("/data0"), "{error}");
+    let bytes = std::fs::read(path("plain.h5")).unwrap();
+    for cut in [8, 100] {
+        let error = read_bytes(&bytes[..cut], Extension::Unknown).unwrap_err();
+        assert!(matches!(error, ReadError::Malformed { .. }), "{cut}: {error}");
+    }
+}
+
+/// A mutation is read, or an error, and never takes more memory than the size of a file warrants.
+#[test]
+fn damaged_files() {
+    let mut next = numbers();
+    let (mut cases, mut sound) = (0, 0);
+    for name in ["pysph.hdf5", "grid.vtkhdf", "steps.vtkhdf", "plain.h5", "steps.h5part", "h5md.h5"]
+    {
+        let bytes = std::fs::read(path(name)).unwrap();
+        for _ in 0..super::bad::rounds(24) {
+            let bytes = damaged(&bytes, &mut next);
+            let (result, peak) = allocation::peak(|| read_bytes(&bytes, Extension::Unknown));
+            // What may be unpacked, once as it lies there and once as numbers.
+            let limit = 3 * ((16 << 20) + 64 * bytes.len());
+            assert!(peak <= limit, "{name}: {peak} bytes held for {}", bytes.len());
+            cases += 1;
+            sound += usize::from(result.is_ok());
+        }
+    }
+    println!("{cases} damaged files, {sound} of them read");
+    assert!(sound > 0 && sound < cases, "{sound} of {cases}");
+}
