@@ -71,7 +71,7 @@ fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
     let noise = "--rule fixed:40 --foam none --spray none --noise foam";
     let panels =
         [tool.frame("waterfall", 240, noise)?.picture, tool.frame("waterfall", 240, "")?.picture];
-    grid(&panels, 2, &pictures(docs, "noise-foam.png"))
+    grid(&panels, 2, &pictures(docs, "noise-foam.jpg"))
 }
 
 /// The source's whole look beside ours.
@@ -84,7 +84,7 @@ fn thesis(tool: &Tool, docs: &Path) -> Outcome<()> {
             Ok::<_, String>(image::imageops::crop_imm(&picture, 60, 10, 400, 225).to_image())
         })
         .collect();
-    grid(&panels?, 2, &pictures(docs, "thesis.png"))
+    grid(&panels?, 2, &pictures(docs, "thesis.jpg"))
 }
 
 /// Figures 4.7 to 4.20: what each pass leaves.
@@ -107,7 +107,7 @@ fn layers(tool: &Tool, docs: &Path) -> Outcome<()> {
         without.picture,
         frame.picture,
     ];
-    grid(&panels, 3, &pictures(docs, "layers.png"))
+    grid(&panels, 3, &pictures(docs, "layers.jpg"))
 }
 
 /// Iterations of the three scenes' views, by the source's rule and by ours.
@@ -143,7 +143,7 @@ fn thresholds(tool: &Tool, docs: &Path) -> Outcome<()> {
         before = foam;
         panels.push(drawn.picture);
     }
-    grid(&panels, 2, &pictures(docs, "thresholds.png"))
+    grid(&panels, 2, &pictures(docs, "thresholds.jpg"))
 }
 
 /// The Weber number that a frame was drawn with, of the settings that it holds.
@@ -190,7 +190,7 @@ fn fixed_counts(tool: &Tool, docs: &Path) -> Outcome<()> {
             panels.push(image::imageops::crop_imm(&panel, 8, 4, 224, 126).to_image());
         }
     }
-    grid(&panels, 4, &pictures(docs, "fixed-counts.png"))
+    grid(&panels, 4, &pictures(docs, "fixed-counts.jpg"))
 }
 
 /// Figures 4.13 and 4.15: what one particle adds to the thickness of water and of foam, and what many add up to.
@@ -249,7 +249,7 @@ fn shadows(tool: &Tool, docs: &Path) -> Outcome<()> {
             Ok::<_, String>(tool.frame("waterfall", 240, &more)?.picture)
         })
         .collect();
-    grid(&panels?, 3, &pictures(docs, "shadows.png"))
+    grid(&panels?, 3, &pictures(docs, "shadows.jpg"))
 }
 
 /// Figures 5.5 and 5.6: the bamboo fills, tips and is empty, and the pouring from near.
@@ -261,7 +261,7 @@ fn bamboo(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("bamboo", 112, near)?.picture,
         tool.frame("bamboo", 112, &format!("{near} --foam none --spray none"))?.picture,
     ];
-    grid(&panels, 2, &pictures(docs, "bamboo-foam.png"))
+    grid(&panels, 2, &pictures(docs, "bamboo-foam.jpg"))
 }
 
 /// Figure 5.7, without and with foam; below it Figure 5.8's foam under the surface, and where foam is.
@@ -274,7 +274,7 @@ fn foam(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("waterfall", 240, under)?.picture,
         amount(&tool.frame("waterfall", 240, under)?.layers, "water.foam.thickness", 0.05)?,
     ];
-    grid(&panels, 2, &pictures(docs, "foam.png"))
+    grid(&panels, 2, &pictures(docs, "foam.jpg"))
 }
 
 /// Foam by a noise of each sprite's own, and by one that all share.
@@ -287,7 +287,7 @@ fn pattern(tool: &Tool, docs: &Path) -> Outcome<()> {
         tool.frame("corridor", 233, &format!("{wave} {own}"))?.picture,
         tool.frame("corridor", 233, wave)?.picture,
     ];
-    grid(&panels, 2, &pictures(docs, "foam-pattern.png"))
+    grid(&panels, 2, &pictures(docs, "foam-pattern.jpg"))
 }
 
 /// Figure 5.13: one sheet of water, whose thickness counts what is behind the air, and two.
@@ -300,7 +300,7 @@ fn sheets(tool: &Tool, docs: &Path) -> Outcome<()> {
             Ok::<_, String>(frame.picture)
         })
         .collect();
-    grid(&panels?, 2, &pictures(docs, "sheets.png"))
+    grid(&panels?, 2, &pictures(docs, "sheets.jpg"))
 }
 
 /// The ways that the thesis compares, and ours. All see straight through water, as the thesis does: what a second refraction

@@ -3,10 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use image::RgbImage;
-use image::codecs::jpeg::JpegEncoder;
-
 use crate::Outcome;
+use crate::panels::save;
 use crate::tool::{Tool, sequence};
 
 /// What a picture is of.
@@ -86,9 +84,6 @@ const ALL: [Shown; 10] = [
     },
 ];
 
-/// The most bytes of a picture.
-const MOST: usize = 250_000;
-
 /// Draws all, or one, into the documents' folder `gallery`, and writes the page.
 pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outcome<()> {
     let wanted: Vec<_> = ALL.iter().filter(|s| only.is_none_or(|only| only == s.name)).collect();
@@ -104,9 +99,7 @@ pub fn draw(tool: &Tool, docs: &Path, public: &Path, only: Option<&str>) -> Outc
         let arguments = arguments(tool, shown, public)?;
         let png = tool.temporary("gallery.png");
         let picture = tool.draw(&arguments, &png)?;
-        let file = folder.join(format!("{}.jpg", shown.name));
-        let bytes = compressed(&picture)?;
-        std::fs::write(&file, bytes).map_err(|error| cannot(&file, error))?;
+        save(&picture, &folder.join(format!("{}.jpg", shown.name)))?;
     }
     let file = docs.join("gallery.md");
     std::fs::write(&file, page()).map_err(|error| cannot(&file, error))
@@ -134,19 +127,6 @@ fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> 
             Ok(std::iter::once(path.display().to_string()).chain(more).collect())
         }
     }
-}
-
-/// As JPEG, of the highest quality that is small enough.
-fn compressed(picture: &RgbImage) -> Outcome<Vec<u8>> {
-    for quality in [94, 90, 86, 82, 78, 72, 66, 60, 50, 40, 30] {
-        let mut bytes = Vec::new();
-        let encoder = JpegEncoder::new_with_quality(&mut bytes, quality);
-        picture.write_with_encoder(encoder).map_err(|error| error.to_string())?;
-        if bytes.len() <= MOST {
-            return Ok(bytes);
-        }
-    }
-    Err(format!("a picture of {}x{} is over {MOST} bytes", picture.width(), picture.height()))
 }
 
 /// The page.
@@ -190,21 +170,5 @@ mod tests {
         assert!(!text.contains('{') && !text.contains("  "), "{text}");
         let names: std::collections::BTreeSet<_> = ALL.iter().map(|shown| shown.name).collect();
         assert_eq!(names.len(), ALL.len());
-    }
-
-    #[test]
-    fn pictures_are_small_enough() {
-        // Noise is the worst there is.
-        let mut state = 1_u32;
-        let noise = RgbImage::from_fn(1280, 720, |_, _| {
-            image::Rgb([(); 3].map(|()| {
-                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                (state >> 24) as u8 / 4
-            }))
-        });
-        let bytes = compressed(&noise).expect("small enough");
-        assert!(bytes.len() <= MOST && bytes.starts_with(&[0xff, 0xd8]), "{}", bytes.len());
-        let grey = compressed(&RgbImage::new(64, 64)).expect("small enough");
-        assert!(grey.len() < bytes.len());
     }
 }
