@@ -9,14 +9,16 @@ use crate::Outcome;
 use crate::bubbles;
 use crate::curves::{self, Curve};
 use crate::diffuse;
-use crate::panels::{self, amount, depth, grid, iterations, normals};
+use crate::panels::{self, amount, depth, grid, iterations, normals, save};
 use crate::shore;
 use crate::tool::{SIZE, Timed, Tool, sequence};
 
 pub type Figure = fn(&Tool, &Path) -> Outcome<()>;
 
 /// All figures by name.
-pub const ALL: [(&str, Figure); 37] = [
+pub const ALL: [(&str, Figure); 39] = [
+    ("demo", demo),
+    ("film", film),
     ("noise-foam", noise_foam),
     ("thesis", thesis),
     ("layers", layers),
@@ -65,6 +67,17 @@ const RADIUS: f32 = 0.656 * 0.04;
 
 /// The basin and the pillar of the waterfall from near.
 const NEAR: &str = "--eye 1.1,0.95,1.9 --target 0.1,0.3,0 --fov 40";
+
+/// The README's picture, as `tools/demo` draws it.
+fn demo(tool: &Tool, docs: &Path) -> Outcome<()> {
+    save(&tool.demo()?, &pictures(docs, "waterfall.jpg"))
+}
+
+/// The README's moving picture: a second of the waterfall, 24 frames of it.
+fn film(tool: &Tool, docs: &Path) -> Outcome<()> {
+    let view = "--eye 1.9,1.75,3.1 --target -0.3,0.48,0 --fov 34";
+    tool.film("waterfall", [171, 240, 3], view, &pictures(docs, "waterfall.webp"))
+}
 
 /// Figure 1.1: the baseline's noise foam beside foam of particles.
 fn noise_foam(tool: &Tool, docs: &Path) -> Outcome<()> {
