@@ -54,7 +54,7 @@ const ALL: [Shown; 10] = [
             "double_dam_pillar/ParticleData_Fluid_52.bgeo",
             "--whitewater {caches}/double_dam_pillar/foam/foam_52.bgeo",
         ),
-        about: "The same later, with the diffuse particles of its FoamGenerator",
+        about: "The same later, with the whitewater of its FoamGenerator",
     },
     Shown {
         name: "inflow",
@@ -74,7 +74,7 @@ const ALL: [Shown; 10] = [
     Shown {
         name: "splashsurf",
         of: Of::Cache("splashsurf/dam_break_frame_23_24389_particles.bgeo", ""),
-        about: "A dam break, positions alone; a file of \
+        about: "A dam break, positions only; a file of \
                 [splashsurf](https://github.com/InteractiveComputerGraphics/splashsurf) (MIT)",
     },
     Shown {
@@ -132,10 +132,10 @@ fn arguments(tool: &Tool, shown: &Shown, public: &Path) -> Outcome<Vec<String>> 
 /// The page.
 fn page() -> String {
     let mut text = String::from(
-        "# Gallery\n\nDefault pictures: each is what its command draws, without a setting. All are made by\n\n```sh\n\
+        "# Gallery\n\nDefault pictures: each command draws its picture with no settings. These commands draw all of them:\n\n```sh\n\
          cargo build --release -p whitewater-cli -p whitewater-figures\n\
          target/release/whitewater-figures --caches DIR --gallery --public CACHES\n```\n\n\
-         DIR holds our own scenes (`whitewater simulate`), CACHES the public ones by the names below.\n",
+         DIR holds the project's own scenes (`whitewater simulate`), CACHES the public ones under the names below.\n",
     );
     for Shown { name, of, about } in &ALL {
         let about = about.replace("{splishsplash}", SPLISHSPLASH);
