@@ -64,5 +64,5 @@ fn particles() -> Vec<[f32; 3]> {
         SPACING * (offset + vec3(at(cell, 0), at(cell, 1), at(cell, 2)))
     });
     let below_wave = |p: &Vec3| p.y < 0.24 + 0.05 * (6.0 * p.x + 3.0 * p.z).sin();
-    lattice.filter(below_wave).map(Vec3::to_array).collect()
+    lattice.filter(below_wave).map(|position| position.to_array()).collect()
 }
