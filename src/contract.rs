@@ -719,7 +719,7 @@ pub struct Frame<'a> {
     /// Written where there is water, unchanged elsewhere. Linear, scene-referred. Its `rect` is the frame's
     /// size, at most [`Config::extent`].
     pub output: HostImage,
-    /// The scene behind the water, linear, only sampled. It may be the image of `output`: then its `rect` in
+    /// The scene behind the water, linear, only sampled. It may be the image of `output`: then the `rect` of
     /// `output` is copied first, and the image needs transfer-source usage. Otherwise its size may differ.
     pub scene_color: HostImage,
     /// Depth of the scene in the camera's convention, only sampled. Its size may differ.

@@ -276,7 +276,10 @@ impl Heap {
         let most = ("HeapConfig.max_blobs", self.config.max_blobs);
         let count = check::count(fields, blobs.count, most, &self.gpu.limits)?;
         if matches!(blobs.count, Count::Gpu { .. }) {
-            return Err(Error::bad("Blobs.count", "Count::Gpu, expected Count::Cpu: the CPU sizes the simulation"));
+            return Err(Error::bad(
+                "Blobs.count",
+                "Count::Gpu, expected Count::Cpu: the CPU sizes the simulation",
+            ));
         }
         let most = ("what the device binds of all blobs", self.stride());
         blobs.balls.check("Blobs.balls", 16, count, most)?;
