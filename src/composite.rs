@@ -315,7 +315,7 @@ impl Composite {
                     // SAFETY: outside a render pass; the arguments are visible since `split`.
                     unsafe {
                         if i > 0 || coat.is_some() {
-                            // All may write the output for all that a validation layer knows.
+                            // The dispatches write disjoint tiles; this barrier only silences synchronization validation.
                             gpu.device.cmd_pipeline_barrier2(cmd, &written);
                         }
                         gpu.device.cmd_dispatch_indirect(cmd, arguments, dispatch);

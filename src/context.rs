@@ -15,12 +15,12 @@ use crate::gpu::pass::Attachments;
 use crate::gpu::pipeline::{self, Made};
 use crate::gpu::requirements::Offer;
 
-/// One device, as everything that is made from it shares it: [`Renderer`](crate::Renderer)s, a [`State`](crate::State)
-/// and the like take a context. A pipeline is made once for all of them, and stays for the next that needs it, as for
-/// a [`reconfigure`](crate::Renderer::reconfigure) back and forth.
+/// What all objects of one device share: [`Renderer`](crate::Renderer)s, a [`State`](crate::State) and so on
+/// are made from a context. A pipeline is created once for all of them and kept for the next that needs it, for
+/// example when [`reconfigure`](crate::Renderer::reconfigure) switches back and forth.
 ///
-/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and all that was made from
-/// it is destroyed, whichever comes last; that must be before the host frees its device.
+/// A clone is the same context. Its Vulkan objects are freed when the last clone is dropped and everything made
+/// from it is destroyed, whichever is later. This has to happen before the host destroys its device.
 #[derive(Clone)]
 pub struct Context {
     pub(crate) shared: Arc<Shared>,
@@ -28,15 +28,15 @@ pub struct Context {
 }
 
 impl Context {
-    /// Takes over what the host hands in; makes three samplers and nothing else.
+    /// Makes a context from the host's objects. Creates three samplers and nothing else.
     ///
     /// # Errors
-    /// [`Error::BadInput`] for a queue family without graphics and compute, or frames in flight that are not 1 to 8;
-    /// [`Error::Missing`] for a function that the instance or the device does not have; what Vulkan reports.
+    /// [`Error::BadInput`] for a queue family without graphics and compute, or a number of frames in flight
+    /// outside 1 to 8; [`Error::Missing`] for a function that the instance or the device lacks; Vulkan errors.
     ///
     /// # Safety
-    /// The host's handles are alive, belong together, and outlive the context with all that is made from it; what
-    /// [`Enabled`] and [`requirements`](crate::requirements) name is enabled.
+    /// The host's handles are alive, belong together, and outlive the context and everything made from it. What
+    /// [`Enabled`] claims and [`requirements`](crate::requirements) demands is enabled.
     pub unsafe fn new(host: &Host<'_>) -> Result<Self, Error> {
         check_slots(host.frames_in_flight)?;
         let shared = Arc::new(Shared::new(host)?);

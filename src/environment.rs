@@ -1,6 +1,5 @@
-//! The environment that water reflects: an equirectangular image of the host's, or the built-in
-//! sky, as a cube with mips. Filled by [`record_environment`](crate::Renderer::record_environment),
-//! once per environment.
+//! The environment that water reflects: an equirectangular image of the host, or the built-in sky, as a cube
+//! map with mips. [`record_environment`](crate::Renderer::record_environment) fills it once per environment.
 
 use ash::vk;
 use bytemuck::NoUninit;
@@ -20,25 +19,26 @@ use crate::gpu::image::{Image, ImageDesc};
 use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 
-/// Where the environment comes from.
+/// Source of the environment.
 #[derive(Clone, Copy, Debug)]
 pub enum EnvironmentSource {
     /// The built-in clear sky.
     Sky(Sky),
-    /// An image of the host's, only sampled.
+    /// An image of the host, only sampled.
     Equirectangular(Equirectangular),
 }
 
-/// A clear sky by single scattering in air and a thin haze (Nishita et al. 1993; optical depth of the haze 0.1; to 4 % of its
-/// integral) and a fitted term for the light that scatters more often: on level ground the sky gives a fifth of all light under
-/// a sun at 35°. Over grey ground that fades in from the horizon down to −0.12. Without the sun's disc.
+/// A clear sky: single scattering in air and thin haze (Nishita et al. 1993; optical depth of the haze 0.1;
+/// accurate to 4 % of the integral), plus a fitted term for multiple scattering. With the sun at 35° the sky
+/// gives a fifth of the light on level ground. Below the horizon grey ground fades in, completely from −0.12
+/// (the direction's component along up) on. The sun's disc is not included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sky {
     /// World direction to the sun, unit length.
     pub sun: [f32; 3],
-    /// World direction up, of any length but 0, default +y: as a frame's [`Settings::up`](crate::Settings::up).
+    /// World up direction, any length except 0, default +y, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
-    /// Irradiance of the sun above the air in the unit of the output, [0, ∞), default 20.
+    /// Irradiance of the sun outside the atmosphere in the unit of the output, [0, ∞), default 20.
     pub intensity: f32,
 }
 
@@ -49,22 +49,23 @@ impl Default for Sky {
     }
 }
 
-/// An equirectangular image: row 0 up, its middle column along world −z, its right quarter along +x; left and right edge
-/// meet along +z. Where another direction than +y is up that is turned with it: with z up the middle column lies along +y,
-/// x stays (with x up its right quarter along +y, the middle column along +z).
+/// An equirectangular image. Row 0 is up. For +y up its middle column lies along world −z, its right quarter
+/// along +x; left and right edge meet along +z. For another up direction the image turns with it: for z up the
+/// middle column lies along +y and x stays; for x up the right quarter lies along +y and the middle column
+/// along +z.
 #[derive(Clone, Copy, Debug)]
 pub struct Equirectangular {
-    /// Linear radiance. Its format must be good for linear filtering.
+    /// Linear radiance. The format has to support linear filtering.
     pub image: HostImage,
-    /// The same picture without the sun, where the sun that [`Light`](crate::Light) tells of is in it; default `None`:
-    /// it is not. Light that foam gathers from all around comes of this one, so that the sun, which is added to it with
-    /// its shadows, is not counted twice; mirrored is `image`.
+    /// The same picture without the sun, if `image` contains the sun that [`Light`](crate::Light) describes.
+    /// Default `None`: it does not. Diffuse light is gathered from this one, so that the sun, which is added
+    /// with its shadows, is not counted twice. Reflections show `image`.
     pub without_sun: Option<HostImage>,
-    /// Factor on the radiance, default 1; the product is cut at 65 000.
+    /// Factor on the radiance, default 1. The product is clamped to 65 000.
     pub scale: f32,
-    /// Right-handed turn of the image about up in radians: where +y is up, what lay along −z moves towards −x.
+    /// Right-handed rotation of the image around up, radians: for +y up, what was along −z moves towards −x.
     pub turn: f32,
-    /// World direction up, of any length but 0, as a frame's [`Settings::up`](crate::Settings::up).
+    /// World up direction, any length except 0, as [`Settings::up`](crate::Settings::up).
     pub up: [f32; 3],
 }
 

@@ -50,8 +50,7 @@ struct SlotState {
     has_environment: bool,
 }
 
-/// Draws particle water into a host's frame. One per view; see the crate's documentation for the
-/// contract.
+/// Draws particle water into a host's frame. One per view. The crate documentation has the contract.
 pub struct Renderer {
     gpu: Arc<Gpu>,
     config: Config,
@@ -72,7 +71,7 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Makes all memory for a configuration, and the pipelines that its context does not have yet.
+    /// Makes all memory for a configuration, and the pipelines that the context does not have yet.
     ///
     /// # Errors
     /// Bad configuration, missing features, no memory, and what Vulkan reports.
@@ -127,10 +126,11 @@ impl Renderer {
         }
     }
 
-    /// Records the web of shoreline and contact foam from an image of the host's, in place of the built-in one until the
-    /// next [`record_setup`](Self::record_setup): one channel, 1 where foam is first and 0 where it is last, that closes on
-    /// itself; any size, its `rect` is what is taken ([`shore::texture::from_pattern`](crate::shore::texture::from_pattern)
-    /// makes it of a pattern).
+    /// Records an image of the host as the foam texture of shoreline and contact foam. It replaces the built-in
+    /// one until the next [`record_setup`](Self::record_setup). One channel, 1 where foam appears first and 0
+    /// where it appears last, seamless, any size; `rect` is the part that is used.
+    /// [`shore::texture::from_pattern`](crate::shore::texture::from_pattern) makes such an image from a
+    /// pattern.
     ///
     /// # Errors
     /// No [`Config::shore`], a bad image or slot; what Vulkan reports.
@@ -382,9 +382,9 @@ impl Renderer {
         Ok((recorded, cmd))
     }
 
-    /// Times of the slot's last finished frame, pass by pass; empty before there is one. Never
-    /// waits: while the frame is still running these are the times of the one before. Best read
-    /// after the slot's fence, before its next record.
+    /// Times of the slot's last finished frame, pass by pass; empty before the first. Never waits: while a
+    /// frame is still running, these are the times of the one before. Best read after the slot's fence and
+    /// before its next record.
     pub fn timings(&mut self, slot: Slot) -> &[Timing] {
         match self.slots.get_mut(slot.0 as usize) {
             Some(state) => state.timer.timings(&self.gpu),
@@ -392,8 +392,8 @@ impl Renderer {
         }
     }
 
-    /// Says that the slot has come back: frees what `resize` and `reconfigure` retired and no frame in flight uses any
-    /// more.
+    /// Reports that the slot has come back. Frees what `resize` and `reconfigure` replaced and no frame in
+    /// flight uses any more.
     ///
     /// # Safety
     /// All GPU work that was recorded with the slot is complete, or will never be submitted.
@@ -405,7 +405,7 @@ impl Renderer {
         self.gpu.bury();
     }
 
-    /// Says that the command buffer recorded last with this slot was thrown away.
+    /// Reports that the command buffer recorded last with this slot was discarded.
     ///
     /// # Safety
     /// As [`collect`](Self::collect): that command buffer will never be submitted, and what was recorded with the slot
@@ -418,7 +418,7 @@ impl Renderer {
         unsafe { self.collect(slot) };
     }
 
-    /// Retired objects that still wait for their slots.
+    /// Number of retired objects that still wait for their slots.
     pub fn retired(&self) -> usize {
         self.retired.len()
     }

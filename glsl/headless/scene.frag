@@ -376,7 +376,7 @@ void main() {
     float depth = SEA != 0u ? max(scene.sea.x - position.y, 0.0) : 0.0;
     float under = SEA != 0u ? clamp((scene.sea.x - position.y) / max(fwidth(position.y), 1.0e-6) + 0.5, 0.0, 1.0) : 0.0;
 
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     int wet = under > 0.0 && over_sea() ? 1 : 0;
     Surf sea;
     vec3 shown_at = position;

@@ -17,7 +17,7 @@ layout(location = 0) out vec4 color;
 void main() {
     vec3 d = normalize(ray);
     vec3 c = textureLod(backdrop, d, 0.0).rgb;
-    // The end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     int wet = over_sea() && d.y < 0.0 ? 1 : 0;
     for (int i = 0; i < wet; ++i) {
         // Bottomless.

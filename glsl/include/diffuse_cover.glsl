@@ -39,7 +39,7 @@ void cover_one(uint i, uint past) {
         covered = s.f.covered & columns * 0x1111u & rows;
     }
     int left = small ? bitCount(covered) : size.x * size.y;
-    // The end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     for (bool done = left <= SMALL; !done; done = true) {
         uint head = LIST * push.chunk;
         uint slot = atomicAdd(list[head + 3u], 1u);

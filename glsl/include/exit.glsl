@@ -85,7 +85,7 @@ Exit exit_of(Sheet sheet, Surface surface, vec2 pixel, vec3 behind, bool covers)
     far.z += sheet.thick;
     vec2 steepest = frame.texel.xy * far.z * RIM_SLOPE;
     vec2 thicker = vec2(0.0);
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     bool apart = SHEETS == 2u && covers;
     bool alone = !apart;
     while (apart) {

@@ -90,7 +90,7 @@ float laced(float hidden, vec3 place, vec3 way, float pixels) {
     for (int i = 0; i < 2; ++i) {
         float part = frame.foam_phases[i];
         vec3 at = place - way * frame.foam_phases[2 + i] + frame.foam_octaves[1 + i];
-        // An end of a loop, not a branch: a CPU runs branches whole.
+        // A loop instead of a branch, for CPU drivers (docs/performance.md).
         for (bool any = part > 0.0; any; any = false) {
             closes += part * (lace_at(at, pixels) - CLOSES.x);
         }

@@ -10,7 +10,7 @@ const float WHOLE = 4.0;
 // water's own light before that share; and what of it comes through, of all channels together, to the source its weight
 // of what is behind. lit: how much of the water's own light there is.
 vec4 through_medium(vec3 light, vec3 share, float path, vec3 lit) {
-    // One exponential for both: a CPU runs branches whole.
+    // One exponential for both: a CPU driver executes both sides of a branch.
     bool source = frame.medium_a.w > 0.5;
     vec3 extinction = frame.medium_a.rgb + frame.medium_b.rgb;
     vec4 kept = exp(-(source ? frame.medium_b : vec4(extinction, 0.0)) * path);

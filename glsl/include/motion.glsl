@@ -22,7 +22,7 @@ uint surfaces() {
     return push.level == 0u ? 1u : 2u;
 }
 
-// Of a texel with its fronts. As the end of a loop: a CPU runs branches whole.
+// Of a texel with its fronts. A loop instead of a branch, for CPU drivers (docs/performance.md).
 uint surfaces_of(vec2 front) {
     return front.y < EMPTY ? 2u : 1u;
 }

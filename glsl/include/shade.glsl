@@ -123,9 +123,9 @@ bool stands_before(vec2 at, float z) {
     return any(lessThan(mix(vec4(EMPTY), scene, greaterThan(scene, vec4(0.0))), vec4(z)));
 }
 
-// Whether nothing can be seen of what is behind the water at a point: it is beyond the view, or
-// scene stands before it in or next to what filtering of its colour will touch. Loops here, not
-// branches: a CPU runs branches whole.
+// Whether the scene behind the water at a point is hidden: the point is outside the view, or the scene is in front of
+// it in a texel that filtering of the scene's colour would read. Loops instead of branches, for CPU drivers
+// (docs/performance.md).
 bool hidden_at(vec2 q, float z) {
     bool same = all(equal(frame.scene_depth.xy, vec2(1.0)));
     int corners = same ? 1 : 4;
@@ -275,7 +275,7 @@ Sheet sheet_of(Surface surface, vec2 pixel, float t, vec3 ripple, bool marched) 
         bool asked = sheet.mirror > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
         Met met = march(position, to, asked ? int(MIRROR) : 0);
         float free = (1.0 - met.share) * sky;
-        // An end of a loop, not a branch: a CPU runs branches whole.
+        // A loop instead of a branch, for CPU drivers (docs/performance.md).
         bool any = met.share > 0.0;
         while (any) {
             sky = free + met.share;
@@ -471,7 +471,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     for (int i = 0; i < 4; ++i) {
         t += texels.weights[i] * texelFetch(foam_thickness, foam_texel(texels, i), 0);
     }
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     int shown = dry ? 4 : 0;
     foam.water = vec2(0.0);
     for (int i = 0; i < shown; ++i) {
@@ -486,7 +486,7 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     // Of a little nothing: a veil is steam, not foam.
     foam.kept = exp(-frame.foam.x * along * t.x * smoothstep(0.0, frame.foam_noise.w, t.x));
     float local = 1.0; // much of it in a thread
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool there = t.x > 0.0 && texels.depth < EMPTY;
     float z = foam_middle(texels);
     bool torn = frame.foam_pattern.y > 0.0 && there;
@@ -608,7 +608,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     vec4 weights;
     vec2 all = thickness_at(surface, level, pixel, threshold, base, weights);
     float t = all.x;
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool fading = NEAR == 1u && fade > 0.0;
     while (fading) {
         surface = towards(surface, surface_at(levels.level[shown + 1u], pixel, front, threshold), fade);
@@ -685,7 +685,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
         foam = with_submerged(foam, ivec2(pixel), front);
     }
     vec2 offset = bent(sheet.offset + back.offset);
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     bool submerged = EXIT > 0u && max(sheet.wet, back.wet) > 0.0 && surface.z < 0.5 * EMPTY && !by_source();
     while (submerged) {
         Sheet last = sheet;
@@ -698,7 +698,7 @@ vec3 layers_at(vec2 pixel, float front, out Face face) {
     vec3 c = refracted(pixel, offset, max(surface.z, beyond));
     c = under_water(back, under_water(sheet, c));
     Exit way = Exit(1.0, vec3(0.0), c, sheet.path);
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool open = EXIT > 0u && sheet.thick > 0.0 && surface.z < 0.5 * EMPTY && sheet.wet < 1.0 && !by_source();
     while (open) {
         way = exit_of(sheet, surface, pixel, c, covers);

@@ -3,7 +3,7 @@
 // Reads: the block of shoreline and contact foam.
 
 // 0: what most frames have, a level surface, a map of distances or a strip, two looks into the noise and two into the web at
-// most, the scene's depth of the frame's size; 1: all there is. A pipeline each: a CPU runs branches whole, and finds the
+// most, the scene's depth of the frame's size; 1: all there is. A pipeline each: a CPU driver executes both sides of branches, and finds the
 // numbers of a loop's turns one lane at a time.
 layout(constant_id = 3) const uint GENERAL = 1;
 const int LOOKS = GENERAL == 1u ? 6 : 2;

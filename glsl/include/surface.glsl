@@ -135,7 +135,7 @@ Surface surface_at(Level level, vec2 pixel, float front, float threshold) {
     bvec4 outside = bvec4(base.x < 0, base.x >= last.x, base.y < 0, base.y >= last.y);
     vec4 miss = mix(abs(beside - front), vec4(2.0 * EMPTY), outside);
     float least = min(min(miss.x, miss.y), min(miss.z, miss.w));
-    // An end of a loop, not a branch: a CPU runs branches whole.
+    // A loop instead of a branch, for CPU drivers (docs/performance.md).
     bool found = lost && least <= threshold && level.texel.z > 1.0;
     while (found) {
         ivec2 next = mix(ivec2(-1), ivec2(2), after);

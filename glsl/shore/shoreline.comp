@@ -22,7 +22,7 @@ layout(set = 0, binding = 8, rgba8) uniform image2D foam;
 #include "shore_lists.glsl"
 #include "shore_drawn.glsl"
 
-// What tiles may have, 1: shoreline foam, 2: contact foam, 3: both. A pipeline each, not branches: a CPU runs them whole.
+// What tiles may have, 1: shoreline foam, 2: contact foam, 3: both. One pipeline each instead of branches, for CPU drivers (docs/performance.md).
 layout(constant_id = 1) const uint PARTS = 3;
 
 #include "shore_light.glsl"

@@ -65,7 +65,7 @@ vec3 moved_at(vec2 pixel, float z) {
     vec4 w = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     ivec2 last = texel_extent() - 1;
     vec4 sum = vec4(0.0);
-    // Ends of loops, not branches: a CPU runs branches whole.
+    // Loops instead of branches, for CPU drivers (docs/performance.md).
     int texels = z < EMPTY ? 4 : 0;
     for (int i = 0; i < texels; ++i) {
         ivec2 texel = base + ivec2(i & 1, i >> 1);

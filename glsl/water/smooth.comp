@@ -80,7 +80,7 @@ void smooth_columns(Level level, ivec2 p, ivec2 last) {
 void main() {
     uint tiles = arguments[push.iteration].w;
     uint i = gl_WorkGroupID.x;
-    // The condition last: with one at the top a CPU runs the body once more, for no invocation.
+    // The condition at the end: with one at the top a CPU driver executes the body once more, for no invocation.
     // No group is without a tile.
     do {
         uint tile = list[i];

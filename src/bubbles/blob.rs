@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use crate::random::Random;
 
-/// Fewest and most bubbles of a blob: the impostor's maps have eight bits for one.
+/// Minimum and maximum number of bubbles of a blob: the impostor's maps have eight bits for an index.
 pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 
 /// Candidates for a bubble's first place, of which the one farthest from all others is taken.
@@ -24,10 +24,10 @@ const OFF_SHELL: f64 = 0.15;
 /// Those that a bubble is told to have beside it, at most (glsl/include/blob.glsl).
 pub(super) const NEIGHBOURS: usize = 16;
 
-/// Bubbles of one blob in its own space, whose bounding ball is the unit ball about 0.
+/// The bubbles of one blob in its own space, whose bounding sphere is the unit sphere around the origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blob {
-    /// Centre and radius of each.
+    /// Centre and radius of each bubble.
     pub bubbles: Vec<[f32; 4]>,
 }
 
@@ -48,7 +48,7 @@ fn apart(a: f64, b: f64) -> f64 {
 }
 
 impl Blob {
-    /// So many bubbles, 8 to 256; fewer and more are as many as the nearer of the two.
+    /// A blob with this many bubbles, clamped to 8 to 256.
     pub fn new(seed: u32, count: u32) -> Self {
         let count = count.clamp(*BUBBLES.start(), *BUBBLES.end());
         let mut random = Random::new(seed);

@@ -34,7 +34,7 @@ use crate::water::Recording;
 /// Most samples of a sphere.
 const MOST_SAMPLES: usize = 512;
 
-/// The number whose digits in a base are those of `index`, mirrored at the point.
+/// Radical inverse of `index` in a base (van der Corput).
 fn radical_inverse(mut index: u32, base: u32) -> f64 {
     let (mut value, mut digit) = (0.0, 1.0 / f64::from(base));
     while index > 0 {

@@ -1,6 +1,6 @@
-//! Sums of all that is before each of many numbers, in place (Blelloch, Prefix sums and their applications, 1990):
-//! of blocks, of the blocks before each, of each number.
-//! Reads, writes: the values. Writes: their sum, into a word of the counts.
+//! In-place exclusive prefix sum (Blelloch, Prefix sums and their applications, 1990), in three dispatches: sums of
+//! blocks, prefix sum of those, prefix sum within each block.
+//! Reads, writes: the values. Writes: their total, into a word of the counts.
 
 use ash::vk;
 use bytemuck::NoUninit;

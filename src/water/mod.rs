@@ -120,12 +120,12 @@ impl Recording<'_> {
     }
 }
 
-/// What else is drawn, whose passes come in between those of the water.
+/// Other techniques whose passes are interleaved with the water's.
 #[derive(Clone, Copy)]
 pub(crate) struct Beside<'a> {
     /// Its maps are made of the particles on the screen.
     pub light: Option<&'a Light>,
-    /// Where they are has to be known before the tiles are that are drawn.
+    /// They have to run before tile classification, which covers their pixels.
     pub diffuse: Option<(&'a Foam, Option<&'a DiffuseParticles>)>,
     pub bubbles: Option<(&'a Bubbles, Option<&'a Blobs>)>,
 }

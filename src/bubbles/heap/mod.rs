@@ -1,9 +1,8 @@
-//! Pass `heap`: blobs that move (Huszár, Szécsi, Sec. 6), on the GPU, where the source has the CPU.
+//! Pass `heap`: blob dynamics on the GPU (Huszár, Szécsi, Sec. 6; the paper uses the CPU).
 //!
-//! A blob is a ball: neighbours pull each other when near and push when nearer, all fall, roll and rub on what is solid.
-//! One that is torn off splits in two, and these again. A step is cut into several, in each of which a hashed grid finds
-//! the neighbours. Those of a bucket stand in the order of their ids, so that the same blobs move the same in every run,
-//! whatever their order.
+//! A blob is a ball: near neighbours attract, nearer ones repel, all fall, roll and rub on solids. A torn-off
+//! blob splits in two, repeatedly. A step has several substeps, each of which finds neighbours with a hashed
+//! grid. Buckets are sorted by id, so the same blobs move identically in every run, in any order.
 //! Reads: the host's streams and solids. Writes: balls, turns, ids, velocities.
 
 mod field;
@@ -128,7 +127,7 @@ struct HeapSlot {
     solids: Buffer,
 }
 
-/// Blobs of bubble foam that move. Views share them.
+/// A simulation of bubble-foam blobs. Views share it.
 pub struct Heap {
     gpu: Arc<Gpu>,
     config: HeapConfig,
@@ -146,8 +145,9 @@ pub struct Heap {
 }
 
 impl Heap {
-    /// Makes pipelines and memory: 140 to 144 bytes a place, 4 a point of the field, for each slot 48 a solid; there are
-    /// 2^[`halvings`](HeapConfig::halvings) places a blob. `field`: what is solid besides the steps' own.
+    /// Makes pipelines and memory: 140 to 144 bytes per slot, 4 per point of the field, and for each frame in
+    /// flight 48 per solid. There are 2^[`halvings`](HeapConfig::halvings) slots per blob. `field`: solids
+    /// besides those of the steps.
     ///
     /// # Errors
     /// Bad configuration, no memory, and what Vulkan reports.
@@ -255,8 +255,8 @@ impl Heap {
         })
     }
 
-    /// Records that these are the blobs: as the host has them, at rest or with velocities (3×f32, m/s). `largest`: the
-    /// largest of their radii, by which neighbours are looked for.
+    /// Records the initial blobs: the host's, at rest or with velocities (3×f32, m/s). `largest` is their
+    /// largest radius, which sizes the grid cells.
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command.
@@ -452,8 +452,8 @@ impl Heap {
         Stream { buffer: self.buffers.spins.handle, ..self.velocities() }
     }
 
-    /// How many there may be with the halves of those that were set: `Config::bubbles` must have as many. Places that none
-    /// has are all 0.
+    /// Maximum number of blobs, including the halves of split ones. `Config::bubbles` has to allow as many.
+    /// Unused slots are all zeros.
     pub fn count(&self) -> u32 {
         self.count << self.config.halvings
     }
