@@ -20,7 +20,9 @@ const SPACING: f32 = 0.03; // rest distance between particles, in metres
 const BASIN: &str = r#"{"boxes": [
     {"centre": [0, -0.05, 0], "half": [1.1, 0.05, 0.7], "material": "concrete"},
     {"centre": [0, 0.2, -0.65], "half": [1.1, 0.2, 0.05], "material": "concrete"},
-    {"centre": [-1.1, 0.2, 0], "half": [0.05, 0.2, 0.7], "material": "concrete"}]}"#;
+    {"centre": [0, 0.15, 0.65], "half": [1.1, 0.15, 0.05], "material": "concrete"},
+    {"centre": [-1.1, 0.2, 0], "half": [0.05, 0.2, 0.7], "material": "concrete"},
+    {"centre": [1.1, 0.2, 0], "half": [0.05, 0.2, 0.7], "material": "concrete"}]}"#;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let positions = particles();
@@ -47,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let values = picture.data.iter().map(|rgba| rgba[channel]).collect();
         layers.push(name, picture.width, picture.height, values)?;
     }
-    write_png(&layers, -1.0, std::fs::File::create("minimal.png")?)?;
+    write_png(&layers, -1.8, std::fs::File::create("minimal.png")?)?;
     for pass in headless.timings() {
         println!("{:<12}{:>8.2} ms", pass.name, pass.nanoseconds * 1e-6);
     }
