@@ -1,11 +1,10 @@
-//! The library without a host: an own device, a scene to stand in, submits and read-back. For the
-//! tool and for tests; an engine that embeds the library does not compile it.
+//! The library without a host: an own device, a stand-in scene, submits and read-back. For the tool, tests and
+//! examples; an engine that embeds the library does not compile it.
 //!
-//! One frame at a time: [`Headless::new`]; then what a frame takes, by [`Headless::particles`] and
-//! [`Headless::motion`], [`Headless::diffuse`] or a part at a time
-//! [`Headless::diffuse_parts`], [`Headless::sky`] or [`Headless::equirectangular`], [`Headless::scene`]; then
-//! [`Headless::render`], and the picture and its layers back. What is recorded is submitted and waited
-//! for at once.
+//! One frame at a time: [`Headless::new`]; the inputs of a frame by [`Headless::particles`] and
+//! [`Headless::motion`], [`Headless::diffuse`] or in parts [`Headless::diffuse_parts`], [`Headless::sky`] or
+//! [`Headless::equirectangular`], [`Headless::scene`]; then [`Headless::render`], and the picture and its
+//! layers are read back. Recorded commands are submitted and waited for at once.
 
 mod device;
 mod draw;
@@ -63,29 +62,29 @@ const COLOR_REST: Access = access::COLOR_ATTACHMENT;
 /// The scene's depth image between its own passes.
 const DEPTH_REST: Access = access::DEPTH_ATTACHMENT;
 
-/// What became of the particles of a frame.
+/// Particle statistics of a frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// On the screen.
+    /// Particles on the screen.
     pub visible: u32,
-    /// Of those, the ones that can show.
+    /// Those of them that can be visible.
     pub front: u32,
-    /// Dropped for NaN, infinite or huge positions.
+    /// Particles dropped for NaN, infinite or huge positions.
     pub dropped: u32,
-    /// Set aside as spray.
+    /// Particles classified as spray.
     pub spray: u32,
 }
 
-/// What is done once a step of a simulation, before the frames that show it.
+/// What runs once per simulation step, before the frames that show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stepped {
-    /// What of the water is foam ([`Headless::step`]).
+    /// Surface foam ([`Headless::step`]).
     Foam,
-    /// Diffuse particles that are made ([`Headless::generate`]).
+    /// Whitewater emission ([`Headless::generate`]).
     Generate,
-    /// Blobs that move ([`Headless::heap_step`]).
+    /// Blob dynamics ([`Headless::heap_step`]).
     Heap,
-    /// How far the shore is ([`Headless::shore_map_step`]).
+    /// The distance to the shore ([`Headless::shore_map_step`]).
     ShoreMap,
 }
 
@@ -255,7 +254,7 @@ impl Headless {
         self.run_parts(|this, cmd| record(this, cmd).map(|()| cmd))
     }
 
-    /// Times of the last step of a kind, pass by pass; none before there is one.
+    /// Times of the last step of a kind, pass by pass; empty before the first.
     pub fn step_timings(&mut self, which: Stepped) -> Vec<Timing> {
         let slot = Slot(0);
         let times = match which {
@@ -267,7 +266,7 @@ impl Headless {
         times.unwrap_or_default().to_vec()
     }
 
-    /// Times of the last frame, pass by pass, without those of [steps](Self::step_timings) before it.
+    /// Times of the last frame, pass by pass, without its [steps](Self::step_timings).
     pub fn timings(&mut self) -> Vec<Timing> {
         self.renderer.timings(Slot(0)).to_vec()
     }

@@ -1,4 +1,4 @@
-//! The stand-in scene: set up, and drawn into the images that the water is drawn over.
+//! The stand-in scene: set-up, and drawing into the images that the water is drawn over.
 
 use std::sync::Arc;
 
@@ -52,19 +52,18 @@ impl Kept {
 }
 
 impl Headless {
-    /// The scene to stand behind the water, drawn by
-    /// [`Background::Scene`](super::Background::Scene); `antialias`: four samples a pixel in its
-    /// colour. Its light is baked: a new sun needs a new scene.
+    /// Sets the scene behind the water, drawn by [`Background::Scene`](super::Background::Scene). `antialias`:
+    /// four samples per pixel in its colour. Its light is baked, so a new sun needs a new scene.
     ///
     /// # Errors
-    /// A sun or a sea that is none; no memory, and what Vulkan reports.
+    /// Invalid parameters of sun or sea, no memory, Vulkan errors.
     pub fn scene(&mut self, scene: &Scene, antialias: bool) -> Result<(), Error> {
         self.set_up_scene(scene, antialias, None)
     }
 
-    /// The scene that was handed in last, in another [`frame`](Scene::frame) and at another
-    /// [`time`](Scene::time): its parts and its sea have moved, and nothing else has changed. What moves takes the
-    /// baked light along; the sun's shadow is drawn anew. Where the sea alone has moved this costs nothing.
+    /// Moves the current scene to another [`frame`](Scene::frame) and [`time`](Scene::time): parts and sea
+    /// move, nothing else may change. Moving parts keep their baked light; the sun's shadow map is redrawn. If
+    /// only the sea moves this costs nothing.
     ///
     /// # Errors
     /// As [`scene`](Self::scene).
