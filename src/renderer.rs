@@ -74,7 +74,7 @@ impl Renderer {
     /// Makes all memory for a configuration, and the pipelines that the context does not have yet.
     ///
     /// # Errors
-    /// Bad configuration, missing features, no memory, and what Vulkan reports.
+    /// Bad configuration, missing features, no memory; Vulkan errors.
     pub fn new(context: &Context, config: &Config) -> Result<Self, Error> {
         check::config(config)?;
         context.shared.offer(config.output_format).check(config)?;
@@ -133,7 +133,7 @@ impl Renderer {
     /// pattern.
     ///
     /// # Errors
-    /// No [`Config::shore`], a bad image or slot; what Vulkan reports.
+    /// No [`Config::shore`], a bad image or slot; Vulkan errors.
     ///
     /// # Safety
     /// As [`record_environment`](Self::record_environment), among whose four it counts.
@@ -156,7 +156,7 @@ impl Renderer {
     /// Records the environment that the water reflects, once per environment.
     ///
     /// # Errors
-    /// What Vulkan reports; a bad slot, or no direction up.
+    /// Vulkan errors; a bad slot, or no direction up.
     ///
     /// # Safety
     /// As [`record`](Self::record), with which it may share a slot and a command buffer if it
@@ -537,10 +537,10 @@ impl Renderer {
         memory
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);

@@ -53,7 +53,7 @@ impl State {
     /// Makes pipelines and memory: 60 bytes per particle, and 8 for its foam.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(context: &Context, config: &StateConfig) -> Result<Self, Error> {
         if config.max_particles == 0 {
             return Err(Error::bad("StateConfig.max_particles", "zero; it sizes the buffers"));
@@ -93,7 +93,7 @@ impl State {
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard
-    /// the command buffer and tell with [`abandon`](Self::abandon).
+    /// the command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
@@ -189,10 +189,10 @@ impl State {
         self.classify.memory()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);

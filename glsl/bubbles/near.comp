@@ -1,5 +1,5 @@
 #version 460
-// Pass `near`: diffuse foam near the eye becomes blobs (Akinci et al. 2013 gives foam seen from near up; blobs by Huszar,
+// Pass `near`: whitewater foam near the eye becomes blobs (Akinci et al. 2013 gives foam seen from near up; blobs by Huszar,
 // Szecsi). A particle's blob grows as its sprite goes. Two goes over the particles: how many there are at each distance;
 // then those for which there is room, as blobs in the world.
 // Reads: positions, kinds, radii, ages, ids, arguments, hand-over. Writes: numbers; count, balls, turns, blob ids.

@@ -1,5 +1,5 @@
 #version 460
-// Pass `splat`: the frontmost of the diffuse particles and their thickness (Akinci et al. 2013, Sec. 2.1 and 2.2;
+// Pass `splat`: the frontmost of the whitewater particles and their thickness (Akinci et al. 2013, Sec. 2.1 and 2.2;
 // passes 3 and 4), an invocation a particle. Depth, unlike in water, is not smoothed: that would take from the
 // occlusion. The second time over what goes with the frontmost: its search radius and normal.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.

@@ -1,7 +1,7 @@
 #version 460
-// Pass `advance`: what becomes of the diffuse particles that there are: spray flies, foam goes with the water, bubbles
+// Pass `advance`: what becomes of the whitewater particles that there are: spray flies, foam goes with the water, bubbles
 // rise in it, and foam alone ages (Ihmsen et al. 2012, Sec. 3.3 and 3.4).
-// Reads: the grid. Writes: diffuse particles, gone.
+// Reads: the grid. Writes: whitewater particles, gone.
 
 #include "random.glsl"
 #include "generate.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `crest`: how much the surface bends where it moves outwards, and with it how many diffuse particles the
+// Pass `crest`: how much the surface bends where it moves outwards, and with it how many whitewater particles the
 // fluid's are to make (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
 // Reads: the grid, normals, potentials. Writes: potentials, rates, wanted.
 

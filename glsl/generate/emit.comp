@@ -1,8 +1,8 @@
 #version 460
-// Pass `emit`: new diffuse particles, in a cylinder along the way of each particle of the fluid in the step
+// Pass `emit`: new whitewater particles, in a cylinder along the way of each particle of the fluid in the step
 // (Ihmsen et al. 2012, Sec. 3.2). In the order of the fluid's particles they take the slots that are free. Those of a
 // snapshot come anywhere within a spacing of its particle, as old as the moment that they are of.
-// Reads: the grid, normals or stages, wanted (how many are before each), free. Writes: diffuse particles.
+// Reads: the grid, normals or stages, wanted (how many are before each), free. Writes: whitewater particles.
 
 #include "random.glsl"
 #include "generate.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // Pass `advance`, last part: the free slots, in their order.
-// Reads: diffuse particles, gone (how many are before each). Writes: free.
+// Reads: whitewater particles, gone (how many are before each). Writes: free.
 
 #include "random.glsl"
 #include "generate.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `trace`, of a snapshot: how many of the diffuse particles that a steady flow made in one life lie at each particle of
+// Pass `trace`, of a snapshot: how many of the whitewater particles that a steady flow made in one life lie at each particle of
 // the water, by what the water made where it came from. Ihmsen et al. 2012 have sequences alone; of a single frame nothing
 // but its own flow is known.
 // Reads: the grid, rates. Writes: stages (in place of normals), wanted.

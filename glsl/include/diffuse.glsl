@@ -1,4 +1,4 @@
-// What a diffuse particle is on the screen, for every way to draw it (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc
+// What a whitewater particle is on the screen, for every way to draw it (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc
 // that faces the eye with the depth of a sphere. Small ones are widened to where no pixel's middle can miss them, and
 // their light is kept exactly: what all pixels get together does not depend on where between them the particle
 // lies, so that far foam does not sparkle. Not in the source.

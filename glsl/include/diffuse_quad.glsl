@@ -1,4 +1,4 @@
-// A diffuse particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, diffuse.glsl, diffuse_words.glsl.
+// A whitewater particle in a pixel of its quad. Needs frame.glsl, falloff.glsl, diffuse.glsl, diffuse_words.glsl.
 // Reads: words.
 
 layout(set = 0, binding = 6, std430) readonly buffer Words { uint words[]; };

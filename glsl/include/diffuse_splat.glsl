@@ -1,4 +1,4 @@
-// Diffuse particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
+// Whitewater particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
 // diffuse_words.glsl, frustum.glsl, and WORD(at), one of the words. Reads: words. Writes: words.
 
 struct Sprite {

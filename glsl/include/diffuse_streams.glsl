@@ -1,4 +1,4 @@
-// The host's streams of diffuse particles, as a pass that splats them binds a chunk of each.
+// The host's streams of whitewater particles, as a pass that splats them binds a chunk of each.
 // Needs frame.glsl, falloff.glsl, diffuse.glsl, hand_over.glsl, and of the push constants where the streams begin and their strides:
 // 0 of one that is not there. Reads: positions, kinds, radii, ages, ids.
 

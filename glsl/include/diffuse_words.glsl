@@ -1,4 +1,4 @@
-// What diffuse particles leave in each pixel, next to each other: what goes with the frontmost, bits of its depth (the
+// What whitewater particles leave in each pixel, next to each other: what goes with the frontmost, bits of its depth (the
 // two are a word of 64 bits, whose least is the frontmost's), bits of the scene's and the fluid's depths, and sums in
 // whole steps of what is before the fluid, behind it, and that by how far. The last is room: a pixel is 32 bytes, which
 // lie in one sector of a GPU's memory.

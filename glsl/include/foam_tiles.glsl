@@ -1,4 +1,4 @@
-// Tiles of 8x8 pixels in which there is foam of diffuse particles, and the dispatch over them, a group each. Needs frame.glsl.
+// Tiles of 8x8 pixels in which there is foam of whitewater particles, and the dispatch over them, a group each. Needs frame.glsl.
 // Reads, writes: tiles.
 
 // Groups in x, y, z, how many tiles there are; the tiles, numbered row by row.

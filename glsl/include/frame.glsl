@@ -58,7 +58,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 noise;         // height of 1 in metres, foam; falloff a metre below the surface, half-axis
     vec4 noise_image;   // width, height of the surface noise; its texels' size; cells a metre
     vec4 noise_color;   // radiance of its foam
-    vec4 diffuse;       // radius of a diffuse particle without one; nearer and farther end of where blobs take over, 0: nowhere; 1 = the source's falloff below the surface
+    vec4 diffuse;       // radius of a whitewater particle without one; nearer and farther end of where blobs take over, 0: nowhere; 1 = the source's falloff below the surface
     vec4 diffuse_below; // that falloff: metres, exponents
     vec4 diffuse_light; // binary logarithm of the intensity's half, its exponent; 1 = mixed as the source does; radius of a blob in its particle's
     vec4 diffuse_search; // spheres of the occlusion: first, more a pass, passes, samples a cubic pixel

@@ -1,4 +1,4 @@
-// What the passes share that make diffuse particles (spray, foam, bubbles) of a fluid's (Ihmsen, Akinci, Akinci,
+// What the passes share that make whitewater particles (spray, foam, bubbles) of a fluid's (Ihmsen, Akinci, Akinci,
 // Teschner, Unified spray, foam and bubbles for particle-based fluids, 2012).
 // Sums over neighbours are of whole steps: whatever order these come in, the same is made of them.
 
@@ -29,14 +29,14 @@ layout(push_constant, std430) uniform Push {
     float high_y;
     float high_z;
     uint buckets;        // a power of two
-    uint most;           // slots of diffuse particles
+    uint most;           // slots of whitewater particles
     uint capacity;       // of fluid particles
     float cells;         // of the grid along a unit of length
 } push;
 
 #include "generate_types.glsl"
 
-// A diffuse particle: its age is the share of its life that has passed, 1 of what is gone.
+// A whitewater particle: its age is the share of its life that has passed, 1 of what is gone.
 struct Diffuse {
     vec3 position;
     float age;

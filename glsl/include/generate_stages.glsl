@@ -2,7 +2,7 @@
 // the nearer the closer. Needs generate.glsl, random.glsl.
 
 const uint STAGES = 15u;
-// Diffuse particles of a moment at most: six bits.
+// Whitewater particles of a moment at most: six bits.
 const uint MOST_OF_STAGE = 63u;
 
 // Seconds before the snapshot.

@@ -1,7 +1,7 @@
-// What the passes share that make diffuse particles.
+// What the passes share that make whitewater particles.
 
 struct GenerateCounts {
-    uint high;   // slots of diffuse particles that were ever used: first, drawing starts from it
+    uint high;   // slots of whitewater particles that were ever used: first, drawing starts from it
     uint fluid;  // particles of the step
     uint sorted; // of them those that take part
     uint free;   // of the used slots those whose particle is gone

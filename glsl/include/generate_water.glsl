@@ -1,5 +1,5 @@
 // The water at a place: its mean of the particles about it. Needs neighbours.glsl, and rate_of(j): the share of the most
-// diffuse particles a second that one of the water's makes, 0 to 1. Reads: the grid.
+// whitewater particles a second that one of the water's makes, 0 to 1. Reads: the grid.
 
 struct Water {
     vec3 velocity;   // 0 where there is none

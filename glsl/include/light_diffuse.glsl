@@ -1,4 +1,4 @@
-// What the sun's map of diffuse particles is added up of: a thickness in whole steps, that times where along the
+// What the sun's map of whitewater particles is added up of: a thickness in whole steps, that times where along the
 // light it lies, in whole texels, and that times the same again. The sums are exact, in any order: the fourth word
 // holds what the two products carry, of the last in its lower 22 bits.
 

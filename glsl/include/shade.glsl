@@ -2,10 +2,10 @@
 // its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
 // Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
 // sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
-// Foam of diffuse particles lies among the water's layers: what is behind its surface in it, the rest over it.
+// Foam of whitewater particles lies among the water's layers: what is behind its surface in it, the rest over it.
 // What it mirrors: the environment and, by a march over the screen, the scene.
 // Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam, thickness and
-// light of diffuse particles, bubble foam, contact foam.
+// light of whitewater particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
 // shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 
@@ -515,14 +515,14 @@ Foam foam_of(vec2 pixel, FoamTexels texels, bool dry) {
     return foam;
 }
 
-// Radiance of foam of diffuse particles, from what light it gathers and its shadow (Akinci et al. 2013, Sec. 2.5).
+// Radiance of foam of whitewater particles, from what light it gathers and its shadow (Akinci et al. 2013, Sec. 2.5).
 vec3 diffuse_color(vec4 light) {
     vec3 shadow = clamp(light.w * frame.diffuse_shadow.rgb, 0.0, 1.0);
     vec3 whole = frame.diffuse_color.rgb * light.rgb;
     return frame.diffuse_light.z > 0.5 ? max(min(whole, 1.0) - shadow, 0.0) : whole * (1.0 - shadow);
 }
 
-// With what of the diffuse particles is behind the water's surface, as far as they are in the mean.
+// With what of the whitewater particles is behind the water's surface, as far as they are in the mean.
 Foam with_submerged(Foam foam, ivec2 pixel, float front) {
     vec3 thick = texelFetch(diffuse_thickness, pixel, 0).xyz;
     float kept = 1.0 - intensity_of(thick.y);
@@ -542,7 +542,7 @@ Foam with_submerged(Foam foam, ivec2 pixel, float front) {
 // where its middle is, under the water before that: else a thin veil would bring up to it what is deep below, with
 // its own outline. Not in the source, to which all is at the frontmost.
 vec3 over_with(Sheet sheet, float z, float before, float t, Foam foam, vec3 background) {
-    // Diffuse particles before it lie over all.
+    // Whitewater particles before it lie over all.
     float first = FOAM == 0u || before >= t ? 1.0 : smoothstep(0.0, 0.25 * frame.particle.x, before);
     first = by_source() ? 1.0 : first;
     // No water before its surface; but that a pixel shows no sphere of a drop says nothing of less than its width.

@@ -6,7 +6,7 @@
 
 // 1: water and foam take light away.
 layout(constant_id = 12) const uint CAST = 0;
-// 1: so do diffuse particles.
+// 1: so do whitewater particles.
 layout(constant_id = 21) const uint DIFFUSED = 0;
 
 layout(set = 0, binding = 17) uniform sampler2D light_thickness;
@@ -43,7 +43,7 @@ vec2 before_depth(vec4 thick, float depth) {
     return clamp(depth - mean + 0.5 * t, vec2(0.0), t);
 }
 
-// What diffuse particles of a texel cover at a depth: as much as of what they are drawn over, by so many of them as
+// What whitewater particles of a texel cover at a depth: as much as of what they are drawn over, by so many of them as
 // lie before it. Of these no more is known than where their middle is and how far they spread: behind the middle
 // at least 1 - s^2 / (s^2 + x^2) of them (Cantelli), which is all there may be where they lie in two places, as
 // foam on water and spray above it. It is scaled to be all at the end of an even body. A reach behind it begins:
@@ -57,7 +57,7 @@ float covered_by_diffuse(ivec2 texel, float depth) {
     return intensity_of(part * there.x);
 }
 
-// Of the sun's light what diffuse particles before a point leave.
+// Of the sun's light what whitewater particles before a point leave.
 float past_diffuse(LightTexels t) {
     float lost = 0.0;
     for (int i = 0; i < 4; ++i) {

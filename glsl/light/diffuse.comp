@@ -1,5 +1,5 @@
 #version 460
-// Pass `diffuse`: the thickness of diffuse particles as the sun sees them, and where along its light it lies; as
+// Pass `diffuse`: the thickness of whitewater particles as the sun sees them, and where along its light it lies; as
 // Akinci et al. 2013, Sec. 2.2, for the eye. That they cast shadows is their future work. An invocation a particle,
 // all of a group the large ones.
 // Reads: positions, kinds, radii, ages, ids, hand-over, front, arguments, packets, list. Writes: words, list.

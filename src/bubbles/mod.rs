@@ -145,7 +145,7 @@ impl Bubbles {
         self.templates.record_setup(gpu, cmd);
     }
 
-    /// Diffuse foam near the eye becomes blobs, where it does. Whether the particles' buffers were taken over for it, as
+    /// Whitewater foam near the eye becomes blobs, where it does. Whether the particles' buffers were taken over for it, as
     /// read by compute.
     pub fn record_near(
         &self,
@@ -158,7 +158,7 @@ impl Bubbles {
         }
     }
 
-    /// The blobs that are made of diffuse foam, and what says up to where they are.
+    /// The blobs that are made of whitewater foam, and what says up to where they are.
     pub fn handed_over(&self) -> Option<(Blobs, Resource)> {
         self.near.as_ref().map(|near| (near.blobs(), near.over()))
     }

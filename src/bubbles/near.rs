@@ -1,8 +1,8 @@
-//! Pass `near`: diffuse foam near the eye becomes blobs, where Akinci et al. 2013 give foam up.
+//! Pass `near`: whitewater foam near the eye becomes blobs, where Akinci et al. 2013 give foam up.
 //!
 //! Numbers of particles by their distance say how far there is room for blobs; up to there each is one. Which place a blob
 //! gets is chance and does not show.
-//! Reads: the host's diffuse particles. Writes: hand-over; balls, turns, ids and count of blobs.
+//! Reads: the host's whitewater particles. Writes: hand-over; balls, turns, ids and count of blobs.
 
 use ash::vk;
 use bytemuck::NoUninit;

@@ -1,4 +1,4 @@
-//! Screen-space foam of diffuse particles: spray, foam and bubbles, by the million (Akinci, Dippel, Akinci,
+//! Screen-space foam of whitewater particles: spray, foam and bubbles, by the million (Akinci, Dippel, Akinci,
 //! Teschner, Screen Space Foam Rendering, 2013). A pass a file.
 
 pub(crate) mod generate;

@@ -1,4 +1,4 @@
-//! Pass `splat`: the frontmost of the diffuse particles with its normal, and their thickness (Akinci et al.
+//! Pass `splat`: the frontmost of the whitewater particles with its normal, and their thickness (Akinci et al.
 //! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
 //!
 //! An invocation a particle, with integer atomics: a depth by its bits, sums of whole steps, which no order of the

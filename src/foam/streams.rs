@@ -1,4 +1,4 @@
-//! The host's streams of diffuse particles, as every pass over them takes them: in chunks that the device can bind, of
+//! The host's streams of whitewater particles, as every pass over them takes them: in chunks that the device can bind, of
 //! a count that the host or the GPU knows.
 
 use ash::vk;

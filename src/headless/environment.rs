@@ -35,7 +35,7 @@ impl Headless {
     /// Sets the built-in sky as environment.
     ///
     /// # Errors
-    /// What Vulkan reports.
+    /// Vulkan errors.
     pub fn sky(&mut self, sky: &Sky) -> Result<(), Error> {
         let source = EnvironmentSource::Sky(*sky);
         self.forget_scene();
@@ -49,7 +49,7 @@ impl Headless {
     /// Sets an equirectangular image as environment: linear RGBA, row 0 up.
     ///
     /// # Errors
-    /// A picture larger than the device's images may be, no memory, and what Vulkan reports.
+    /// A picture larger than the device's images may be, no memory; Vulkan errors.
     pub fn equirectangular(
         &mut self,
         extent: vk::Extent2D,

@@ -133,7 +133,7 @@ impl Headless {
     /// take no part.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn potentials(&mut self) -> Result<Vec<[f32; 4]>, Error> {
         let Some(generating) = &self.generating else { return Ok(Vec::new()) };
         if generating.count == 0 {
@@ -148,7 +148,7 @@ impl Headless {
     /// those not emitted for lack of slots.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn generated_count(&mut self) -> Result<(u32, u32), Error> {
         let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
             return Ok((0, 0));
@@ -162,7 +162,7 @@ impl Headless {
     /// The whitewater particles that are shown after the last [`generate`](Self::generate).
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn generated(&mut self) -> Result<Generated, Error> {
         let Some(generating) = self.generating.as_ref().filter(|made| made.shown) else {
             return Ok(Generated::default());

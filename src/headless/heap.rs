@@ -77,7 +77,7 @@ impl Headless {
     /// of split ones. Unused slots are zeros. Empty without a heap.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn heap_blobs(&mut self) -> Result<Vec<Bubble>, Error> {
         let Some((blobs, count)) = self.heap.as_ref().map(|heap| (heap.blobs(), heap.count()))
         else {

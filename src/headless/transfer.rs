@@ -100,7 +100,7 @@ impl Headless {
     /// Particle statistics of the last frame.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn counts(&mut self) -> Result<Counts, Error> {
         let mut sum = Counts::default();
         let Some(counts) = self.counts else { return Ok(sum) };
@@ -124,7 +124,7 @@ impl Headless {
     /// forms.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn active_samples(&mut self) -> Result<Vec<u32>, Error> {
         match self.active_samples {
             Some((buffer, blocks)) => self.read_buffer(buffer, 4 * u64::from(blocks)),
@@ -163,7 +163,7 @@ impl Headless {
     /// The output of the last frame: linear RGBA.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn color(&mut self) -> Result<Picture<[f32; 4]>, Error> {
         let texels: Picture<[u16; 4]> =
             self.read(self.color.handle, COLOR_FORMAT, self.color.extent.into(), COLOR_REST)?;
@@ -173,7 +173,7 @@ impl Headless {
     /// Device depth of the scene.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn scene_depth(&mut self) -> Result<Picture<f32>, Error> {
         self.read(self.depth.handle, DEPTH_FORMAT, self.depth.extent.into(), DEPTH_REST)
     }
@@ -200,7 +200,7 @@ impl Headless {
     /// - Shores have `shore.amount` and `contact.amount`.
     ///
     /// # Errors
-    /// No memory, and what Vulkan reports.
+    /// No memory; Vulkan errors.
     pub fn layer(&mut self, name: &str) -> Result<Option<Picture<f32>>, Error> {
         if name == "bubbles.layers" {
             return self.bubble_layers();

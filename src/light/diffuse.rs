@@ -1,4 +1,4 @@
-//! Pass `diffuse`: the foam of diffuse particles as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
+//! Pass `diffuse`: the foam of whitewater particles as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
 //!
 //! An invocation a particle, straight from the host's streams, wherever the eye looks: sums of whole steps, which no
 //! order of the particles changes. Of each texel three are kept, of a thickness as the eye's and of that times its

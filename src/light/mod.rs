@@ -1,6 +1,6 @@
 //! What water and foam do to the sunlight: shadows in the water's colours, shadows of foam, caustics
 //! (the thesis' future work). A pass a file: [`maps`] splats all particles as the sun sees them,
-//! [`diffuse`] the diffuse ones, [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
+//! [`diffuse`] the whitewater ones, [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
 //! highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
 //! shadow map.
 
@@ -56,7 +56,7 @@ pub struct Sunlight {
     pub thickness: Resource,
     /// Basis of a filtered shadow map, and its span; any image and buffer where there is none.
     pub convolved: [Resource; 2],
-    /// Diffuse particles as the sun sees them; anything where they cast nothing.
+    /// Whitewater particles as the sun sees them; anything where they cast nothing.
     pub diffuse: Resource,
     /// The same of bubble foam.
     pub bubbles: Resource,
@@ -110,13 +110,13 @@ impl Light {
         Resource::Sampled(self.maps.thickness.image().view, gpu.samplers.nearest)
     }
 
-    /// The same of diffuse particles, where they cast.
+    /// The same of whitewater particles, where they cast.
     pub fn diffuse(&self, gpu: &Gpu) -> Option<Resource> {
         let image = &self.diffuse.as_ref()?.image;
         Some(Resource::Sampled(image.view, gpu.samplers.nearest))
     }
 
-    /// `light`, `diffuse` and `caustics`, after `cull`, whose counts they take. The buffers of the diffuse particles
+    /// `light`, `diffuse` and `caustics`, after `cull`, whose counts they take. The buffers of the whitewater particles
     /// are read by compute from here on.
     pub fn record_maps(
         &self,
@@ -179,7 +179,7 @@ impl Light {
 
 pub use lit::Output;
 
-/// Descriptor sets that diffuse particles take of a frame where they cast.
+/// Descriptor sets that whitewater particles take of a frame where they cast.
 pub fn diffuse_sets(limits: &vk::PhysicalDeviceLimits, config: &Config) -> u32 {
     match (config.cast, &config.diffuse) {
         (Some(edge), Some(diffuse)) => diffuse::sets(limits, diffuse, edge),

@@ -257,7 +257,7 @@ impl ShoreMap {
     /// Makes pipelines and memory.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(context: &Context, config: &ShoreMapConfig) -> Result<Self, Error> {
         let size = config.size;
         if !size.is_multiple_of(16) || !(16..=4096).contains(&size) {
@@ -541,10 +541,10 @@ impl ShoreMap {
         grid.heights.size + grid.distances.size + grid.seeds.iter().map(|b| b.size).sum::<u64>()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);

@@ -82,10 +82,10 @@ pub(crate) struct Recording<'a> {
     pub bubbles: Resource,
     /// Those of shoreline and contact foam.
     pub shore: Resource,
-    /// Whether diffuse particles fade behind the water's surface by the source's falloff, or are of other shapes, lives or
+    /// Whether whitewater particles fade behind the water's surface by the source's falloff, or are of other shapes, lives or
     /// sizes than the source's.
     pub shaped: bool,
-    /// Where that takes over from sprites of diffuse particles, if it does.
+    /// Where that takes over from sprites of whitewater particles, if it does.
     pub hand_over: Option<Resource>,
     /// The scene's depth, sampled.
     pub scene_depth: Resource,

@@ -35,7 +35,7 @@ pub struct Depths<'a> {
     /// Where there is some of either its tiles are drawn too.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
-    /// Of diffuse particles.
+    /// Of whitewater particles.
     pub diffuse: Option<&'a Image>,
     /// Of bubble foam.
     pub bubbles: Option<&'a Image>,

@@ -150,7 +150,7 @@ impl Heap {
     /// besides those of the steps.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(
         context: &Context,
         config: &HeapConfig,
@@ -480,10 +480,10 @@ impl Heap {
             + self.slots.iter().map(|slot| slot.solids.size).sum::<u64>()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);

@@ -51,7 +51,7 @@ impl Generator {
     /// Makes pipelines and memory: 76 to 80 bytes per fluid particle, 44 per whitewater particle.
     ///
     /// # Errors
-    /// Bad configuration, no memory, and what Vulkan reports.
+    /// Bad configuration; no memory; Vulkan errors.
     pub fn new(context: &Context, config: &GenerateConfig) -> Result<Self, Error> {
         config.check()?;
         let gpu = Gpu::new(context);
@@ -80,7 +80,7 @@ impl Generator {
     ///
     /// # Errors
     /// [`Error::BadInput`] with the field, before the first command; after any other error discard the
-    /// command buffer and tell with [`abandon`](Self::abandon).
+    /// command buffer and call [`abandon`](Self::abandon).
     ///
     /// # Safety
     /// As [`Renderer::record`](crate::Renderer::record); steps are submitted in the order they were
@@ -242,10 +242,10 @@ impl Generator {
         self.passes.memory()
     }
 
-    /// Frees everything. A plain drop leaks it, safely.
+    /// Frees everything. A plain drop is safe, but leaks.
     ///
     /// # Safety
-    /// The GPU is done with all recorded work, or it will never be submitted.
+    /// All recorded work is complete, or will never be submitted.
     pub unsafe fn destroy(self) {
         let gpu = self.gpu.clone();
         drop(self);

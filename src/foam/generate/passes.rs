@@ -36,12 +36,12 @@ pub enum Counts {
 
 /// Bytes of the counts.
 const COUNTS: u64 = 24;
-/// Bytes of a diffuse particle: position and age, velocity and id, kind.
+/// Bytes of a whitewater particle: position and age, velocity and id, kind.
 pub const PARTICLE: u64 = 16;
 pub const DRIFT: u64 = 16;
 pub const KIND: u64 = 4;
 
-/// How diffuse particles and potentials are used after a step.
+/// How whitewater particles and potentials are used after a step.
 pub const AFTER: Access = COMPUTE_READ.and(COPY_READ);
 
 #[repr(C)]
@@ -214,7 +214,7 @@ pub struct Buffers {
     rates: Buffer,
     /// In the order of the step's particles: trapped air, wave crest, energy, neighbours.
     pub potentials: Buffer,
-    /// How many diffuse particles each of the fluid's makes, then how many those before it do.
+    /// How many whitewater particles each of the fluid's makes, then how many those before it do.
     wanted: Buffer,
     pub particles: Buffer,
     pub drifts: Buffer,
@@ -371,7 +371,7 @@ impl Passes {
         7 + 3 * scan::SETS + 2 * self.config.max_fluid.div_ceil(self.chunk)
     }
 
-    /// None of any diffuse particle.
+    /// None of any whitewater particle.
     pub fn record_clear(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         let counts = self.buffers.counts.handle;
         gpu.barriers(cmd, &[], &[buffer(counts, AFTER, CLEAR)]);
@@ -561,7 +561,7 @@ impl Passes {
         Ok(())
     }
 
-    /// The diffuse particles that there are, and the slots that are free then.
+    /// The whitewater particles that there are, and the slots that are free then.
     fn record_advance(
         &self,
         r: &Recorder<'_>,

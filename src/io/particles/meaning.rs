@@ -12,9 +12,9 @@ pub enum Meaning {
     Density,
     /// Numbers that follow a particle over the frames.
     Id,
-    /// Time left to live, of diffuse particles.
+    /// Time left to live, of whitewater particles.
     Lifetime,
-    /// What a particle is, as a number: of a diffuse particle 0 foam, 1 spray, 2 bubble.
+    /// What a particle is, as a number: of a whitewater particle 0 foam, 1 spray, 2 bubble.
     Kind,
 }
 

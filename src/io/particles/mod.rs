@@ -92,9 +92,9 @@ pub struct Particles {
     /// Numbers that follow a particle over the frames. Negative, fractional or larger ones are dropped, with
     /// a warning.
     pub ids: Option<Vec<u32>>,
-    /// Time left to live, of diffuse particles. At or below zero the particle dies with the next frame.
+    /// Time left to live, of whitewater particles. At or below zero the particle dies with the next frame.
     pub lifetimes: Option<Vec<f32>>,
-    /// What a diffuse particle is: 0 foam, 1 spray, 2 bubble. Other values are kept as they are.
+    /// What a whitewater particle is: 0 foam, 1 spray, 2 bubble. Other values are kept as they are.
     pub kinds: Option<Vec<u32>>,
     /// Every attribute in the file, read or not, positions included.
     pub attributes: Vec<Attribute>,
