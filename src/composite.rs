@@ -1,8 +1,8 @@
-//! Pass `composite`: writes the output, as only `lit` does else; takes the layers of all techniques.
+//! Pass `composite`: writes the output, as only `lit` does otherwise; combines the layers of all techniques.
 //!
-//! Over the tiles that hold water alone: pixels outside the fluid are not touched. Two ways with
-//! the same shading: an instance a tile in a render pass, and a compute shader that stores to the
-//! output. Thesis Sec. 3.2.3 and 4.9; see glsl/include/shade.glsl for what differs.
+//! It covers only the tiles that hold water: pixels outside the fluid are not touched. Two paths with the same
+//! shading: one instance per tile in a render pass, and a compute shader that stores to the output. Thesis Sec.
+//! 3.2.3 and 4.9; glsl/include/shade.glsl has the differences.
 
 use ash::vk;
 

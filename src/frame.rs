@@ -1,5 +1,5 @@
-//! Numbers derived once per frame and written to the slot's uniform buffer: depth linearisation,
-//! slopes of the pixels' rays, frustum planes, settings in the units the shaders want.
+//! Values derived once per frame and written to the slot's uniform buffer: depth linearisation, slopes of the
+//! pixels' rays, frustum planes, settings in the shaders' units.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};

@@ -1,10 +1,10 @@
-//! A blob of foam: soap bubbles on a shell round a core (Huszár, Szécsi, Sec. 4.1), made of a seed.
+//! A blob of foam: soap bubbles on a shell around a core (Huszár, Szécsi, Sec. 4.1), generated from a seed.
 //!
-//! Neighbours are to stand where their films and the wall between them meet at 120°, `|AB|² = r_A² + r_B² − r_A r_B`,
-//! as nearly as a shell can be packed: each bubble is given as much of it as a hexagon of that spacing covers, and
-//! those too near push each other away along it.
+//! Neighbours should be placed where their films and the wall between them meet at 120°, `|AB|² = r_A² + r_B² −
+//! r_A r_B`, as nearly as a shell can be packed: each bubble gets as much of the shell as a hexagon of that
+//! spacing covers, and bubbles that are too close push each other apart along it.
 //!
-//! Nothing here is a transcendental function: a seed gives the same blob on every machine.
+//! No transcendental function is used: a seed gives the same blob on every machine.
 
 use glam::DVec3;
 

@@ -1,6 +1,8 @@
-//! Pass `cast`: blobs as the sun sees them, so that they shade each other, the scene and the water (not in the source).
+//! Pass `cast`: the blobs' shadow map, so that they shadow each other, the scene and the water (not in the
+//! paper).
 //!
-//! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region on.
+//! Reads: blobs. Writes: metres along the light to the first of them, from the near side of the light's region
+//! on.
 
 use ash::vk;
 

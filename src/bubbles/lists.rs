@@ -1,8 +1,8 @@
-//! Pass `blobs`: the blobs on the screen, and for each tile which they are, front to back.
+//! Pass `blobs`: the blobs on the screen, and for each tile its blobs front to back.
 //!
-//! Where the source draws a billboard for each, and all of them once a layer, a pixel here goes through the list of its
-//! tile. Lists are places in one buffer, by prefix sums: of slice after slice of depth, so that where there is no
-//! room the farthest are lost.
+//! The paper draws a billboard per blob, and all of them once per layer. Here a pixel walks the list of its
+//! tile. The lists share one buffer, placed by prefix sums, depth slice by depth slice, so that the farthest
+//! blobs are dropped when it is full.
 //! Reads: the host's streams. Writes: blobs, range, cells, spans, list.
 
 use ash::vk;

@@ -1,5 +1,5 @@
-//! Bubble foam: blobs of soap bubbles by the thousand (Huszár, Szécsi, GPU-supported bubble and foam rendering). A pass
-//! a file.
+//! Bubble foam: blobs of soap bubbles by the thousand (Huszár, Szécsi, GPU-supported bubble and foam
+//! rendering). One pass per file.
 
 mod billboards;
 mod blob;

@@ -1,7 +1,8 @@
-//! Pass `near`: whitewater foam near the eye becomes blobs, where Akinci et al. 2013 give foam up.
+//! Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs, where Akinci et al. 2013 draw no
+//! foam.
 //!
-//! Numbers of particles by their distance say how far there is room for blobs; up to there each is one. Which place a blob
-//! gets is chance and does not show.
+//! A histogram of the particles' distances determines how far there are enough slots for blobs. Up to that
+//! distance each particle is a blob. Which slot it gets is arbitrary and not visible.
 //! Reads: the host's whitewater particles. Writes: hand-over; balls, turns, ids and count of blobs.
 
 use ash::vk;

@@ -1,4 +1,5 @@
-//! Pass `peel`: which blobs a pixel sees, the nearest first, and how opaque all of them are (Huszár, Szécsi, Sec. 5).
+//! Pass `peel`: the nearest blobs of each pixel, front to back, and the combined opacity of all (Huszár,
+//! Szécsi, Sec. 5).
 //!
 //! Reads: blobs and lists, scene depth, impostors. Writes: layers, bubble depth.
 

@@ -1,4 +1,4 @@
-//! Pass `soap`: films, walls and cores of what `peel` has found, and the light on them (Huszár, Szécsi, Sec. 3.1, 4.4, 5).
+//! Pass `soap`: shades the films, walls and cores that `peel` has found (Huszár, Szécsi, Sec. 3.1, 4.4, 5).
 //!
 //! Reads: blobs, layers, templates, environment, irradiance, water depth, thickness, sunlight. Writes: bubbles,
 //! premultiplied.

@@ -1,5 +1,5 @@
-//! Passes `film`, `impostor` and `core`: what no frame changes, made once per renderer (Huszár, Szécsi, Sec. 3.1, 4.2 to
-//! 4.4).
+//! Passes `film`, `impostor` and `core`: precomputed data, made once per renderer (Huszár, Szécsi, Sec. 3.1,
+//! 4.2 to 4.4).
 //!
 //! Reads: bubbles of the blobs. Writes: the film's table, the impostors' maps, the core's picture.
 

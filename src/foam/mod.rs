@@ -1,5 +1,5 @@
-//! Screen-space foam of whitewater particles: spray, foam and bubbles, by the million (Akinci, Dippel, Akinci,
-//! Teschner, Screen Space Foam Rendering, 2013). A pass a file.
+//! Screen-space rendering of whitewater: spray, foam and bubbles that are particles of their own, by the
+//! million (Akinci, Dippel, Akinci, Teschner, Screen Space Foam Rendering, 2013). One pass per file.
 
 pub(crate) mod generate;
 mod quads;

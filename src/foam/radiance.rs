@@ -1,11 +1,14 @@
-//! Passes `radiance` and `blur`: how much light foam gets of its surroundings (Akinci et al. 2013, Sec. 2.4 and
+//! Passes `radiance` and `blur`: ambient occlusion and light of whitewater (Akinci et al. 2013, Sec. 2.4 and
 //! 2.5; passes 6 and 7).
 //!
-//! In the reference mode the samples are the source's, points of a sphere of the Halton sequence, the same for every
-//! pixel, in spheres of growing radius. In the fast mode a pixel has a sixteenth of the points, which the blur puts
-//! together. Foam that is alone has nothing but its own: they come in pairs that lie opposite each other, of which a plane
-//! through the middle hides one, and where they are weighed most they lie most, so that each counts in full. Where the
-//! samples find the space open is the normal of what is smaller than a pixel, which is not the source's.
+//! In the reference mode the samples are the paper's: points of a Halton sequence in spheres of growing radius,
+//! the same for every pixel. In the fast mode each pixel evaluates a sixteenth of the points, which the blur
+//! recombines. Foam without neighbours has only its own samples. They come in opposite pairs, of which a plane
+//! through the centre occludes one, and their density follows the paper's weights, so that each counts fully.
+//! The direction in which samples find open space is the normal of particles smaller than a pixel; the paper
+//! does not have that.
+//! Reads: what `splat` has left, smoothed surface, scene depth, points, irradiance, environment, sunlight. Writes: foam
+//! normal, foam radiance.
 
 use std::f64::consts::TAU;
 

@@ -1,10 +1,11 @@
-//! Pass `splat`: the frontmost of the whitewater particles with its normal, and their thickness (Akinci et al.
+//! Pass `splat`: depth and normal of the frontmost whitewater particle, and the thickness of all (Akinci et al.
 //! 2013, Sec. 2.1 to 2.3; passes 3 to 5).
 //!
-//! An invocation a particle, with integer atomics: a depth by its bits, sums of whole steps, which no order of the
-//! particles changes. Depth and thickness in one go, so that a particle is read once for both; what goes with the
-//! frontmost lies below its depth in a word of 64 bits, or takes a second go. No list of sprites between: of millions
-//! it would be most of the memory. By quads in place of it: `quads`.
+//! One invocation per particle with integer atomics: depths compared by their bits, sums of fixed-point steps,
+//! so the order of the particles does not matter. Depth and thickness are written in one pass, so that a
+//! particle is read once for both. The attributes of the frontmost lie below its depth in a 64-bit word, or
+//! take a second pass. There is no intermediate sprite list: for millions of particles it would dominate the
+//! memory. `quads` is the alternative path.
 //! Reads: the host's streams, depths of water and scene. Writes: three images of the frame's size.
 
 use ash::vk;

@@ -1,5 +1,5 @@
-//! Part of pass `radiance`: the tiles of the picture in which there is foam, over which light and shadow are found. Not in the
-//! source: most of a picture has none.
+//! Part of pass `radiance`: the screen tiles that contain whitewater, over which light and shadow are computed.
+//! Not in the paper: most of a picture has none.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;

@@ -1,7 +1,7 @@
-//! What is dropped is not freed at once, since the GPU may still use it: its handles go to the
-//! graveyard and are freed by [`Gpu::bury`], when the caller knows that the GPU is done. A
-//! constructor that fails half-way leaks nothing, and a renderer that is simply dropped leaks
-//! safely, with its graveyard.
+//! Deletion queue. A dropped object is not freed at once, because the GPU may still use it: its handles go to
+//! the graveyard, and [`Gpu::bury`] frees them when the caller knows that the GPU is done. A constructor that
+//! fails half-way therefore leaks nothing, and a renderer that is simply dropped leaks safely, with its
+//! graveyard.
 
 use std::sync::{Arc, Mutex, PoisonError};
 

@@ -1,4 +1,5 @@
-//! What the shaders need of a device's limits, counted in their SPIR-V: more of some than every Vulkan device has.
+//! Device limits that the shaders need, counted from their SPIR-V. Some exceed what every Vulkan device
+//! guarantees.
 
 use ash::vk::{self, DescriptorType as Kind};
 

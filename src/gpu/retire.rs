@@ -1,5 +1,5 @@
-//! Objects that were replaced while frames that use them may still be in flight. Each waits until
-//! every slot that was recorded before it was retired has come back, and is dropped then.
+//! Objects that were replaced while frames that use them may still be in flight. Each waits until every slot
+//! that was recorded before its replacement has come back, and is dropped then.
 
 /// The retire list with the slots that are out.
 #[derive(Default)]

@@ -1,11 +1,12 @@
-//! Pass `diffuse`: the foam of whitewater particles as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
+//! Pass `diffuse`: whitewater as the sun sees it (future work of Akinci et al. 2013, Sec. 4).
 //!
-//! An invocation a particle, straight from the host's streams, wherever the eye looks: sums of whole steps, which no
-//! order of the particles changes. Of each texel three are kept, of a thickness as the eye's and of that times its
-//! place along the light, once and squared: how much there is, where its middle is and how far it spreads. What of
-//! it lies before a point, and so what of the sun comes there, is told by those (glsl/include/sunlight.glsl).
-//! Reads: the host's streams, front. Writes: diffuse, RGBA16F, thickness; metres along the light to its middle, and
-//! of its spread.
+//! One invocation per particle, directly from the host's streams, independent of the camera: sums of
+//! fixed-point steps, so the order of the particles does not matter. Each texel has three sums: the thickness
+//! (as for the camera), and its products with the position along the light and its square. They give amount,
+//! mean and spread. From these follows how much foam lies in front of a point, and so how much sunlight reaches
+//! it (glsl/include/sunlight.glsl).
+//! Reads: the host's streams, front. Writes: diffuse, RGBA16F, thickness; metres along the light to its mean,
+//! and its spread.
 
 use ash::vk;
 use bytemuck::NoUninit;

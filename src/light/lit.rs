@@ -1,8 +1,8 @@
-//! Pass `lit`: the host's scene under the shadows and caustics of water and foam, in an image of ours,
-//! from which the fluid refracts it, and in the output.
+//! Pass `lit`: the host's scene with the shadows and caustics of water and foam, written to an own image, from
+//! which the fluid refracts it, and to the output.
 //!
-//! It takes the place of the copy of a scene that is the output itself. What share of a pixel's light
-//! is the sun's, nobody says: that of level ground ([`Light`](crate::Light)).
+//! It replaces the copy of a scene that is the output itself. The sun's share of a pixel's light is unknown;
+//! that of level ground is used ([`Light`](crate::Light)).
 //! Reads: scene colour and depth, the light's maps, caustics. Writes: lit scene; output, all of it.
 
 use ash::vk;

@@ -1,7 +1,7 @@
-//! What water and foam do to the sunlight: shadows in the water's colours, shadows of foam, caustics
-//! (the thesis' future work). A pass a file: [`maps`] splats all particles as the sun sees them,
-//! [`diffuse`] the whitewater ones, [`caustics`] follows the refracted light, [`lit`] lays both on the host's scene; foam, spray and
-//! highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
+//! Effects of water and foam on sunlight: coloured shadows of water, shadows of foam, caustics (the thesis'
+//! future work). One pass per file: [`maps`] splats all particles as the sun sees them, [`diffuse`] the
+//! whitewater, [`caustics`] traces the refracted light, [`lit`] applies both to the host's scene. Foam, spray
+//! and highlights read the maps themselves (glsl/include/sunlight.glsl). [`convolution`] filters the host's
 //! shadow map.
 
 mod caustics;

@@ -1,5 +1,5 @@
-//! Foam that lies on water as a coat: along shores (*Semi-procedural foam shader*, an indie developer's blog) and round what
-//! stands in it (D. Lettier, *3D Game Shaders For Beginners*, Foam). A pass a file.
+//! Foam that lies on water as an overlay: along shores (*Semi-procedural foam shader*, an indie developer's
+//! blog) and around objects (D. Lettier, *3D Game Shaders For Beginners*, Foam). One pass per file.
 
 mod contact;
 mod distance;

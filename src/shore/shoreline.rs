@@ -1,11 +1,11 @@
-//! Pass `shoreline`: foam on the host's water surface, along shores (*Semi-procedural foam shader*) and round what stands in
-//! it (Lettier, Foam).
+//! Pass `shoreline`: foam on the host's water surface, along shores (*Semi-procedural foam shader*) and around
+//! objects (Lettier, Foam).
 //!
-//! What a pixel's foam is comes of its place on the surface alone: it needs the scene's depth and no mesh. A strip of the
-//! host's is drawn; then go the tiles that may have some (`shore-tiles`), two by two pixels at a time.
-//! What has foam goes to `composite` as runs of tiles.
-//! Reads: tiles, scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam, RGBA8: along shores,
-//! at contacts, what of the sun's light does not come there, 0 (`contact`'s); the runs, their draw.
+//! A pixel's foam depends only on its position on the surface: the pass needs the scene's depth and no mesh. A
+//! host's strip, if there is one, is drawn first. Then the tiles that may contain foam (`shore-tiles`) are
+//! processed, 2×2 pixels at a time. Foam is handed to `composite` as runs of tiles.
+//! Reads: tiles, scene depth, the surface's, the map of distances, the strip, web, noise, mask. Writes: foam,
+//! RGBA8: along shores, at contacts, sunlight that is missing there, 0 (`contact`'s); the runs, their draw.
 
 use ash::vk;
 use bytemuck::NoUninit;

@@ -1,10 +1,10 @@
-//! Textures of shoreline foam: the distance from a pattern, a web of foam, noise. All wrap round.
+//! Textures of shoreline foam: the distance from a pattern, a foam texture, noise. All are seamless.
 //!
-//! Shoreline foam cuts a picture off at a threshold; where the picture says how far it is to the nearest line of a
-//! pattern, the lines thin and swell as the threshold moves (*Semi-procedural foam shader*, Sec. V). Filters of picture
-//! editors stop at the border there; here nothing does.
+//! Shoreline foam thresholds a picture. If the picture holds the distance to the nearest line of a pattern,
+//! lines thin and swell as the threshold moves (*Semi-procedural foam shader*, Sec. V). Filters of picture
+//! editors stop at the border; here nothing does.
 //!
-//! Nothing here is a transcendental function: a seed gives the same texture on every machine.
+//! No transcendental function is used: a seed gives the same texture on every machine.
 
 use crate::random::{Random, pcg};
 

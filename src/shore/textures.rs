@@ -1,5 +1,5 @@
-//! Pass `web`: the textures of shoreline and contact foam, all levels of them: made once, the web again from an image of
-//! the host's.
+//! Pass `web`: the textures of shoreline and contact foam with all mip levels, made once; the foam texture
+//! again from an image of the host.
 //!
 //! Reads: texels. Writes: the web (mean, mean of the square, slopes) and the noise, RGBA16F.
 

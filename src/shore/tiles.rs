@@ -1,7 +1,8 @@
-//! Pass `shore-tiles`: where foam may lie on the host's surface, by tiles of pixels. Not in the sources: most of a picture
-//! has none, and what tells is much less than what it is.
+//! Pass `shore-tiles`: lists the screen tiles that may contain foam on the host's surface. Not in the sources:
+//! most of a picture has none, and this test is much cheaper than shading.
 //!
-//! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists of tiles, dispatches over them.
+//! Reads: scene depth, the surface's, the map of distances; the particles' depth for `contact`. Writes: lists
+//! of tiles, dispatches over them.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;

@@ -1,11 +1,11 @@
-//! Pass `back`: the surface of the back sheet, for where the front sheet covers it.
+//! Pass `back`: the surface of the back layer where the front layer covers it.
 //!
-//! Not in the source. One level coarser than the front sheet's smoothing and one sample a texel: it
-//! is only seen through water. It joins the levels in the smoothing images, so that every form of the
-//! smoothing takes it along. Only what is near a boundary is made, of those that `thickness` has left;
-//! the nearest of each block of texels comes first, so that most spheres need not look at them all.
-//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its levels both
-//! smoothing images, plan, each tile's work.
+//! Not in the thesis. It is one level coarser than the front layer's smoothing, with one sample per texel,
+//! because it is only seen through water. It joins the levels in the smoothing images, so every form of the
+//! smoothing processes it. Only tiles near a boundary that `thickness` has left are computed. The nearest depth
+//! of each block of texels is found first, so that most spheres skip the texels.
+//! Reads: the list of `cull`, boundaries, depth. Writes: blocks, back, and for its levels both smoothing
+//! images, plan, each tile's work.
 
 use ash::vk;
 

@@ -1,9 +1,9 @@
-//! Pass `classify`: foam phases by Weber number, once per step of the simulation (thesis Sec. 3.2;
-//! Listing A.14 culls hard where Sec. 3.2.1 lets a particle be both: here it is both).
+//! Pass `classify`: surface foam by Weber number, once per simulation step (thesis Sec. 3.2; Listing A.14 culls
+//! hard where Sec. 3.2.1 lets a particle be both water and foam: here it is both).
 //!
-//! State follows the particle's id, in a hash table that each step writes anew from that of the
-//! step before: particles may be reordered, be born and vanish, and no step depends on their order. Tables longer than
-//! a binding may be are in parts, each a hash table by itself, and each step goes through them one after the other.
+//! State is stored by particle id in a hash table. Each step writes a new table from the previous one:
+//! particles may be reordered, appear and vanish, and no step depends on their order. A table larger than one
+//! binding is split into parts, each its own hash table; each step processes them one after the other.
 //! Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 use ash::vk;

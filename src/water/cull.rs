@@ -1,13 +1,12 @@
-//! Pass `cull`: the border between the host's particles and ours (thesis Sec. 4.3).
+//! Pass `cull`: the border between the host's particles and the library's (thesis Sec. 4.3).
 //!
-//! Drops NaN and infinite particles, sets spray aside by density, tests the rest against the
-//! frustum and compacts the survivors into eye-space spheres of 16 bytes: small sprites from the
-//! front of the list, large ones from its back. Every later pass reads only that list, by indirect
-//! draws and dispatches. Unlike the source the test runs on the GPU, and a host without packets
-//! has each particle tested.
+//! Drops NaN and infinite particles, classifies low-density ones as spray, culls the rest against the frustum,
+//! and compacts the survivors to eye-space spheres of 16 bytes: small sprites from the front of the list, large
+//! ones from its back. Every later pass reads only that list, by indirect draws and dispatches. Unlike in the
+//! thesis the test runs on the GPU, and without packets each particle is tested.
 //!
-//! More particles than one storage-buffer range are processed in chunks, each with its own counts
-//! and its own part of the list.
+//! Particles beyond one storage-buffer range are processed in chunks, each with its own counts and its own part
+//! of the list.
 
 use ash::vk;
 use bytemuck::{NoUninit, Pod, Zeroable};

@@ -1,8 +1,8 @@
 //! Pass `depth`: the frontmost water surface (thesis Sec. 4.6.1).
 //!
-//! Exact nearest hit of each pixel's ray with each sphere, where the source offsets a billboard by
-//! N_z·r, which is wrong off the axis and near the eye. Two ways with the same picture: sprites
-//! with MIN blending, and a compute shader with integer atomics on the same image.
+//! The exact nearest intersection of each pixel's ray with each sphere. The thesis offsets a billboard by
+//! N_z·r, which is wrong off the axis and near the camera. Two paths with the same picture: sprites with MIN
+//! blending, and a compute shader with integer atomics on the same image.
 //! Reads: the list of `front`. Writes: depth, R32F, EMPTY where there is no water.
 
 use ash::vk;

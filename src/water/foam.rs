@@ -1,24 +1,28 @@
-//! Pass `foam`: the frontmost foam and how much there is (thesis Sec. 3.2, 4.6.2 and 4.8).
+//! Pass `foam`: depth and thickness of surface foam (thesis Sec. 3.2, 4.6.2 and 4.8).
 //!
-//! Particles with foam are sprites along their motion; where they are slow or come towards the eye
-//! they turn into discs, smoothly (the source switches, which pops). A ray meets a sprite's plane
-//! exactly. Thickness is in metres, as that of the water: what a particle is foam of it is no water.
-//! Nothing pops or flickers: the depth's sprite is whole before its foam can be seen, none is narrower
-//! than what texels can hold, finer noise fades, the front layer ends softly, and so do sprites where they
+//! Particles with foam are sprites stretched along their motion. Slow ones, and those that move towards the
+//! camera, change smoothly to discs (the thesis switches, which pops). A ray intersects a sprite's plane
+//! exactly. Thickness is in metres, as that of the water: the foam part of a particle is subtracted from its
+//! water.
+//!
+//! Nothing pops or flickers: a depth sprite has its full size before its foam becomes visible, no sprite is
+//! narrower than a texel can represent, finer noise fades, the front layer ends softly, and so do sprites that
 //! sink into the scene.
-//! Depth and thickness are of one resolution, a quarter by default (the source's depth is full): what is
-//! seen of foam is its thickness, and a finer depth only has more fragments, most of which lose. Outlines
-//! are the thickness', which ends softly; the scene's are told a pixel (glsl/include/foam_texels.glsl).
-//! Two ways, as the water's thickness: quads that are blended, and invocations with integer atomics.
-//! Sprites are few texels wide, so that a triangle's setup costs as much as its fragments; a lost depth is
-//! found by a read; what is behind the front layer, mostly nothing, is counted by itself. Both sum whole
-//! steps, in any order.
-//! How foam drifts is summed on the screen, coarsely, for the lace that it carries along.
-//! Spray is none: as the density falls `spray` takes over.
-//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY
-//! where there is none; foam thickness, RGBA32F: metres of all, of the layer right behind the frontmost, of
-//! what of that layer the sun lights (of sprites: a mask is the pixels'), and of all times `d / (d + s)`, d from
-//! a spacing s behind the frontmost on.
+//!
+//! Depth and thickness have one resolution, a quarter by default (the thesis' depth is full): thickness is the
+//! visible quantity, and a finer depth only has more fragments, most of which lose. Outlines are those of the
+//! thickness, which ends softly; those of the scene are resolved per pixel (glsl/include/foam_texels.glsl).
+//!
+//! Two paths, as for the water's thickness: blended quads, and invocations with integer atomics. Sprites cover
+//! few texels, so a triangle's set-up costs as much as its fragments; a depth that loses is rejected by one
+//! read; what is behind the front layer, usually nothing, is counted separately. Both paths sum fixed-point
+//! steps, in any order. The foam's velocity is summed coarsely on the screen, for the lace that it advects.
+//!
+//! Spray is no foam: as the density falls `spray` takes over.
+//! Reads: the counts of `cull`, the host's particles, scene depth. Writes: foam depth, R32F, EMPTY where there
+//! is none; foam thickness, RGBA32F: metres in total, of the layer right behind the frontmost, of the sunlit
+//! part of that layer (by sprite; a mask applies per pixel), and the total times `d / (d + s)`, d the distance
+//! from a spacing s behind the frontmost on.
 
 use ash::vk;
 use bytemuck::NoUninit;

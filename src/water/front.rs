@@ -1,9 +1,9 @@
-//! Pass `front`: the spheres that can show, for the depth pass.
+//! Pass `front`: the spheres that can be visible, for the depth pass.
 //!
-//! Not in the source, which draws every particle. For each cell of 4×4 pixels the nearest depth at
-//! which one sphere covers all of it is found first; a sphere that lies behind that in every cell
-//! it touches is left out. Exact: the depth image is the same to the bit. In a splashing pool nine
-//! layers deep six of ten spheres go; in deeper water the depth pass costs what its surface costs.
+//! Not in the thesis, which draws every particle. First the nearest depth at which one sphere covers a whole
+//! cell of 4×4 pixels is found for each cell. A sphere that lies behind that depth in every cell it touches is
+//! removed. This is exact: the depth image is the same to the bit. In a splashing pool nine layers deep it
+//! removes six of ten spheres; in deeper water the depth pass costs what its surface costs.
 //! Reads: the list of `cull`. Writes: cells, the front list.
 
 use ash::vk;

@@ -1,13 +1,12 @@
-//! Pass `gaps`: where water stands before water with air between.
+//! Pass `gaps`: the boundary between two layers of water with air between.
 //!
-//! Not in the source, whose thickness and refraction take all water behind a pixel for one body
-//! (its limitation, Fig. 5.13): a drop before a pool is as dark and bends light as much as the pool.
-//! Each cell of 8×8 pixels has 32 slices of depth, from its nearest sphere on, half a spacing each.
-//! Every sphere marks those that it fills; the middle of the last air before a body of water, or
-//! of the first before a drop where there is no body, is the boundary between a front sheet and a back sheet. By
-//! slices, not by sorting: atomics on two words a cell, whatever the number of particles. Boundaries
-//! are handed to the cells near them and blended: where the sheets touch, the water that the
-//! thickness finds at the boundary makes them one, smoothly (and removes it).
+//! Not in the thesis, whose thickness and refraction treat all water behind a pixel as one body (its
+//! limitation, Fig. 5.13): a drop in front of a pool is then as dark and refracts as much as the pool. Each
+//! cell of 8×8 pixels has 32 depth slices of half a spacing, from its nearest sphere on. Every sphere marks the
+//! slices that it fills. The boundary between front and back layer is the middle of the last air in front of a
+//! body of water, or of the first air in front of a drop if there is no body. Slices instead of sorting: atomics
+//! on two words per cell, for any number of particles. Boundaries are dilated to cells nearby and blended. Where
+//! the layers touch, the water that `thickness` finds at the boundary merges them smoothly and removes it.
 //! Reads: the lists of `front` and `cull`. Writes: boundaries, the farthest of each block of texels.
 
 use ash::vk;

@@ -1,13 +1,12 @@
-//! Pass `level`: the reduction again at coarser resolutions, for what is so near that its iterations
-//! would pass the cap. Each pixel shows the level that its distance asks for, and between two of them
-//! goes from one to the other.
+//! Pass `level`: the reduction repeated at coarser resolutions, for water so near that its iterations would
+//! exceed the cap. Each pixel shows the level that its distance selects, and blends between two.
 //!
-//! Not in the source, whose cap leaves near water rough. A level coarser needs a quarter of the
-//! iterations for the same width. The levels share the smoothing images, and so do those of the back
-//! sheet (pass `back`); the tile list holds the tiles of all of them, so that every form of the smoothing
-//! runs all in its one dispatch or draw.
-//! Reads: depth, each tile's work. Writes: marks and list of the tiles that are made, the coarsest level needed; for
-//! those tiles both smoothing images, plan, each tile's work.
+//! Not in the thesis, whose cap leaves near water rough. One level coarser needs a quarter of the iterations
+//! for the same width. The levels share the smoothing images, also with those of the back layer (pass `back`).
+//! The tile list holds the tiles of all levels, so every form of the smoothing processes all of them in one
+//! dispatch or draw.
+//! Reads: depth, each tile's work. Writes: marks and list of the tiles that are needed, the coarsest level
+//! needed; for those tiles both smoothing images, plan, each tile's work.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;

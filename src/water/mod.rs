@@ -1,5 +1,5 @@
-//! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green,
-//! Sainz, I3D 2009). A pass a file; `Water::record` lists them in order.
+//! Layered particle water (Bagar 2010; Bagar, Scherzer, Wimmer, EGSR 2010; on van der Laan, Green, Sainz, I3D
+//! 2009). One pass per file; `Water::record` lists them in order.
 
 mod back;
 mod classify;

@@ -1,9 +1,9 @@
-//! Pass `reduce`: hides what lies behind the scene, reduces the depth to the resolution of the
-//! smoothing (nearest of each block, as the source's downsampling, thesis Sec. 4.7) and plans each
-//! pixel's iterations and step from the depth before any smoothing.
+//! Pass `reduce`: rejects water behind the scene, downsamples the depth to the resolution of the smoothing
+//! (nearest of each block, as the thesis' downsampling, Sec. 4.7), and computes each pixel's iteration count
+//! and step from the unsmoothed depth.
 //!
-//! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images,
-//! plan, each tile's work; that of the coarser levels' tiles, and what `level` counts of them, is emptied.
+//! Reads: depth, scene depth. Writes: depth (occluded pixels emptied), both smoothing images, plan, each tile's
+//! work; clears the work of the coarser levels' tiles and the counters of `level`.
 
 use ash::vk;
 

@@ -1,12 +1,14 @@
-//! Pass `shape`: an ellipsoid for each particle in the place of its sphere (Yu and Turk, Reconstructing surfaces of
-//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4), flat in sheets, long in
-//! streams, round inside, so that thin water is one body and not a heap of balls.
+//! Pass `shape`: replaces each particle's sphere by an ellipsoid (Yu and Turk, Reconstructing surfaces of
+//! particle-based fluids using anisotropic kernels, ACM Transactions on Graphics 2013, Sec. 4): flat in sheets,
+//! elongated in streams, round inside, so that thin water is one body instead of a heap of balls.
 //!
-//! Not in the thesis. The neighbours are found by a grid in a hash table, made anew each frame; the weighted covariance of
-//! those within the reach has its eigenvalues by a fixed number of Jacobi's rotations. An ellipsoid holds its sphere's volume,
-//! so that thickness is metres as before, where theirs is scaled by a constant of the kernel; and it comes from a sphere by and by with
-//! the weights of the neighbours, where theirs is a sphere up to a number of them.
-//! Before `cull`, which goes over what this leaves in the place of the host's positions, once a frame: it does not know the view.
+//! Not in the thesis. Neighbours are found with a hashed grid, rebuilt each frame. The weighted covariance of
+//! the neighbours within reach is diagonalised by a fixed number of Jacobi rotations. An ellipsoid has its
+//! sphere's volume, so thickness stays in metres; the paper scales by a kernel constant. A sphere becomes an
+//! ellipsoid gradually with the weights of its neighbours; the paper keeps a sphere up to a number of them.
+//!
+//! It runs once per frame before `cull`, which reads its result instead of the host's positions; it does not
+//! know the view.
 //! Reads: positions. Writes: the grid, shaped.
 
 use ash::vk;

@@ -1,9 +1,9 @@
 //! Pass `smooth`: adaptive curvature flow (thesis Sec. 3.1 and 4.7; van der Laan et al. 2009).
 //!
-//! Two images change places with each iteration. All forms do the same arithmetic on the same plan
-//! and give the same surface, in image `a`: a dispatch an iteration over the tiles with work left,
-//! several iterations a dispatch in shared memory, or the source's raster passes that an occlusion
-//! query ends (in `smooth_query`). What the source decides on the CPU, the GPU decides here.
+//! Two images are swapped with each iteration. All forms do the same arithmetic on the same plan and give the
+//! same surface, in image `a`: one dispatch per iteration over the tiles with work left, several iterations per
+//! dispatch in shared memory, or the thesis' raster passes that an occlusion query ends (in `smooth_query`).
+//! The GPU decides what the thesis decides on the CPU.
 
 use ash::vk;
 use bytemuck::{Pod, Zeroable};

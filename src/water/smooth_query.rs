@@ -1,10 +1,10 @@
-//! Pass `smooth`, form Query: the source's raster passes, ended by an occlusion query every fifth
-//! iteration (thesis Sec. 4.7, Listing A.11), decided on the GPU alone.
+//! Pass `smooth`, form Query: the thesis' raster passes, ended by an occlusion query every fifth iteration
+//! (Sec. 4.7, Listing A.11), decided on the GPU alone.
 //!
-//! A block is five iterations and a copy back, so that the result always lies in the same image.
-//! Its fifth iteration counts the pixels that are still active, by a draw of its own without colour
-//! writes; one invocation turns the count into the next block's predicate. What that gates depends
-//! on the gate; a skipped block costs its empty render passes only.
+//! A block is five iterations and a copy back, so that the result is always in the same image. Its fifth
+//! iteration counts the pixels that are still active, with a draw of its own without colour writes. One
+//! invocation turns the count into the predicate of the next block. What that predicate gates depends on the
+//! gate; a skipped block costs only its empty render passes.
 //! Reads: smoothing images, plan, tile list. Writes: smoothing images, query results, predicates.
 
 use ash::vk;

@@ -1,10 +1,10 @@
-//! Pass `split`: which of the tiles with water hold two sheets, which hold foam, and in which coarser levels of the
-//! smoothing show.
+//! Pass `split`: sorts the tiles with water by whether they hold two layers, foam, and coarser smoothing
+//! levels.
 //!
-//! Not in the source. Shading two sheets costs twice what shading one does, and foam half as much again;
-//! where all stands in one shader, a CPU, and in part a GPU, pays for it everywhere.
-//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the arguments of
-//! `composite`.
+//! Not in the thesis. Shading two layers costs twice as much as shading one, and foam half as much again. In a
+//! single shader a CPU, and partly a GPU, would pay for it everywhere.
+//! Reads: the list of `tiles`, their work, boundaries, foam depth and thickness. Writes: eight lists, the
+//! arguments of `composite`.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;

@@ -1,5 +1,5 @@
-//! What passes over the host's particles share: the binding of the streams they read, chunk by chunk,
-//! and for `foam`, `spray` and `noise` the sprites that such a pass lists and a draw or a dispatch reads.
+//! Shared by passes over the host's particles: the binding of the streams that they read, chunk by chunk, and
+//! for `foam`, `spray` and `noise` the list of sprites that a draw or a dispatch reads.
 
 use ash::vk;
 use bytemuck::NoUninit;

@@ -1,8 +1,8 @@
-//! Pass `tiles`: the list of 16×16 tiles (of reduced pixels, of all levels) that hold water,
-//! sorted by their iterations, and the arguments of every draw and dispatch over them.
+//! Pass `tiles`: the list of 16×16 tiles (of smoothing texels, all levels) that hold water, sorted by their
+//! iteration counts, and the arguments of every draw and dispatch over them.
 //!
-//! Not in the source, which runs full-screen quads: with the iterations planned, the tiles that
-//! still work in iteration i are a prefix of the list, so that one counting sort writes all gates.
+//! Not in the thesis, which draws full-screen quads. Iteration counts are known in advance, so the tiles that
+//! are still active in iteration i are a prefix of the list, and one counting sort writes all gates.
 //! Reads: each tile's work, levels. Writes: list, arguments.
 
 use ash::vk;
