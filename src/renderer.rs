@@ -110,12 +110,13 @@ impl Renderer {
         })
     }
 
-    /// Records the first contents of what is read before it is written, and what bubble foam is made of. Once, before
-    /// the first `record`; again where `reconfigure` says so.
+    /// Records the initial contents of resources that are read before they are written, and the precomputed
+    /// data of bubble foam. Once, before the first `record`; again if `reconfigure` returns true.
     ///
     /// # Safety
-    /// `cmd` is recording outside a render pass and is submitted before any `record`. It is no slot's: until a frame
-    /// that was recorded after it has come back, its work is complete before `resize` and `reconfigure`.
+    /// `cmd` is recording outside a render pass and is submitted before any `record`. It belongs to no slot:
+    /// before `resize` and `reconfigure` its work has to be complete, which a frame recorded after it and come
+    /// back proves.
     pub unsafe fn record_setup(&mut self, cmd: vk::CommandBuffer) {
         self.environment.record_setup(&self.gpu, cmd);
         if let Some(bubbles) = &self.bubbles {
@@ -459,9 +460,9 @@ impl Renderer {
         self.water.resize(&self.gpu, config, &mut self.retired)
     }
 
-    /// Changes the configuration: makes what it needs anew and retires what it replaces. Legal with
-    /// frames in flight. Returns true when the environment or what bubble foam is made of was made anew too: then
-    /// [`record_setup`](Self::record_setup) and, as it empties the environment,
+    /// Changes the configuration: creates what it needs and retires what it replaces. Legal with frames in
+    /// flight. Returns true if the environment or the precomputed data of bubble foam was recreated. Then
+    /// [`record_setup`](Self::record_setup) and, because the environment is empty,
     /// [`record_environment`](Self::record_environment) are due before the next record.
     ///
     /// # Errors

@@ -1,20 +1,21 @@
-//! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which whoever
-//! asks for shadows rebuilds the comparison with its own depth (Annen, Mertens, Bekaert, Seidel, Kautz,
-//! *Convolution Shadow Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
+//! Pass `convolution`: the host's shadow map as filtered images of a Fourier basis, from which shaders
+//! reconstruct the comparison with their own depth (Annen, Mertens, Bekaert, Seidel, Kautz, *Convolution Shadow
+//! Maps*, EGSR 2007; the thesis' shadows, Sec. 4.9.4).
 //!
 //! What differs, and why:
-//! - Depths are taken between the nearest and the farthest texel of the map, found on the GPU: any
-//!   projection will do, endless ones too, and the series rises as steeply as the scene lets it. Texels
-//!   where nothing is lie behind. The series turns back at the end of its period: both ends keep room.
-//! - Terms are damped by exp(−α((k − ½)/M)²), k − ½ in place of k: that is a Gaussian of the step, which
-//!   keeps its height with few terms too.
-//! - What is rebuilt is steeper by a factor about one half (clipped: it hides what rings on), and moved
-//!   by as much of its rise as it takes for what touches its occluder to be in the sun.
-//! - The map is averaged to the size of our images first, then over a box: no mips.
-//! - The basis lies side by side in one image, not in an array: where there is none any image stands in.
+//! - Depths are normalised between the nearest and the farthest texel of the map, found on the GPU. Any
+//!   projection works, infinite ones too, and the series rises as steeply as the scene allows. Empty texels
+//!   count as behind. The series is periodic, so both ends keep a margin.
+//! - Terms are damped by exp(−α((k − ½)/M)²), with k − ½ instead of k: a Gaussian of the step, which keeps its
+//!   height with few terms.
+//! - The reconstruction is steepened around one half (and clipped, which hides ringing) and offset by the part
+//!   of its rise that keeps a point touching its occluder in the sun.
+//! - The map is averaged to the size of the library's images first, then box-filtered: no mips.
+//! - The pages of the basis lie side by side in one image, not in an array, so any image can stand in where
+//!   there is none.
 //!
-//! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and
-//! sine of two terms a page, pages in two rows with a border of one texel each.
+//! Reads: the host's shadow map. Writes: span of its depths; basis, RGBA8 signed or RGBA16F, cosine and sine of
+//! two terms per page, pages in two rows with a border of one texel each.
 
 use ash::vk;
 use gpu_allocator::MemoryLocation;
@@ -46,17 +47,17 @@ const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
 
-/// How the maps are made ([`Shadows::Convolution`]).
+/// Configuration of convolution shadow maps ([`Shadows::Convolution`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Convolution {
-    /// Terms of the series: 4, 8 or 16 (default). Behind an occluder the shade is whole from 23, 9 or 4 % on
-    /// of the depths that the map spans.
+    /// Terms of the series: 4, 8 or 16 (default). Shadow is complete at a distance behind its occluder of 23, 9
+    /// or 4 % of the depth range of the map.
     pub terms: u32,
-    /// Texels a side that the images hold at most, 16 to 4096 (default 1024). A larger map is averaged
-    /// over whole blocks of its texels; its size may change from frame to frame.
+    /// Maximum side length of the images in texels, 16 to 4096 (default 1024). A larger map is averaged over
+    /// whole blocks of its texels; its size may change from frame to frame.
     pub texels: u32,
-    /// Bits of a number: 8 (default) or 16, in which the picture is the same but for a few thousandths.
-    /// The images take 2·`terms`·`bits`/8 + 16 bytes a texel.
+    /// Bits per value: 8 (default) or 16, which changes the picture by a few thousandths. The images take
+    /// 2·`terms`·`bits`/8 + 16 bytes per texel.
     pub bits: u32,
 }
 

@@ -11,23 +11,23 @@ use crate::random::{Random, pcg};
 /// What has no texel of the pattern to be near to.
 const NOWHERE: i64 = i64::MAX;
 
-/// Distance from each texel's centre to that of the nearest texel of the pattern, in texels; the picture wraps round
-/// both ways. Infinite everywhere where there is no pattern.
+/// Distance from each texel's centre to that of the nearest texel of the pattern, in texels, with the picture
+/// repeating in both directions. Infinite everywhere if the pattern is empty.
 ///
-/// Exact but for the rounding of the root, in a time that grows as the number of texels: along the columns, then the
-/// lower envelope of a parabola of each column's (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*,
-/// 2012), which goes on for half a row beyond both ends.
+/// Exact except for the rounding of the root, in linear time: along the columns, then the lower envelope of one
+/// parabola per column (Felzenszwalb, Huttenlocher, *Distance Transforms of Sampled Functions*, 2012), which
+/// extends half a row beyond both ends.
 ///
 /// `pattern` is `width` × `height` texels, row by row.
 ///
 /// # Panics
-/// Where it is not.
+/// `pattern` has another length.
 pub fn distance_transform(pattern: &[bool], width: usize, height: usize) -> Vec<f32> {
     squares(pattern, width, height).into_iter().map(root).collect()
 }
 
-/// The same inverted, as shoreline foam wants it: 1 on the pattern, and linearly less to 0 at `reach` texels from it and
-/// beyond. 0 everywhere where there is no pattern; the pattern alone where `reach` is not above 0.
+/// The inverted distance, as shoreline foam uses it: 1 on the pattern, falling linearly to 0 at `reach` texels.
+/// 0 everywhere if the pattern is empty; only the pattern if `reach` is not above 0.
 ///
 /// # Panics
 /// As [`distance_transform`].
@@ -108,12 +108,12 @@ fn squares(pattern: &[bool], width: usize, height: usize) -> Vec<i64> {
 const OCTAVES: u32 = 4;
 const NOISE_CELLS: usize = 4;
 
-/// Four channels of smooth noise, independent of each other: gradient noise (Perlin, *Improving Noise*, 2002: its second
-/// derivative is continuous), of 4, 8, 16 and 32 cells a side, each with half the amplitude of the one before. `edge`²
-/// texels, row by row; the texture wraps round.
+/// Four independent channels of smooth, seamless noise: gradient noise (Perlin, *Improving Noise*, 2002: its
+/// second derivative is continuous) with 4, 8, 16 and 32 cells per side, each octave with half the amplitude of
+/// the previous. `edge`² texels, row by row.
 ///
-/// In [−1, 1]: of each channel the mean is 0 and the largest absolute value 1 (a single texel is 0). A seed gives the same
-/// noise at every size, but for the mean and the largest value of its texels.
+/// In [−1, 1]: each channel has mean 0 and maximum absolute value 1 (a single texel is 0). A seed gives the
+/// same noise at every size, except for this normalisation.
 pub fn noise(edge: u32, seed: u32) -> Vec<[f32; 4]> {
     let mut random = Random::new(seed ^ 0x6e6f_6973);
     let octaves: Vec<Lattice<4>> =
@@ -193,14 +193,14 @@ impl<const N: usize> Lattice<N> {
 /// Texels a side of which the web is made, or nearly, where fewer are asked for: those are means of them.
 const FINE: u32 = 1024;
 
-/// A web of foam as the sea leaves it on a shore: filaments between round cells of very different sizes, thicker where
-/// they meet, some of them torn. `edge`² texels, row by row; the texture wraps round, and shows the same at every size. It
-/// is to be 5 to 15 m long: the widest cells are a fifth of it, filaments a five-hundredth.
+/// A foam texture as the sea leaves it on a shore: filaments between round cells of very different sizes,
+/// thicker where they meet, some of them torn. `edge`² texels, row by row, seamless, the same at every size. It
+/// is meant to be 5 to 15 m wide: the largest cells are a fifth of it, filaments a five-hundredth.
 ///
-/// An exact [`distance_transform`], inverted: 1 on the filaments, a seventh of the area, and 0 where it is farthest from
-/// all. In between it is laid out by area, so that it is known what a threshold cuts out: of the area without the
-/// filaments, the share 1 − t is at t or above. Texels that hold filaments and other area are the mean. From one texel to
-/// the next it is 0.2 at most where there are 512 a side, and less where there are more.
+/// An exact [`distance_transform`], inverted: 1 on the filaments, which are a seventh of the area, and 0
+/// farthest from them. Values in between are remapped to uniform area, so that the effect of a threshold is
+/// known: outside the filaments the fraction 1 − t of the area is at t or above. Texels partly on filaments
+/// hold the mean. Neighbouring texels differ by at most 0.2 at 512 per side, and less at larger sizes.
 pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     let share = (FINE / edge.max(1)).max(1) as usize;
     let fine = edge as usize * share;

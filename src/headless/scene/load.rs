@@ -46,15 +46,15 @@ impl Scene {
     /// Reads the default scene of a glTF file: triangles, base colours and base colour textures.
     ///
     /// # Errors
-    /// The file cannot be read, is no glTF 2.0, or has what is not supported here: sparse,
-    /// compressed or base64 data.
+    /// The file cannot be read, is no glTF 2.0, or uses an unsupported feature: sparse, compressed or base64
+    /// data.
     pub fn load_glb(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| at(path, error.to_string()))?;
         super::gltf::parse(&bytes, path.parent()).map_err(|why| at(path, why))
     }
 
-    /// The same from memory, where no file lies beside it.
+    /// Reads a glTF scene from memory, without other files.
     ///
     /// # Errors
     /// As [`load_glb`](Self::load_glb), and where it names other files.
@@ -72,7 +72,7 @@ impl Scene {
         Self::parse_obj(&bytes).map_err(|why| at(path, why))
     }
 
-    /// The same from memory.
+    /// Reads a Wavefront file from memory.
     ///
     /// # Errors
     /// What was expected, what was found, and in which line.
@@ -80,10 +80,9 @@ impl Scene {
         super::obj::parse(bytes)
     }
 
-    /// Reads the project's own format: boxes, cylinders and tubes (upright, or turned), spheres, a
-    /// ground, a camera, and for parts that move, by their names, a pose in each frame.
-    /// Boxes whose names begin with `basin` form a basin: their faces that look into it are tiled,
-    /// with a dark row at the pool's level.
+    /// Reads the project's own format: boxes, cylinders and tubes (upright or rotated), spheres, a ground, a
+    /// camera, and for moving parts, by their names, a pose per frame. Boxes whose names begin with `basin`
+    /// form a basin: their inward faces are tiled, with a dark row at the pool's level.
     ///
     /// # Errors
     /// The file cannot be read, is no JSON of this form, or names an unknown material.
