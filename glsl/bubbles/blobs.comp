@@ -1,7 +1,7 @@
 #version 460
-// Pass `blobs`: the border, and lists of blobs for every tile and slice of depth, front to back (the source draws a
-// billboard each). Three goes: to eye space, and how far they lie; how many there are in a cell; which. Between the last
-// two the numbers become sums of all before each, after them those up to each.
+// Pass `blobs`: lists of blobs per tile and depth slice, front to back (the paper draws a billboard each). Three
+// dispatches: blobs to eye space, with their depth range; counts per cell; entries. Between the last two the counts
+// become exclusive prefix sums, and after the last one inclusive ones.
 // Reads: the host's streams, count. Writes: blobs, range, cells, spans, list.
 
 #include "frame.glsl"

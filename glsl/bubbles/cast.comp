@@ -1,6 +1,6 @@
 #version 460
-// Pass `cast`: how far along the light the first blob lies, in the map of the light's region: blobs are balls to it.
-// Theirs is no coloured shadow as the water's: a core is opaque.
+// Pass `cast`: shadow map of the blobs: distance along the light to the first one, each a ball. Blob shadows are grey,
+// not coloured as the water's: a core is opaque.
 // Reads: blobs. Writes: light's blobs, by atomics.
 
 #include "frame.glsl"

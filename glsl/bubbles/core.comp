@@ -1,9 +1,8 @@
 #version 460
-// Pass `core`: the picture of small bubbles that a blob's inside shows, once per renderer (Huszar, Szecsi, Sec. 4.4,
-// which has it drawn by an artist): cells round scattered points (Worley, A Cellular Texture Basis Function, 1996) on the
-// sphere, three sizes of them, brighter along their seams.
-// Reads: nothing. Writes: core (RGBA16F), octahedral with a border: xyz how far the normal leans, w brightness, 1 in
-// the mean.
+// Pass `core`: texture of small bubbles inside a blob, once per renderer (Huszar, Szecsi, Sec. 4.4, where an artist
+// draws it): cellular noise on the sphere (Worley, A Cellular Texture Basis Function, 1996) of three sizes, brighter
+// along the seams.
+// Reads: nothing. Writes: core (RGBA16F), octahedral with a border: xyz tilt of the normal, w brightness with mean 1.
 
 #include "octahedral.glsl"
 #include "random.glsl"

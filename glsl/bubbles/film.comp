@@ -1,9 +1,9 @@
 #version 460
-// Pass `film`: what a soap film reflects, by the cosine and the film's thickness, once per renderer (Huszar, Szecsi,
-// GPU-supported bubble and foam rendering, Sec. 3.1). Airy's formula with the phase of the refracted ray; the print has
-// the angle outside, and a sine of the whole phase, whose maxima come at half their thickness.
-// Of three wavelengths, as the source, or of the spectrum.
-// Reads: nothing. Writes: table (RGBA16F), the cosine 0 to 1 across, the thickness from 0 on down.
+// Pass `film`: reflectance of a soap film by cosine and thickness, once per renderer (Huszar, Szecsi, GPU-supported
+// bubble and foam rendering, Sec. 3.1). Airy's formula with the phase of the refracted ray. The print has the angle
+// outside the film and the sine of the full phase, whose maxima lie at half their thickness.
+// For three wavelengths, as in the paper, or the whole spectrum.
+// Reads: nothing. Writes: table (RGBA16F), x: cosine 0 to 1, y: thickness from 0.
 
 #include "film.glsl"
 #include "spectrum.glsl"

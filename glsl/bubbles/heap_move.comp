@@ -1,8 +1,8 @@
 #version 460
-// Pass `heap`, move: what acts on a blob, and where it goes (Huszar, Szecsi, Sec. 6: neighbours pull each other when
-// near and push when nearer, gravity, solids; on the CPU there). Forces come from a potential, so that a heap left to
-// itself has less energy from step to step; they grow and end without a jump. What has too little beside it splits in
-// two, of which one shrinks as the other grows.
+// Pass `heap`, move: forces on a blob and its motion (Huszar, Szecsi, Sec. 6, on the CPU: attraction of near
+// neighbours, repulsion of nearer ones, gravity, solids). Forces derive from a potential, so the energy of a closed
+// system decreases from step to step; they begin and end continuously. A blob with too little around it splits in two,
+// one of which shrinks as the other grows.
 // Reads: heaped, buckets, solids, field. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "heap.glsl"

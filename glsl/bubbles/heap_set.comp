@@ -1,6 +1,6 @@
 #version 460
-// Pass `heap`, set: blobs as the host has them, at rest or as fast as it says. What is no blob has no radius, nor have the
-// places for halves.
+// Pass `heap`, set: initial blobs from the host, at rest or with its velocities. Invalid blobs and the slots of future
+// halves get radius 0.
 // Reads: the host's streams. Writes: balls, turns, ids, drifts, spins, growths.
 
 #include "growth.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `near`: whitewater foam near the eye becomes blobs (Akinci et al. 2013 gives foam seen from near up; blobs by Huszar,
-// Szecsi). A particle's blob grows as its sprite goes. Two goes over the particles: how many there are at each distance;
-// then those for which there is room, as blobs in the world.
+// Pass `near`: near the camera, whitewater foam cross-fades to bubble blobs (Akinci et al. 2013 draw no foam there;
+// blobs by Huszar, Szecsi): a particle's blob grows as its sprite shrinks. Two dispatches over the particles: a
+// histogram of their distances, then the blobs for which there are slots.
 // Reads: positions, kinds, radii, ages, ids, arguments, hand-over. Writes: numbers; count, balls, turns, blob ids.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `peel` by tiles: the nearest blobs of each pixel, and the most opacity of all (Huszar, Szecsi, Sec. 5, which draws
-// all once a layer and once more). Here once: a pixel goes through its tile's blobs, slice by slice from the front, keeps
-// the nearest, and ends where nothing behind can change it.
+// Pass `peel` by tiles: the nearest blobs of each pixel, and the maximum opacity of all (Huszar, Szecsi, Sec. 5, which
+// draws all once per layer and once more). Here in one pass: a pixel walks its tile's blobs slice by slice from the
+// front, keeps the nearest, and stops where nothing behind can change the result.
 // Reads: blobs, range, cells, spans, list, scene depth, what blob.glsl reads. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `peel`, what a draw has found goes where the tiles' way puts it.
+// Pass `peel`, raster path: copies the result of a draw to where the tiled path stores it.
 // Reads: layer or opacity, blobs, what blob.glsl reads. Writes: layers, bubble depth (R32F).
 
 #include "frame.glsl"

@@ -1,8 +1,9 @@
 #version 460
-// Pass `soap`: what the blobs of a pixel look like, its layers front to back (Huszar, Szecsi, Sec. 4.4 and 5): the film
-// before, the wall between two bubbles, the core, the film behind, each over what lies behind it. Water before a layer takes
-// of its light, and adds its own to as much as the layer hides: so what is behind all layers is left as it is, water or not.
-// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, what blob.glsl and sunlight.glsl read.
+// Pass `soap`: shades the blobs of a pixel, front to back (Huszar, Szecsi, Sec. 4.4 and 5). Each layer composites
+// front film, wall, core and back film. Water in front of a layer attenuates it and adds its own light in proportion
+// to the layer's opacity, so the background behind all layers keeps its value, in water or not.
+// Reads: blobs, layers, film, core, environment, irradiance, water depth, thickness, what blob.glsl and sunlight.glsl
+// read.
 // Writes: bubbles (RGBA16F), premultiplied.
 
 #include "frame.glsl"

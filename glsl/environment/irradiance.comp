@@ -1,6 +1,6 @@
 #version 460
-// Pass `environment`: what a surface gathers of the environment, over 2 pi: a half of one that is 1 everywhere, as
-// the samples it stands for (Akinci et al. 2013, Sec. 2.4.2).
+// Pass `environment`: irradiance divided by 2 pi, so that a constant environment of 1 gives one half, as the samples
+// that it replaces (Akinci et al. 2013, Sec. 2.4.2).
 // Reads: environment. Writes: irradiance (RGBA16F), octahedral with a border.
 
 #include "cube.glsl"

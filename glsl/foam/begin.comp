@@ -1,6 +1,6 @@
 #version 460
-// Pass `splat`, first part: nothing in any pixel but the depths of scene and fluid, which particles ask for many
-// times (Akinci et al. 2013, passes 1 and 2); the dispatches that the particles need.
+// Pass `splat`, first part: clears all pixels and stores the depths of scene and fluid, which particles read many
+// times (Akinci et al. 2013, passes 1 and 2); computes the dispatches over the particles.
 // Reads: scene depth, water depth, the host's fluid's, count. Writes: words, arguments.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `blur`: takes the noise of the samples from light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along
-// rows and then along columns, not across gaps in depth.
+// Pass `blur`: removes the sampling noise of light and shadow (Akinci et al. 2013, Sec. 2.5; pass 7), along rows and
+// then along columns, not across depth gaps.
 // Reads: tiles with foam, foam depth, foam normal with its search radius, light and shadow. Writes: the same, blurred.
 
 #include "frame.glsl"

@@ -1,12 +1,11 @@
 #version 460
-// Pass `radiance`: how much less light comes to the foam of a pixel for what stands round it, and what of the
-// environment's it gathers (Akinci et al. 2013, Sec. 2.4; pass 6). Occlusion in as many spheres as there are
-// passes, each wider, of points that all pixels share.
-// The sun's light and its shadows, which the source has not, are ours. So is the normal of what is smaller than a
-// pixel, whose middle hits a sphere where chance will have it: lit by that far foam is salt and pepper. It is where
-// the same samples find the space open, so that a plume is lit as the body that it is.
-// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points, irradiance,
-// environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
+// Pass `radiance`: ambient occlusion and environment light of the foam of each pixel (Akinci et al. 2013, Sec. 2.4;
+// pass 6). Occlusion is sampled in one sphere per pass, each larger, with points that all pixels share.
+// Not in the paper: the sun's light and shadows, and the normal of particles smaller than a pixel. A pixel's centre
+// hits an arbitrary point of such a sphere, and shading by its normal makes far foam look like salt and pepper.
+// Instead the normal is where the same samples find open space, so a plume is lit as one body.
+// Reads: tiles with foam, foam depth and intensity beside the depths of fluid and scene, foam normal, points,
+// irradiance, environment, what sunlight.glsl reads. Writes: foam normal, foam radiance.
 
 #include "frame.glsl"
 #include "falloff.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `splat`: the frontmost of the whitewater particles and their thickness (Akinci et al. 2013, Sec. 2.1 and 2.2;
-// passes 3 and 4), an invocation a particle. Depth, unlike in water, is not smoothed: that would take from the
-// occlusion. The second time over what goes with the frontmost: its search radius and normal.
+// Pass `splat`: depth of the frontmost whitewater particle and thickness of all (Akinci et al. 2013, Sec. 2.1 and 2.2;
+// passes 3 and 4), one invocation per particle. Unlike water, depth is not smoothed: that would weaken the occlusion.
+// The second dispatch writes the frontmost particle's attributes: search radius and normal.
 // Reads: positions, kinds, radii, ages, ids, words, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `splat` by quads, second go (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by blending.
-// Reads: words. Writes: what is before the fluid, behind it, and that by how far.
+// Pass `splat` by quads, second draw (Akinci et al. 2013, Sec. 2.2; pass 4): thickness, by additive blending.
+// Reads: words. Writes: thickness in front of the fluid, behind it, and the latter times its distance behind.
 
 #include "frame.glsl"
 #include "falloff.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `radiance`, first part: the fluid that stands round foam is the smoothed surface, not its spheres, whose bumps
-// would shade it. Particles were told by the spheres, which are there before the smoothing and its tiles are.
-// Not in the source, whose fluid surface is a host's.
+// Pass `radiance`, first part: replaces the fluid's depth by the smoothed surface, because the bumps of its spheres
+// would occlude foam. `splat` uses the spheres, which exist before the smoothing and its tiles.
+// Not in the paper, whose fluid surface is given.
 // Reads: depth, smoothed, levels, foam depth and intensity beside the depths of fluid and scene. Writes: these.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `radiance`, second part: the tiles of 8x8 pixels in which there is foam. Most of a picture has none, and a group that
-// finds none costs a CPU a good part of one that does. An invocation has a tile.
+// Pass `radiance`, second part: lists the 8x8 tiles that contain foam. Most of a picture has none, and on a CPU an
+// empty group costs a good part of a full one. One invocation per tile.
 // Reads: foam depth. Writes: tiles.
 
 #include "frame.glsl"

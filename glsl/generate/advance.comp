@@ -1,6 +1,6 @@
 #version 460
-// Pass `advance`: what becomes of the whitewater particles that there are: spray flies, foam goes with the water, bubbles
-// rise in it, and foam alone ages (Ihmsen et al. 2012, Sec. 3.3 and 3.4).
+// Pass `advance`: moves the existing whitewater particles: spray flies, foam is advected by the water, bubbles rise in
+// it; only foam ages (Ihmsen et al. 2012, Sec. 3.3 and 3.4).
 // Reads: the grid. Writes: whitewater particles, gone.
 
 #include "random.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `grid`, first part: how many particles the step has.
+// Pass `grid`, first part: number of particles of the step.
 // Reads: the host's count. Writes: counts.
 
 #include "random.glsl"

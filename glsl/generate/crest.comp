@@ -1,6 +1,6 @@
 #version 460
-// Pass `crest`: how much the surface bends where it moves outwards, and with it how many whitewater particles the
-// fluid's are to make (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
+// Pass `crest`: wave-crest potential (curvature where the surface moves outwards), and from all potentials the number
+// of whitewater particles to emit (Ihmsen et al. 2012, Sec. 3.1 and 3.2).
 // Reads: the grid, normals, potentials. Writes: potentials, rates, wanted.
 
 #include "random.glsl"

@@ -1,8 +1,8 @@
 #version 460
-// Pass `emit`: new whitewater particles, in a cylinder along the way of each particle of the fluid in the step
-// (Ihmsen et al. 2012, Sec. 3.2). In the order of the fluid's particles they take the slots that are free. Those of a
-// snapshot come anywhere within a spacing of its particle, as old as the moment that they are of.
-// Reads: the grid, normals or stages, wanted (how many are before each), free. Writes: whitewater particles.
+// Pass `emit`: new whitewater particles, in a cylinder along the path of each fluid particle in the step (Ihmsen et
+// al. 2012, Sec. 3.2). They take the free slots in the order of the fluid's particles. In a snapshot they are placed
+// within a spacing of the particle, with the age of their moment.
+// Reads: the grid, normals or stages, wanted (exclusive prefix sum), free. Writes: whitewater particles.
 
 #include "random.glsl"
 #include "generate.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `potentials`: how much air the water traps round each particle, its energy, and the normal of the surface
-// (Ihmsen et al. 2012, Sec. 3.1).
+// Pass `potentials`: trapped-air potential and kinetic energy of each particle, and the surface normal (Ihmsen et al.
+// 2012, Sec. 3.1).
 // Reads: the grid. Writes: normals, potentials.
 
 #include "random.glsl"

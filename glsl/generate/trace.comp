@@ -1,7 +1,7 @@
 #version 460
-// Pass `trace`, of a snapshot: how many of the whitewater particles that a steady flow made in one life lie at each particle of
-// the water, by what the water made where it came from. Ihmsen et al. 2012 have sequences alone; of a single frame nothing
-// but its own flow is known.
+// Pass `trace`, snapshots only: number of whitewater particles that a steady flow would have left at each water
+// particle, from the emission at the places where its water came from. Ihmsen et al. 2012 simulate sequences only; a
+// single frame has nothing but its own flow.
 // Reads: the grid, rates. Writes: stages (in place of normals), wanted.
 
 #include "random.glsl"

@@ -1,5 +1,5 @@
-// The scene under water, as dark as the water makes it (Lekner and Dorf 1988, "Why some things are darker when wet", with
-// the light that water takes; not in the thesis).
+// Darkening of the scene under water (Lekner and Dorf 1988, "Why some things are darker when wet", with the water's
+// absorption; not in the thesis).
 // Needs frame.glsl, medium.glsl, and of shade.glsl a sheet and its ladder. Reads: nothing.
 
 // Colour of what lies under a sheet, from its colour when dry. The surface lets 1 - F of the incoming light in. Of the light

@@ -1,5 +1,5 @@
-// What is drawn where there is no water. Needs frame.glsl, foam_texels.glsl. Reads: foam depth, spray, depth and
-// intensity of whitewater particles, depth of bubble foam.
+// Shading of pixels without water. Needs frame.glsl, foam_texels.glsl. Reads: foam depth, spray, depth and intensity
+// of whitewater particles, depth of bubble foam.
 
 // 1: there may be some; else it is not read.
 layout(constant_id = 9) const uint FOAM = 0;

@@ -1,4 +1,4 @@
-// Contact foam: the more the nearer what is behind the surface lies (Lettier, Foam). Needs shore.glsl, and
+// Contact foam: the closer the scene is behind the surface, the more foam (Lettier, Foam). Needs shore.glsl, and
 // shoreline.glsl for the web. Reads: the host's mask.
 
 layout(set = 0, binding = 30) uniform sampler2D contact_mask;

@@ -1,5 +1,5 @@
-// Depths of a shadow map as places between its nearest and its farthest texel, and the Fourier basis of
-// comparisons with them (Annen et al. 2007, Sec. 3). Needs frame.glsl.
+// Normalised depths of a shadow map, between its nearest and farthest texel, and the Fourier basis of comparisons with
+// them (Annen et al. 2007, Sec. 3). Needs frame.glsl.
 
 const float TWO_PI = 6.283185307;
 // No texel: what the span begins with.

@@ -1,4 +1,5 @@
-// What the density says of a particle: spray or bulk (thesis Sec. 4.9.5 cuts hard). Needs frame.glsl.
+// Classification of a particle by its density: spray or bulk (thesis Sec. 4.9.5 has a hard threshold). Needs
+// frame.glsl.
 
 // From 0, all spray, to 1, all of it water or foam, over a range of densities.
 float risen(float full, float density) {

@@ -1,7 +1,6 @@
-// What a whitewater particle is on the screen, for every way to draw it (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc
-// that faces the eye with the depth of a sphere. Small ones are widened to where no pixel's middle can miss them, and
-// their light is kept exactly: what all pixels get together does not depend on where between them the particle
-// lies, so that far foam does not sparkle. Not in the source.
+// Screen footprint of a whitewater particle, for every path (Akinci et al. 2013, Sec. 2.1 and 2.2): a disc that faces
+// the camera, with the depth of a sphere. Not in the paper: small ones are widened until no pixel centre can miss
+// them, with their total light preserved exactly at any sub-pixel position, so that far foam does not sparkle.
 // Needs frame.glsl, falloff.glsl.
 
 const uint FOAM = 0u;

@@ -1,8 +1,8 @@
-// An invocation a particle, or a group for each of the host's packets; then a group for each large one, which the first
-// left in a list: no barriers, which a CPU pays for in every invocation. What includes it says what a particle is there
-// (a Sprite with a Diffuse p and a Footprint f, by sprite_at), which pixels of a box there are (inside), what it does to
-// a pixel (splat), and whether anything of a sphere may come to one (shows); it binds arguments. Needs
-// diffuse_streams.glsl. Reads: arguments, packets, list. Writes: list.
+// Traversal of whitewater particles: one invocation per particle, or a group per host packet; then a group per large
+// particle, which the first dispatch left in a list. There are no barriers, which are expensive on a CPU. The includer
+// defines a particle (a Sprite with a Diffuse p and a Footprint f, by sprite_at), the pixels of a box that exist
+// (inside), the operation on a pixel (splat), and whether a sphere can contribute at all (shows); it binds arguments.
+// Needs diffuse_streams.glsl. Reads: arguments, packets, list. Writes: list.
 
 // 1: a group for each packet.
 layout(constant_id = 1) const uint PACKETS = 0;

@@ -1,4 +1,4 @@
-// Whitewater particles in the picture, for the passes that add them up in its words. Needs frame.glsl, diffuse_streams.glsl,
+// Accumulation of whitewater particles in the words of each pixel. Needs frame.glsl, diffuse_streams.glsl,
 // diffuse_words.glsl, frustum.glsl, and WORD(at), one of the words. Reads: words. Writes: words.
 
 struct Sprite {

@@ -1,6 +1,6 @@
 // The host's streams of whitewater particles, as a pass that splats them binds a chunk of each.
-// Needs frame.glsl, falloff.glsl, diffuse.glsl, hand_over.glsl, and of the push constants where the streams begin and their strides:
-// 0 of one that is not there. Reads: positions, kinds, radii, ages, ids.
+// Needs frame.glsl, falloff.glsl, diffuse.glsl, hand_over.glsl, and push constants with offsets and strides (0 for an
+// absent stream). Reads: positions, kinds, radii, ages, ids.
 
 layout(set = 0, binding = 1, std430) readonly buffer Positions { uint positions[]; };
 layout(set = 0, binding = 2, std430) readonly buffer Kinds { uint kinds[]; };

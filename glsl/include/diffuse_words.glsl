@@ -1,7 +1,7 @@
-// What whitewater particles leave in each pixel, next to each other: what goes with the frontmost, bits of its depth (the
-// two are a word of 64 bits, whose least is the frontmost's), bits of the scene's and the fluid's depths, and sums in
-// whole steps of what is before the fluid, behind it, and that by how far. The last is room: a pixel is 32 bytes, which
-// lie in one sector of a GPU's memory.
+// Words of each pixel that whitewater particles accumulate, next to each other: attributes of the frontmost, bits of
+// its depth (these two form a 64-bit word, whose minimum is the frontmost's), bits of the scene's and the fluid's
+// depths, and fixed-point sums of the thickness in front of the fluid, behind it, and the latter times its distance.
+// The last word is padding: a pixel has 32 bytes, one memory sector of a GPU.
 // Needs frame.glsl.
 
 const uint WITH = 0u;

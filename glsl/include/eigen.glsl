@@ -1,5 +1,5 @@
-// Eigenvalues and eigenvectors of a symmetric matrix by Jacobi's rotations (Golub and Van Loan 2013, Sec. 8.5): as many of
-// them whatever the matrix, so that none keeps a device. Needs nothing.
+// Eigenvalues and eigenvectors of a symmetric matrix by a fixed number of Jacobi rotations (Golub and Van Loan 2013,
+// Sec. 8.5), so that no matrix hangs a device. Needs nothing.
 
 // Turns the axes p and q so that a_pq is 0; r is the third.
 void turn(inout float pp, inout float qq, inout float pq, inout float pr, inout float qr, inout vec3 p, inout vec3 q) {

@@ -1,6 +1,5 @@
-// What of a particle is drawn: its sphere, or an ellipsoid (Yu and Turk 2013) under a perspective: footprint, exact hit and
-// the sprite of its thickness. In lists of ellipsoids the entry after a sphere's holds its shape. Needs frame.glsl,
-// sphere.glsl.
+// A drawn particle: its sphere, or an ellipsoid (Yu and Turk 2013), in perspective: footprint, exact intersection,
+// thickness sprite. In lists of ellipsoids the entry after a sphere's holds its shape. Needs frame.glsl, sphere.glsl.
 
 #include "axes.glsl"
 

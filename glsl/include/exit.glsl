@@ -1,9 +1,9 @@
-// Where the ray that the front surface refracts ends (Wyman 2005, "An Approximate Image-Space Approach for Interactive
-// Refraction"; not in the thesis): on the scene, where that lies under the water, and behind the water's far surface, where
-// there is air behind it. Differs: the far surface is the front one and as much deeper as the water is
-// thick, with the slope of both; a march over the screen finds the scene.
-// Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness, scene
-// colour and depth, environment.
+// End of the ray that the front surface refracts (Wyman 2005, "An Approximate Image-Space Approach for Interactive
+// Refraction"; not in the thesis): on the scene where it is under the water, or behind the water's far surface where
+// air follows. Differs: the far surface is the front one offset by the thickness, with the slopes of both; the scene
+// is found by a screen-space march.
+// Needs frame.glsl, surface.glsl, march.glsl, and of shade.glsl a sheet, `fresnel` and `scene_at`. Reads: thickness,
+// scene colour and depth, environment.
 
 // How much of the sky is seen by way of the far surface, where that bends the ray to it. Water in the air ripples finer than
 // its particles tell: the rest comes straight on. (All of it: saturated blue blots on every crown and drop.)

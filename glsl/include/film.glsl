@@ -1,5 +1,4 @@
-// Thin-film interference of a soap film with air on both sides: what share of the light it sends back (Airy). Needs
-// nothing.
+// Thin-film interference of a soap film in air: its reflectance (Airy). Needs nothing.
 
 // How an interface reflects. Exact: both polarisations by themselves; Schlick: his approximation of their mean; the
 // source: 1 - cos.

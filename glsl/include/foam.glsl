@@ -1,5 +1,5 @@
-// A particle's foam as a sprite (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which turns
-// into a disc that faces the eye where it is slow or moves along the view. Needs frame.glsl.
+// Sprite of a particle's surface foam (thesis Sec. 4.6.2 and 4.8): an ellipse along its motion, which changes to a
+// disc facing the camera where it is slow or moves along the view. Needs frame.glsl.
 
 struct FoamSprite {
     vec4 centre;   // eye space; foam, 0 to 1

@@ -1,5 +1,5 @@
-// How the foam of a part of the picture drifts: nodes of a lattice on the screen, each with the mean velocity in the
-// world of the sprites about it. Whole steps: their sums are exact in any order. Needs frame.glsl.
+// Velocity of the foam on the screen: a grid of nodes, each with the mean world velocity of nearby sprites.
+// Fixed-point steps: sums are exact in any order. Needs frame.glsl.
 
 // Pixels from node to node.
 const float DRIFT_CELL = 16.0;

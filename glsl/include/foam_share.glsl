@@ -1,5 +1,5 @@
-// How much of the water is before the frontmost foam: T_wf of the source (thesis Sec. 3.2.2), which asks
-// once a particle (Listing A.14). Needs frame.glsl.
+// Share of the water in front of the frontmost foam: T_wf of the thesis (Sec. 3.2.2), which decides it per particle
+// (Listing A.14). Needs frame.glsl.
 
 // 1: there may be foam.
 layout(constant_id = 9) const uint FOAM = 0;

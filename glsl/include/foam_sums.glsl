@@ -1,6 +1,6 @@
-// What the compute path of foam has of each texel, next to each other: sums in whole steps of all foam, of what
-// in the front layer the sun does not light, of all by how far behind the frontmost it lies, and of what is behind
-// the front layer. Of many sprites all but the first are none, and not added.
+// Words of each texel in the compute path of surface foam, next to each other: fixed-point sums of all foam, of the
+// shadowed part of the front layer, of all foam times its distance behind the frontmost, and of the foam behind the
+// front layer. For most sprites all but the first are zero and not added.
 
 // 1: something casts shadows on foam.
 layout(constant_id = 1) const uint LIT = 0;

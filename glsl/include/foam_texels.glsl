@@ -1,5 +1,5 @@
-// The texels of the foam about a pixel. Its images are of the thickness' resolution; what of them the
-// scene hides is told a pixel, so that its outlines are sharp. Needs frame.glsl.
+// The foam texels around a pixel. Foam has the resolution of the thickness; occlusion by the scene is resolved per
+// pixel, so its outlines are sharp. Needs frame.glsl.
 
 struct FoamTexels {
     ivec4 at;     // the first and the last of the four

@@ -1,5 +1,5 @@
-// The slices of depth in which pass `gaps` looks for air, in spacings. Neighbours in water are a
-// spacing apart, in its thinner parts one and a half; two and a half are air.
+// Depth slices of pass `gaps`, in spacings. Neighbours in water are one spacing apart, in thin parts one and a half;
+// two and a half are air.
 
 const float SLICE = 0.5;
 // What a sphere marks before and behind its centre.

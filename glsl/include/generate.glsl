@@ -1,6 +1,6 @@
-// What the passes share that make whitewater particles (spray, foam, bubbles) of a fluid's (Ihmsen, Akinci, Akinci,
-// Teschner, Unified spray, foam and bubbles for particle-based fluids, 2012).
-// Sums over neighbours are of whole steps: whatever order these come in, the same is made of them.
+// Shared by the passes that emit whitewater (spray, foam, bubbles) from a fluid (Ihmsen, Akinci, Akinci, Teschner,
+// Unified spray, foam and bubbles for particle-based fluids, 2012).
+// Sums over neighbours use fixed-point steps: their order does not matter.
 
 layout(push_constant, std430) uniform Push {
     float spacing;       // of the fluid's particles

@@ -1,5 +1,5 @@
-// Of a snapshot: moments of the longest life of foam before it, at which the water on its way to a particle is looked at,
-// the nearer the closer. Needs generate.glsl, random.glsl.
+// Moments of a snapshot, spread over the longest lifetime of foam, at which the water on its way to a particle is
+// evaluated; denser towards the present. Needs generate.glsl, random.glsl.
 
 const uint STAGES = 15u;
 // Whitewater particles of a moment at most: six bits.

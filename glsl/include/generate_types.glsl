@@ -1,4 +1,4 @@
-// What the passes share that make whitewater particles.
+// Types shared by the passes that emit whitewater.
 
 struct GenerateCounts {
     uint high;   // slots of whitewater particles that were ever used: first, drawing starts from it

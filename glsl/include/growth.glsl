@@ -1,4 +1,4 @@
-// How a blob grows or shrinks, as one of the halves of what was one. Needs nothing.
+// Growth and shrinking of a blob that is one half of a split one. Needs nothing.
 
 struct Growth {
     float goal;   // radius when they have parted

@@ -1,4 +1,4 @@
-// Which of the whitewater particles are blobs of bubble foam. Needs frame.glsl, diffuse.glsl. Reads: hand-over.
+// Which whitewater particles are drawn as blobs of bubble foam. Needs frame.glsl, diffuse.glsl. Reads: hand-over.
 
 #include "hand_over_rings.glsl"
 

@@ -1,4 +1,4 @@
-// Where blobs take over from sprites of whitewater particles. Needs nothing.
+// Distances at which blobs replace sprites of whitewater. Needs nothing.
 
 // Distances that are told apart.
 const uint RINGS = 1024u;

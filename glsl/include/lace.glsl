@@ -1,6 +1,7 @@
-// The lace of foam: bubbles of unlike sizes, between which its threads run, and by which thin foam is torn open. A power
-// diagram of spheres, of three sizes (Worley 1996 has distances to points), drawn about by the slope of a gradient noise,
-// that lies in the world, told at each pixel, and that the foam carries along as pattern.glsl has it. Not in the source, whose thin foam is a veil.
+// Lace: bubbles of different sizes, between which foam forms threads, and which tear thin foam open. A power diagram
+// of spheres of three sizes (Worley 1996 has distances to points), warped by the slope of a gradient noise, in world
+// space, evaluated per pixel, and advected with the foam as in pattern.glsl. Not in the thesis, whose thin foam is a
+// veil.
 // Needs frame.glsl, gradient_noise.glsl, foam_drift.glsl. Reads: drift.
 
 layout(set = 0, binding = 33, std430) readonly buffer Drift { int drift[]; };

@@ -1,6 +1,6 @@
-// The resolutions of the smoothing. A pixel shows the one that its distance asks for: of the front sheet up to four,
-// each half of the one before, of the back sheet up to three from the second on. All lie in the smoothing images and
-// the plan, apart by whole tiles. Needs frame.glsl. Reads: levels.
+// The resolutions of the smoothing. A pixel selects one by its distance: up to four of the front layer, each half of
+// the one before, and up to three of the back layer, from the second on. All lie in the smoothing images and the plan,
+// separated by whole tiles. Needs frame.glsl. Reads: levels.
 
 struct Level {
     ivec4 rect;  // in the images: first texel, size; of what is not used 0

@@ -1,6 +1,6 @@
-// What the sun's map of whitewater particles is added up of: a thickness in whole steps, that times where along the
-// light it lies, in whole texels, and that times the same again. The sums are exact, in any order: the fourth word
-// holds what the two products carry, of the last in its lower 22 bits.
+// Sums of the sun's map of whitewater: the thickness in fixed-point steps, that times the position along the light in
+// whole texels, and that times the position again. The sums are exact in any order: the fourth word holds the carries
+// of the two products, of the last one in its lower 22 bits.
 
 const uint WORDS = 4u;
 // Steps of a thickness of 1.

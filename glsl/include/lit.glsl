@@ -1,4 +1,4 @@
-// Pass `lit`: the scene with what water and foam do to the sunlight on it. Not in the source.
+// Pass `lit`: the scene with the shadows and caustics of water and foam. Not in the thesis.
 // Needs frame.glsl, sunlight.glsl. Reads: scene colour and depth, caustics, the light's maps.
 
 #include "filtered.glsl"

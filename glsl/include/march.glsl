@@ -1,7 +1,7 @@
-// Where a ray from the water meets the scene, marched on the screen against the scene's depth (McGuire and Mara 2014,
-// "Efficient GPU Screen-Space Ray Tracing"; not in the thesis). Differs: steps that grow, each by the same factor, from a
-// share of the picture's height to where the ray leaves the view; a secant at the end. No length of its own: steps are
-// parts of the picture, and what is taken for the scene's front is as deep as a step of the ray and a part of the depth.
+// Screen-space ray march against the scene's depth (McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing";
+// not in the thesis). Differs: steps grow by a constant factor, from a fraction of the picture's height to where the
+// ray leaves the view; a secant step at the end. There is no absolute length: steps are fractions of the picture, and
+// the assumed thickness of the scene is a step of the ray plus a fraction of the depth.
 // Needs frame.glsl. Reads: scene depth (the includer's).
 
 struct Met {

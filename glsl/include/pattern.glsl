@@ -1,7 +1,7 @@
-// The pattern of foam: thick here and thin there by a noise in space that the foam carries along, and that begins
-// anew before neighbours have carried it far apart, in two phases that fade into each other (flow maps, Vlachos 2010;
-// Neyret 2003). Not in the source, in which each sprite has a noise of its own: many over each other are a mist. Coarse
-// octaves are a sprite's, the finest is looked up at each texel. Needs frame.glsl, gradient_noise.glsl.
+// Clumping noise of foam, advected with it: a noise in space that restarts before neighbours have stretched it, in two
+// cross-fading phases (flow maps, Vlachos 2010; Neyret 2003). Not in the thesis, where each sprite has its own noise
+// and many overlapping ones average to a mist. Coarse octaves are evaluated per sprite, the finest per texel. Needs
+// frame.glsl, gradient_noise.glsl.
 
 // Width of a cell of the coarse octaves and of the finest to the first's, their heights.
 const vec3 OCTAVES = vec3(1.0, 0.53, 0.23);

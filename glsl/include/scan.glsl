@@ -1,6 +1,5 @@
-// Sums of all that is before each of many numbers, in place: the sums of blocks, of the blocks before
-// each, of the numbers before each (Blelloch 1990). No sum is more than MOST_SUM: it stays there, where sums that wrap would
-// begin anew and send what is placed by them to wrong places.
+// In-place exclusive prefix sum in three dispatches: sums of blocks, prefix sum of those, prefix sum within each block
+// (Blelloch 1990). Sums saturate at MOST_SUM: a wrapped sum would start again and place entries at wrong positions.
 // Reads: counts, blocks. Writes: counts, blocks.
 
 const uint SCAN_GROUP = 256u;

@@ -1,4 +1,4 @@
-// Colour of the scene, with the foam that lies on its water as a coat. Needs frame.glsl.
+// Colour of the scene, with the foam overlay on its water. Needs frame.glsl.
 // Reads: scene colour, shoreline and contact foam.
 
 #include "coat_light.glsl"

@@ -1,5 +1,5 @@
-// How much of the sun's light reaches a point past the host's scene, by its shadow map or its mask (thesis Sec. 4.9.4,
-// which has convolution shadow maps).
+// Shadow of the host's scene at a point, from its shadow map or mask (thesis Sec. 4.9.4, which uses convolution shadow
+// maps).
 // Needs frame.glsl, convolution.glsl. Reads: shadow map or mask, its basis and span.
 
 // 0: the host says nothing, 1: a mask of the screen, 2: a shadow map, 3: its Fourier basis.

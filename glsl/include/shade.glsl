@@ -1,11 +1,10 @@
-// What a pixel of water looks like (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for every way to reach
-// its pixels. Layers so far: a sheet of water, or two one behind the other, over the scene.
-// Refraction in screen space, Beer's law along the ray, Fresnel reflection of the environment, the
-// sun's highlight. Two sheets are not in the source (its limitation, Fig. 5.13).
-// Foam of whitewater particles lies among the water's layers: what is behind its surface in it, the rest over it.
-// What it mirrors: the environment and, by a march over the screen, the scene.
-// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam, thickness and
-// light of whitewater particles, bubble foam, contact foam.
+// Shading of a water pixel (thesis Sec. 3.2.3 and 4.9.2, Listings A.19, A.20), for both paths of `composite`. Layers:
+// one or two bodies of water over the scene.
+// Screen-space refraction, Beer's law along the ray, Fresnel reflection of the environment and, by a screen-space
+// march, of the scene, the sun's highlight. Two layers are not in the thesis (its limitation, Fig. 5.13).
+// Whitewater is composited with the layers: the part behind the surface in the water, the rest over it.
+// Reads: smoothed, levels, depth, thickness, boundaries, noise, scene colour and depth, environment, drift of foam,
+// thickness and light of whitewater particles, bubble foam, contact foam.
 // Needs frame.glsl, medium.glsl, level.glsl, sheets.glsl, surface.glsl, foam_texels.glsl, beside.glsl, sunlight.glsl,
 // shore_light.glsl, surface_noise.glsl, intensity.glsl, scene_color.glsl, random.glsl, gradient_noise.glsl.
 

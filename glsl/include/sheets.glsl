@@ -1,6 +1,6 @@
-// Two sheets of water, one behind the other (passes `gaps` and `back`): for each texel of the
-// thickness the eye depth between them, EMPTY where there is but one. Not in the source (its
-// limitation, Fig. 5.13). Needs frame.glsl. Reads: boundaries.
+// Two layers of water, one behind the other (passes `gaps` and `back`): for each texel of the thickness the eye depth
+// between them, EMPTY where there is only one. Not in the thesis (its limitation, Fig. 5.13). Needs frame.glsl. Reads:
+// boundaries.
 
 // 1: there is one sheet everywhere; the buffer is not read.
 layout(constant_id = 8) const uint SHEETS = 2;

@@ -1,5 +1,5 @@
-// What the passes of shoreline and contact foam share: where the water's surface is, the numbers of the block.
-// Horizontal places p are metres along two axes of the world's that are level. Needs frame.glsl.
+// Shared by the passes of shoreline and contact foam: position of the water's surface, values of the block. Horizontal
+// positions p are metres along the two level axes of the world. Needs frame.glsl.
 // Reads: the block of shoreline and contact foam.
 
 // 0: what most frames have, a level surface, a map of distances or a strip, two looks into the noise and two into the web at

@@ -1,4 +1,4 @@
-// Lists of tiles of shoreline and contact foam, with the dispatches over them: what makes them and what goes over them share.
+// Tile lists of shoreline and contact foam with their dispatches, shared by producers and consumers.
 // Reads, writes: lists, arguments.
 
 // Tiles that may have shoreline foam, contact foam, both; runs of those that have any (shore_runs.glsl); tiles that may have

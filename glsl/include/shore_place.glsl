@@ -1,4 +1,5 @@
-// Where a pixel's ray meets the host's surface, and v there. Needs frame.glsl, shore.glsl.
+// Intersection of a pixel's ray with the host's surface, and the shore coordinate v there. Needs frame.glsl,
+// shore.glsl.
 // Reads: surface depth, map of distances.
 
 layout(set = 0, binding = 3) uniform sampler2D surface_depth;

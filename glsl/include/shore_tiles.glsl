@@ -1,4 +1,4 @@
-// What the passes that list tiles share: an invocation a tile. Needs frame.glsl, shore.glsl, shore_lists.glsl.
+// Shared by the passes that list tiles, one invocation per tile. Needs frame.glsl, shore.glsl, shore_lists.glsl.
 // Reads: scene depth. Writes: lists, arguments.
 
 layout(set = 0, binding = 2) uniform sampler2D scene_depth;

@@ -1,5 +1,5 @@
-// Shoreline foam: waves by v and a web in the world (blog, Sec. IV to VIII). What is too fine for a pixel is left out
-// and kept as a variance, so that far foam covers what near foam does. Needs shore.glsl. Reads: noise, web.
+// Shoreline foam: waves over v and a foam texture in the world (blog, Sec. IV to VIII). Detail finer than a pixel is
+// removed and kept as a variance, so that far foam covers as much as near foam. Needs shore.glsl. Reads: noise, web.
 
 layout(set = 0, binding = 28) uniform sampler2D shore_noise;
 layout(set = 0, binding = 29) uniform sampler2D shore_web;

@@ -1,5 +1,5 @@
-// Spheres under a perspective: footprint and exact hit, where the source offsets a billboard by N_z r
-// (thesis Sec. 4.6.1, Listings A.8, A.9). Needs nothing.
+// Spheres in perspective: footprint and exact intersection, where the thesis offsets a billboard by N_z r (Sec. 4.6.1,
+// Listings A.8, A.9). Needs nothing.
 
 // Bounds of the projected sphere in slopes (min xy, max xy), from the tangents through the eye in
 // the planes of x and y; false when it reaches the eye plane and has none.

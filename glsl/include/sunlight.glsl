@@ -1,6 +1,7 @@
-// How much of the sun's light reaches a point: past the host's scene (scene_shadow.glsl), and through water and foam (ours).
-// Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: what scene_shadow.glsl reads, light's thickness, diffuse
-// particles and bubble foam as the sun sees them.
+// Sunlight that reaches a point: past the host's scene (scene_shadow.glsl), and through water and foam (not in the
+// thesis).
+// Needs frame.glsl, convolution.glsl, intensity.glsl. Reads: what scene_shadow.glsl reads, the light's maps of
+// thickness, whitewater particles and bubble foam.
 
 #include "scene_shadow.glsl"
 

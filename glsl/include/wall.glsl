@@ -1,9 +1,8 @@
-// The film between two bubbles that meet: part of a sphere through their common circle, whose tangent there halves the
-// angle between the two (Huszar, Szecsi, Sec. 3.2, whose print has lost its roots and squares). Where films meet at 120
-// degrees it is Laplace's: 1/r = 1/r_B - 1/r_A. Needs nothing.
-//
-// As a curvature and an apex, not a centre: of equal bubbles it is a plane, and nearly equal ones would have a sphere
-// larger than the digits are good for.
+// The film between two touching bubbles: part of a sphere through their common circle, whose tangent there bisects the
+// angle between the two (Huszar, Szecsi, Sec. 3.2, whose print lacks its roots and squares). Where films meet at 120
+// degrees it obeys Laplace: 1/r = 1/r_B - 1/r_A. Needs nothing.
+// Stored as curvature and apex, not as a centre: between equal bubbles it is a plane, and between nearly equal ones
+// the sphere exceeds single precision.
 
 struct Wall {
     vec3 apex;

@@ -1,7 +1,7 @@
-// What fragments add to a sum as whole steps, so that sums are exact in any order: rounded up or down by chance, with the
-// chance that keeps the mean. To the nearest, all that is less than half a step would be lost: what is far away, for a
-// sprite that is widened to a pixel is thin. By chance of the particle and the texel, not of the time: it does not
-// flicker. Needs random.glsl.
+// Fixed-point addends of sums, so that sums are exact in any order. Fractions of a step are rounded up or down
+// stochastically, which keeps the mean. Rounding to nearest would lose everything below half a step, and distant
+// sprites, widened to a pixel, are that thin. The random number depends on particle and texel, not on time: nothing
+// flickers. Needs random.glsl.
 
 // Bits of a particle by what it is known by.
 uint chance_of(uint id, uint number) {

@@ -1,7 +1,7 @@
 #version 460
-// Pass `caustics`: light refracted by the water, from each texel of the light's map to where it leaves
-// the water again, which is mostly the ground (caustics mapping, Shah et al. 2007, without its mesh). No light comes from where
-// the host's scene shades the water: through its side at a wall it would be thrown along the bed.
+// Pass `caustics`: refracts the light of each texel of the light map to where it leaves the water again, usually the
+// ground (caustics mapping, Shah et al. 2007, without its mesh). Where the host's scene shadows the water there is no
+// light: it would enter through the water's side at a wall and be thrown along the bed.
 // Reads: smoothed front, thickness, shadow map or its basis and span. Writes: photons, fixed point, summed.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `diffuse`: the thickness of whitewater particles as the sun sees them, and where along its light it lies; as
-// Akinci et al. 2013, Sec. 2.2, for the eye. That they cast shadows is their future work. An invocation a particle,
-// all of a group the large ones.
+// Pass `diffuse`: thickness of whitewater as the sun sees it, and its position along the light; splatted as Akinci et
+// al. 2013, Sec. 2.2, do for the camera. Shadows of whitewater are their future work. One invocation per particle, a
+// whole group for large ones.
 // Reads: positions, kinds, radii, ages, ids, hand-over, front, arguments, packets, list. Writes: words, list.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `diffuse`, last part: sums to how much there is of each texel, where its middle lies and how far about that
-// it spreads; all a little softened, the sun is no point. (diffuse.comp names the source.)
+// Pass `diffuse`, last part: sums to the thickness of each texel, its mean position and its spread; slightly blurred,
+// because the sun is no point. (diffuse.comp names the source.)
 // Reads: words. Writes: diffuse (RGBA16F).
 
 #include "frame.glsl"

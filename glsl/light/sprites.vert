@@ -1,7 +1,6 @@
 #version 460
-// Pass `light`: a quad round each particle as the sun sees it, straight from the host's streams. Not in
-// the source.
-// Reads: positions, densities, foam, members. Writes: the disc's corners, place, size and heights.
+// Pass `light`: a quad around each particle as the sun sees it, directly from the host's streams. Not in the thesis.
+// Reads: positions, densities, foam, members. Writes: the disc's corners, position, size and heights.
 
 #include "frame.glsl"
 #include "density.glsl"

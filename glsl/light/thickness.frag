@@ -1,6 +1,6 @@
 #version 460
-// Pass `light`: metres of water and of foam along the sun's light, and both times how far along it they
-// lie: thickness as the eye's (thesis Sec. 3.2.2, kernel.glsl), from the sun, which is ours.
+// Pass `light`: metres of water and of foam along the sunlight, and both times their position along it: thickness as
+// for the camera (thesis Sec. 3.2.2, kernel.glsl), seen from the sun, which the thesis does not do.
 // Reads: sprites.vert's discs. Writes: thickness (RGBA32F), summed.
 
 #include "frame.glsl"

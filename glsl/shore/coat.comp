@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, compute: foam on the scene's water, a run of tiles of 8x8 pixels a group, where the particles' is not:
-// that is stored over it.
+// Pass `composite`, compute: foam on the scene's water, one group per run of 8x8 tiles. Particle water is stored over
+// it afterwards.
 // Reads: list, scene colour, shoreline and contact foam. Writes: output.
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `composite`, raster: foam on the scene's water, where the particles' is not: that draws over it.
+// Pass `composite`, raster: foam on the scene's water. Particle water is drawn over it afterwards.
 // Reads: shoreline and contact foam; scene colour, where the output cannot be blended with. Writes: output.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `contact`: foam on the particles' water round what stands in it (Lettier, Foam), whose surface is the smoothed one.
-// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, of the pixels that have some. What of the
-// sun's light comes there `composite` finds: the host's surface behind may have another light.
+// Pass `contact`: foam on the particles' water around objects (Lettier, Foam), on the smoothed surface.
+// Reads: depth, smoothed, levels, scene depth, web, mask. Writes: contact foam, of the pixels that have some.
+// `composite` evaluates its sunlight: the host's surface behind may be lit differently.
 
 #include "frame.glsl"
 #include "level.glsl"

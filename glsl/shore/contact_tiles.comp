@@ -1,5 +1,5 @@
 #version 460
-// Pass `contact`: the tiles of 8x8 pixels that may have foam on the particles' water.
+// Pass `contact`: lists the 8x8 tiles that may contain foam on the particles' water.
 // Reads: depth, scene depth. Writes: list of tiles, the dispatch over it.
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, distances: from each texel to a piece of the shore line a texel long about its seed, below 0 in the water.
+// Pass `map`, distances: from each texel to a shore-line segment one texel long at its seed, negative in the water.
 // Reads: seeds, heights. Writes: distances.
 
 #include "shore_map.glsl"

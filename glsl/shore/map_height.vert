@@ -1,6 +1,6 @@
 #version 460
-// Pass `map`, heights: a mesh of the host's from above; the highest of each texel is kept.
-// Reads: the host's vertices. Writes: places in the map, heights as depths.
+// Pass `map`, heights: a host mesh from above; the highest point of each texel is kept.
+// Reads: the host's vertices. Writes: positions in the map, heights as depths.
 
 layout(set = 0, binding = 0, std430) readonly buffer Positions { float positions[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Indices { uint indices[]; };

@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, a jump: of nine texels so far apart the nearest seed (Rong, Tan 2006).
+// Pass `map`, one jump: the nearest seed of nine texels at this jump's distance (Rong, Tan 2006).
 // Reads: seeds. Writes: the others.
 
 #include "shore_map.glsl"

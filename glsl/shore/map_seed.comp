@@ -1,5 +1,5 @@
 #version 460
-// Pass `map`, seeds: where the shore line crosses the lines from a texel to its four neighbours, the nearest of these.
+// Pass `map`, seeds: nearest crossing of the shore line with the lines from a texel to its four neighbours.
 // Reads: heights. Writes: seeds.
 
 #include "shore_map.glsl"

@@ -1,9 +1,9 @@
 #version 460
-// Pass `shoreline`: foam on the host's water surface: along shores by the map of distances or the bottom's slope (blog),
-// and round what stands in it (Lettier, Foam).
-// Not in the sources: no mesh; what a pixel covers of the foam, where they clip.
-// Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes: shoreline
-// foam, contact foam, what of the sun's light does not come there.
+// Pass `shoreline`: foam on the host's water surface: along shores by the distance map or the ground's slope (blog),
+// and around objects (Lettier, Foam).
+// Differs from both: no mesh; fractional coverage of a pixel, where they clip.
+// Reads: lists of tiles, scene depth, surface depth, noise, web, map, mask, what sunlight.glsl reads. Writes:
+// shoreline foam, contact foam, missing sunlight.
 
 #extension GL_EXT_control_flow_attributes : require
 #include "frame.glsl"

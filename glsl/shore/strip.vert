@@ -1,5 +1,5 @@
 #version 460
-// Pass `shoreline`: the host's strip of foam, whose vertices have a place and v (blog, Sec. IV).
+// Pass `shoreline`: the host's strip of foam, whose vertices have a position and v (blog, Sec. IV).
 // Reads: the host's streams. Writes: eye position, v.
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `shoreline`: which tiles of 8x8 pixels a strip's foam is in, when it is drawn.
+// Pass `shoreline`: marks the 8x8 tiles that contain a strip's foam, after it is drawn.
 // Reads: foam. Writes: marks.
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `shore-tiles`: lists of the tiles of 8x8 pixels that may have foam on the host's surface, by what they may have, with
-// the dispatches over them. Not in the sources: most of a picture has none, and what tells is much less than what it is.
+// Pass `shore-tiles`: lists the 8x8 tiles that may contain foam on the host's surface, by kind, with the dispatches
+// over them. Not in the sources: most of a picture has none, and the test is much cheaper than shading.
 // Reads: scene depth, surface depth, map of distances. Writes: lists, arguments.
 
 #include "frame.glsl"

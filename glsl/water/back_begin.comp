@@ -1,7 +1,7 @@
 #version 460
-// Pass `back`, first part: in the tiles of the back sheet's first level that have a boundary in or round them
-// the depth of what is one sheet, so that the smoothing finds its neighbours; elsewhere nothing.
-// Not in the source.
+// Pass `back`, first part: in tiles of the back layer's first level with a boundary in or around them, the depth where
+// there is only one layer, so that the smoothing finds neighbours; EMPTY elsewhere.
+// Not in the thesis.
 // Reads: boundaries, levels, depth. Writes: back.
 
 #include "frame.glsl"

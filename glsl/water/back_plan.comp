@@ -1,6 +1,6 @@
 #version 460
-// Pass `back`, last part: the back sheet joins the levels of the smoothing: its first as it is, of each coarser one that
-// the frame needs the nearest of each block. Not in the source.
+// Pass `back`, last part: adds the back layer to the levels of the smoothing: its first level as it is, and for each
+// coarser one that the frame needs the nearest of each block. Not in the thesis.
 // Reads: back, levels, levels needed. Writes: both smoothing images, plan, work of the levels' tiles.
 
 #include "frame.glsl"

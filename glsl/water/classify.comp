@@ -1,8 +1,7 @@
 #version 460
-// Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up
-// by its id in the table of the step before, moved on, and entered in this step's table: order does
-// not matter, and ids that are gone are forgotten. A dispatch sees one part of the tables, and moves on the particles
-// whose ids belong there.
+// Pass `classify`: foam phases by Weber number (thesis Sec. 3.2). Each particle's state is looked up by id in the
+// previous table, advanced, and entered in the new table: order does not matter, and vanished ids are forgotten. A
+// dispatch sees one part of the tables and handles the particles whose ids belong there.
 // Reads: velocities, densities, ids, the old table. Writes: the new table, foam.
 
 #include "random.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `cull`: the border. Drops NaN and infinite particles, sets spray aside, tests the rest
-// against the frustum (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the
-// survivors in eye space: small sprites from the front of the list, large ones from its back.
+// Pass `cull`: the border. Drops NaN and infinite particles, classifies spray, culls the rest against the frustum
+// (thesis Sec. 4.3: host packets, or each bounding sphere) and compacts the survivors in eye space: small sprites from
+// the front of the list, large ones from its back.
 // Reads: positions, of ellipsoids with their shapes, densities, packets. Writes: Counts, visible, members.
 
 #include "frame.glsl"

@@ -1,7 +1,7 @@
 #version 460
-// Pass `foam`, compute path: the frontmost foam (thesis Sec. 4.6.2), then the metres of all foam and of the
-// layer right behind the frontmost (Sec. 4.8), in whole steps. An invocation a sprite, or all of a group the
-// large ones. A noise breaks up the discs, that of a pattern or one of its own in each sprite, that changes as it ages.
+// Pass `foam`, compute path: depth of the frontmost surface foam (thesis Sec. 4.6.2), then metres of all foam and of
+// the front layer (Sec. 4.8), in fixed-point steps. One invocation per sprite, a whole group for large ones. A noise
+// breaks up the discs: the shared pattern, or one per sprite that changes with its age.
 // Reads: Counts, sprites, words. Writes: words.
 
 #include "frame.glsl"

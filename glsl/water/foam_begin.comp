@@ -1,6 +1,6 @@
 #version 460
-// Pass `foam`, compute path, first part: nothing in any texel, and the scene's depth at its middle: sprites ask for
-// it many times, and a word beside the sums is read sooner than a texel of an image.
+// Pass `foam`, compute path, first part: clears all texels and stores the scene's depth at their centres: sprites read
+// it many times, and a word beside the sums is faster than a texel of an image.
 // Reads: scene depth. Writes: words.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `foam`: how the foam drifts, for the lace, which it carries along (not in the source).
-// Each sprite adds its velocity to the four nodes about its centre on the screen.
+// Pass `foam`: velocity of the foam on the screen, which advects the lace (not in the thesis). Each sprite adds its
+// velocity to the four nodes around its centre.
 // Reads: Counts, sprites. Writes: drift.
 
 #include "frame.glsl"

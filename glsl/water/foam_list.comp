@@ -1,8 +1,8 @@
 #version 460
-// Pass `foam`, first part: the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2).
-// Spray is none: what is turning into it is that much less foam.
-// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, what casts shadows. Writes:
-// Counts (foam), sprites.
+// Pass `foam`, first part: lists the particles with foam, in eye space (thesis Sec. 3.2.1, 4.6.2). The share that is
+// spray is subtracted.
+// Reads: Counts (particles), positions, foam, velocities, ids, densities, members, shadow maps. Writes: Counts (foam),
+// sprites.
 
 #include "frame.glsl"
 #include "frustum.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `foam`, compute path, last part: whole steps to metres.
+// Pass `foam`, compute path, last part: fixed point to metres.
 // Reads: words. Writes: foam depth, foam thickness.
 
 #include "frame.glsl"

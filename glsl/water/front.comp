@@ -1,6 +1,6 @@
 #version 460
-// Pass `front`, second part: keeps the sprites that can show in some cell they touch, in a list of
-// the same form. In a deep body of water that is the surface alone. Not in the source.
+// Pass `front`, second part: keeps the sprites that can be visible in some cell they touch, in a list of the same
+// form. In deep water that is the surface alone. Not in the thesis.
 // Reads: Counts, visible, cells. Writes: front counts, front list.
 
 #include "frame.glsl"

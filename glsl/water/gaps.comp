@@ -1,7 +1,7 @@
 #version 460
-// Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then which slices
-// of depth behind it hold water. The spheres' whole footprints, of ellipsoids too: a cell without air is closed by
-// what lies beside its pixels too. Not in the source (its limitation, Fig. 5.13).
+// Pass `gaps`, first and second part: per cell of 8x8 pixels the nearest centre, then the depth slices behind it that
+// hold water. The whole footprints of spheres and ellipsoids count, so a cell is also closed by water outside of its
+// pixels. Not in the thesis (its limitation, Fig. 5.13).
 // Reads: Counts, visible, nearest. Writes: nearest (1), marks (2).
 
 #include "frame.glsl"

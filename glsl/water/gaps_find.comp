@@ -1,7 +1,7 @@
 #version 460
-// Pass `gaps`, third part: of each cell the middle of the air before the last body of water behind
-// some air, or before the first drop where there is no body. So both walls of a crown are one sheet,
-// the pool behind them the other. Not in the source.
+// Pass `gaps`, third part: for each cell the middle of the air in front of the last body of water that is behind air, or
+// in front of the first drop if there is no such body. Both walls of a crown are thus one layer, and the pool behind them
+// the other. Not in the thesis.
 // Reads: nearest, marks. Writes: boundaries of the cells.
 
 #include "frame.glsl"

@@ -1,6 +1,7 @@
 #version 460
-// Pass `gaps`, fourth part: cells without a boundary take one from those near, by their squared
-// distance: where water ends a boundary goes on, or its last cell would show as a square. Not in the source. Reads: boundaries of the cells. Writes: the same, spread.
+// Pass `gaps`, fourth part: dilation: cells without a boundary take one from cells nearby, weighted by squared distance.
+// A boundary thus continues where water ends; otherwise its last cell would show as a square. Not in the thesis.
+// Reads: boundaries of the cells. Writes: the same, dilated.
 
 #include "frame.glsl"
 

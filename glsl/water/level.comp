@@ -1,7 +1,6 @@
 #version 460
-// Pass `level`: the reduction again for each level that is coarser than the configured one, in the tiles
-// where some of the water is so near as to need it. Not in the source, whose cap leaves near water
-// rough.
+// Pass `level`: the reduction repeated for each level coarser than the configured one, in tiles with water near enough
+// to need it. Not in the thesis, whose cap leaves near water rough.
 // Reads: levels, depth (occluded pixels emptied), marks and list of the levels' tiles. Writes: both smoothing images,
 // plan, work of the levels' tiles.
 

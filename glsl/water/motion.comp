@@ -1,7 +1,6 @@
 #version 460
-// Pass `motion`, second part, not in the sources: how far each particle near a surface has come, weighted
-// as its thickness. Those that few texels see are an invocation's each; the others are done by the whole
-// group.
+// Pass `motion`, second part, not in the sources: motion of each particle near a surface, weighted by its thickness.
+// Particles over few texels take one invocation each; a whole group handles each of the others.
 // Reads: Counts (particles), positions, velocities, densities, foam, members, fronts. Writes: sums.
 
 #include "frame.glsl"

@@ -1,5 +1,5 @@
 #version 460
-// Pass `motion`, first part, not in the sources: the surfaces in each texel; its sums begin at nothing.
+// Pass `motion`, first part, not in the sources: the surfaces in each texel; clears its sums.
 // Reads: depth, foam depth and thickness, scene depth. Writes: fronts, sums.
 
 #include "frame.glsl"

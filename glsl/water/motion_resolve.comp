@@ -1,8 +1,7 @@
 #version 460
-// Pass `motion`, last part: where what a pixel shows was in the frame before, in pixels from there to
-// here. Of water and foam by their own motion and the camera's, of the scene by the camera's alone.
-// All of it is differences: nothing that moved is nothing, and small motion is as exact as large.
-// Not in the sources.
+// Pass `motion`, last part: previous position of the visible point of each pixel, as a vector in pixels from there to
+// here. Water and foam have their own motion and the camera's, the scene has the camera's alone. Everything is
+// computed as differences: zero motion is exactly zero, and small motion is as exact as large. Not in the sources.
 // Reads: fronts, sums, depth, foam depth and thickness, smoothed, levels, scene depth. Writes: motion.
 
 #include "frame.glsl"

@@ -1,7 +1,6 @@
 #version 460
-// Pass `noise` (van der Laan et al. 2009): one octave a particle, fixed to it, under a kernel; less the
-// deeper it lies below the surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no
-// water.
+// Pass `noise` (van der Laan et al. 2009): one octave per particle, fixed to it, under a kernel, fading with its depth
+// below the surface. Reads: water depth. Writes: noise (R32F), summed; 0 where there is no water.
 
 #include "frame.glsl"
 #include "random.glsl"

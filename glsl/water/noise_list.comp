@@ -1,7 +1,6 @@
 #version 460
-// Pass `noise`, first part: the particles on the screen that are no spray, in eye space. (To leave out
-// those that `front` knows to lie deep below the surface saved nothing: where they are small no sphere
-// covers its cells.)
+// Pass `noise`, first part: lists the particles on the screen that are not spray, in eye space. (Leaving out those
+// that `front` knows to be deep below the surface saved nothing: where spheres are small none covers a cell.)
 // Reads: Counts (particles), positions, densities, ids, members. Writes: Counts (noise), sprites.
 
 #include "frame.glsl"

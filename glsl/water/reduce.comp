@@ -1,9 +1,8 @@
 #version 460
-// Pass `reduce`: hides water behind the scene, takes the nearest surface of each block of pixels
-// (but no drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1,
-// Listing A.12).
-// Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan,
-// work of every tile.
+// Pass `reduce`: rejects water behind the scene, takes the nearest surface of each block of pixels (but not a single
+// drop's) and plans its smoothing: iterations and step, fixed from here on (thesis Sec. 3.1, Listing A.12).
+// Reads: depth, scene depth, levels. Writes: depth (occluded pixels emptied), both smoothing images, plan, work of
+// every tile.
 
 #include "frame.glsl"
 #include "plan.glsl"

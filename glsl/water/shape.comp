@@ -1,9 +1,9 @@
 #version 460
-// Pass `shape`, third part: the ellipsoid of each particle, by the weighted covariance of its neighbours (Yu and Turk 2013,
-// Sec. 4, Eqs. 6 and 9 to 16). What differs: it keeps its sphere's volume (theirs, k_s, goes by a constant of the
-// kernel), and from sphere to ellipsoid it goes by the sum of the neighbours' weights, not at once at a number of them, so that
-// it does not jump in time.
-// Sums are of whole steps: whatever order neighbours come in, the same is made of them.
+// Pass `shape`, third part: fits the ellipsoid of each particle to the weighted covariance of its neighbours (Yu and
+// Turk 2013, Sec. 4, Eqs. 6 and 9 to 16). Differs: it keeps its sphere's volume (the paper's k_s is a kernel
+// constant), and it changes from sphere to ellipsoid with the sum of the neighbours' weights, not at a number of
+// neighbours, so that it does not jump in time.
+// Sums use fixed-point steps: the order of the neighbours does not matter.
 // Reads: the grid, counts. Writes: shaped, shifts.
 
 #include "random.glsl"

@@ -1,7 +1,8 @@
 #version 460
-// Pass `shape`, last part: particles go towards the middle of their neighbours, so that sheets and rims are smooth (Yu and
-// Turk 2013, Eq. 6), less what their neighbours do on average (Vollmer, Mencl, Mueller 1999): by Eq. 6 alone all at the surface of
-// a body go inwards, and it shrinks from its walls. Those count that go far, at the surface as it does.
+// Pass `shape`, last part: moves particles towards the centre of their neighbours, so that sheets and rims are smooth
+// (Yu and Turk 2013, Eq. 6), minus the mean displacement of their neighbours (Vollmer, Mencl, Mueller 1999): with Eq.
+// 6 alone the whole surface moves inwards, and a body shrinks from its walls. Neighbours with large displacements, at
+// the surface like the particle, count most.
 // Reads: the grid, counts, shifts. Writes: shaped (places).
 
 #include "random.glsl"

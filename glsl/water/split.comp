@@ -1,8 +1,7 @@
 #version 460
-// Pass `split`: the first level's tiles with water again, apart by whether they hold a boundary, whether they hold
-// foam and whether coarser levels show in them, so that `composite` can shade each kind with a shader that knows of
-// no more.
-// Not in the source.
+// Pass `split`: sorts the first level's tiles with water by whether they hold a boundary, foam, and coarser levels, so
+// that `composite` can shade each kind with a shader that handles no more.
+// Not in the thesis.
 // Reads: tile list and arguments, work, levels, boundaries, foam depth and thickness. Writes: eight lists, their
 // lengths.
 

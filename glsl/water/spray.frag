@@ -1,6 +1,5 @@
 #version 460
-// Pass `spray`: how much of the light from behind droplets before scene and water take away (thesis
-// Sec. 4.9.5 adds a colour instead).
+// Pass `spray`: optical depth of droplets in front of scene and water (thesis Sec. 4.9.5 adds a colour instead).
 // Reads: scene depth, water depth. Writes: spray (RG32F, or RG16F where that is not blended), summed.
 
 #include "frame.glsl"

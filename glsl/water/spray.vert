@@ -1,8 +1,7 @@
 #version 460
-// Pass `spray` (thesis Sec. 4.9.5; several a particle are ours): a quad round each droplet, an ellipse that
-// faces the eye, along its motion as that looks from there.
-// Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, the light taken away and how much
-// of that the sun lights.
+// Pass `spray` (thesis Sec. 4.9.5; several droplets per particle are new): a quad around each droplet, an ellipse that
+// faces the camera, stretched along its projected motion.
+// Reads: sprites, what sunlight.glsl reads. Writes: the quad's corners, the opacity and its sunlit part.
 
 #include "frame.glsl"
 #include "random.glsl"

@@ -1,6 +1,5 @@
 #version 460
-// Pass `spray`, first part: the particles that are spray, all of them or in part, in eye space
-// (thesis Sec. 4.9.5).
+// Pass `spray`, first part: lists the particles that are fully or partly spray, in eye space (thesis Sec. 4.9.5).
 // Reads: Counts (particles), positions, densities, velocities, ids, members. Writes: Counts (droplets), sprites.
 
 #include "frame.glsl"

@@ -1,10 +1,10 @@
 #version 460
-// Pass `thickness`, compute path: sums of fixed-point numbers, so that their order is no matter
-// (thesis Sec. 4.8.1 blends; kernel.glsl).
-// An addend is 2^26 at most (a particle of half the radius), 64 overflow a word: what they carry is
-// counted in a second one, as exact. Any number of particles may lie on one spot.
-// A second time for the front of two sheets and the window between them: for few spheres, those that
-// do not lie well behind every boundary near.
+// Pass `thickness`, compute path: fixed-point sums, so that the order does not matter (thesis Sec. 4.8.1 blends;
+// kernel.glsl).
+// An addend is 2^26 at most (a particle of half the radius), so 64 of them overflow a word; carries are counted in a
+// second word. Any number of particles may lie on one spot.
+// A second dispatch sums the front of two layers and the window between them, for the few spheres that are not well
+// behind every nearby boundary.
 // Reads: Counts, visible, scene depth, with foam that and the frontmost foam's from its words, boundaries, blocks.
 // Writes: sums (UNITS of the amplitude).
 

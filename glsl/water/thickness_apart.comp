@@ -1,7 +1,6 @@
 #version 460
-// Pass `thickness`, compute path, with two sheets: their sums to metres. Where all water is of one
-// there is no boundary any more: there is nothing to tell apart. Not in the
-// source.
+// Pass `thickness`, compute path, with two layers: their sums to metres. Where all water belongs to one layer the
+// boundary is removed. Not in the thesis.
 // Reads: sums, boundaries. Writes: sheets (RGBA32F: front, back, window), boundaries.
 
 #include "frame.glsl"

@@ -1,6 +1,6 @@
 #version 460
-// Pass `thickness`, compute path with foam, last part: fixed point to metres, of all water and of what
-// is before the frontmost foam: all of it where there is none (T_wf, thesis Sec. 3.2.2).
+// Pass `thickness`, compute path with foam, last part: fixed point to metres, of all water and of the water in front
+// of the frontmost foam: all of it where there is none (T_wf, thesis Sec. 3.2.2).
 // Reads: sums, foam depth. Writes: thickness (RG32F).
 
 #include "frame.glsl"

@@ -1,8 +1,8 @@
 #version 460
-// Pass `tiles`: sorts the tiles that hold water by their iterations, most first, so that the
-// tiles with work left in iteration i are a prefix of the list; writes the arguments of every
-// iteration's dispatch. A counting sort by one workgroup. Not in the source.
-// Reads: work of every tile (most iterations + 1), levels. Writes: list, arguments.
+// Pass `tiles`: sorts the tiles that hold water by iteration count, largest first, so that the tiles still active in
+// iteration i are a prefix of the list; writes the arguments of every iteration's dispatch. A counting sort by one
+// workgroup. Not in the thesis.
+// Reads: work of every tile (maximum iterations + 1), levels. Writes: list, arguments.
 
 #include "frame.glsl"
 #include "level.glsl"
