@@ -70,13 +70,13 @@ fn check_slots(slots: u32) -> Result<(), Error> {
 pub struct Samplers {
     /// Nearest texel, first mip.
     pub nearest: vk::Sampler,
-    /// Linear in the texels and between the mips.
+    /// Trilinear.
     pub linear: vk::Sampler,
-    /// The same, closed on itself from left to right: for maps of all directions.
+    /// Trilinear, repeating from left to right: for maps of all directions.
     pub around: vk::Sampler,
 }
 
-/// What the clones of a context have in common.
+/// State shared by the clones of a context.
 pub struct Shared {
     /// Device functions.
     pub device: ash::Device,
@@ -84,7 +84,7 @@ pub struct Shared {
     pub enabled: Enabled,
     /// Limits of the physical device.
     pub limits: vk::PhysicalDeviceLimits,
-    /// Bytes of a buffer at most.
+    /// Maximum size of a buffer, bytes.
     pub max_buffer_size: u64,
     /// What kind of device it is: the defaults of the paths depend on it.
     pub kind: vk::PhysicalDeviceType,
@@ -239,7 +239,7 @@ impl Drop for Shared {
     }
 }
 
-/// What is made once for each key.
+/// A cache of objects by key.
 pub struct Store<K, V>(Mutex<HashMap<K, V>>);
 
 impl<K, V> Default for Store<K, V> {

@@ -115,7 +115,7 @@ fn axes(up: [f32; 3]) -> [Vec3; 3] {
 }
 
 impl EnvironmentSource {
-    /// What is wrong with it.
+    /// Validates the source.
     pub(crate) fn check(&self) -> Result<(), Error> {
         match self {
             Self::Sky(sky) => check_up("Sky.up", sky.up),
@@ -124,9 +124,9 @@ impl EnvironmentSource {
     }
 }
 
-/// Edge of the irradiance without its border.
+/// Side length of the irradiance map without its border.
 const IRRADIANCE: u32 = 32;
-/// Most of the environment's faces that it is gathered from.
+/// Maximum side length of the faces that irradiance is gathered from.
 const COARSE: u32 = 16;
 
 /// The cube between its passes: read by any shader.
@@ -139,16 +139,16 @@ pub struct Environment {
     /// RGBA16F, six faces, all mips.
     pub cube: Image,
     faces: Owned<vk::ImageView>,
-    /// The cube without the sun and its faces, for [`Irradiance::Sampled`], where that is how foam is lit. Its first level is
-    /// asked; SwiftShader fills the seams of a cube when it blits its mips, not when compute has written it.
+    /// The cube without the sun and its faces, for [`Irradiance::Sampled`]. Its first level is sampled;
+    /// SwiftShader fills the seams of a cube when it blits mips, not when compute writes it.
     sunless: Option<(Image, Owned<vk::ImageView>)>,
-    /// The sun is in the cube last recorded, and not in that one.
+    /// Whether the sun is in the cube recorded last, and not in the one without the sun.
     apart: bool,
-    /// For explicit levels: without the last, whose seams SwiftShader never writes but filters over.
+    /// View for explicit levels: without the last one, whose seams SwiftShader never writes but filters across.
     pub levels: Owned<vk::ImageView>,
     mips: u32,
     gather: Pipeline,
-    /// What a surface gathers of it, over 2π: RGBA16F, octahedral with a border of a texel.
+    /// Irradiance divided by 2π: RGBA16F, octahedral with a border of one texel.
     pub irradiance: Image,
 }
 
@@ -202,12 +202,12 @@ impl Environment {
         })
     }
 
-    /// Foam asks it at its samples' directions.
+    /// Whether foam samples it in the directions of its occlusion samples.
     pub fn is_sampled(config: &Config) -> bool {
         config.diffuse.is_some_and(|foam| foam.irradiance == Irradiance::Sampled)
     }
 
-    /// A first, black environment, so that a frame may sample it.
+    /// Records a black environment, so that frames can sample it.
     pub fn record_setup(&self, gpu: &Gpu, cmd: vk::CommandBuffer) {
         let change = |from, to| {
             let barriers: Vec<_> =
@@ -231,7 +231,7 @@ impl Environment {
         self.images().map(|image| image.size).sum()
     }
 
-    /// What foam gathers at its samples' directions.
+    /// The cube that foam samples.
     pub fn gathered(&self) -> &Image {
         match &self.sunless {
             Some((image, _)) if self.apart => image,
@@ -271,7 +271,7 @@ impl Environment {
         recorded
     }
 
-    /// The cube and its mips of the built-in sky.
+    /// Cube and mips of the built-in sky.
     fn record_sky(
         &self,
         gpu: &Gpu,
@@ -293,7 +293,7 @@ impl Environment {
         Ok(())
     }
 
-    /// The same of an image, scaled and turned as the map says.
+    /// Cube and mips of an image, scaled and rotated.
     fn record_map(
         &self,
         gpu: &Gpu,
@@ -307,7 +307,7 @@ impl Environment {
         Ok(())
     }
 
-    /// The cube of an image without the sun, where foam asks it at its samples' directions.
+    /// Cube of an image without the sun, if foam samples it.
     fn record_sunless(
         &self,
         gpu: &Gpu,
@@ -323,7 +323,7 @@ impl Environment {
         Ok(())
     }
 
-    /// Faces of an image of the host's.
+    /// Fills the faces from an image of the host.
     fn fill_with(
         &self,
         gpu: &Gpu,
@@ -346,7 +346,7 @@ impl Environment {
         Ok(())
     }
 
-    /// What is in the cube goes, and its faces are written next.
+    /// Discards the cube's contents; its faces are written next.
     fn begin_cube(&self, gpu: &Gpu, cmd: vk::CommandBuffer) -> (u32, Resource) {
         gpu.barriers(cmd, &[access::image(&self.cube, SAMPLED.discarded(), COMPUTE_WRITE)], &[]);
         (0, Resource::Storage(self.faces.handle))
@@ -382,7 +382,7 @@ impl Environment {
         Ok(())
     }
 
-    /// Each mip is a blit of the one before.
+    /// Blits each mip from the previous one.
     fn record_mips(&self, gpu: &Gpu, cmd: vk::CommandBuffer, cube: &Image) {
         let mip_barrier = |mip: u32, count: u32, before, after| {
             let mut barrier = access::image(cube, before, after);

@@ -13,15 +13,15 @@ use crate::random::Random;
 /// Minimum and maximum number of bubbles of a blob: the impostor's maps have eight bits for an index.
 pub const BUBBLES: std::ops::RangeInclusive<u32> = 8..=256;
 
-/// Candidates for a bubble's first place, of which the one farthest from all others is taken.
+/// Candidates for a bubble's initial position; the one farthest from all others is taken.
 const CANDIDATES: u32 = 8;
-/// Rounds in which the bubbles push each other away.
+/// Iterations of the repulsion between bubbles.
 const ROUNDS: u32 = 40;
-/// How far radii differ from their mean, and how far a centre lies off the shell, in radii.
+/// Relative variation of radii, and offset of a centre from the shell, in radii.
 const SPREAD: f64 = 0.3;
 const OFF_SHELL: f64 = 0.15;
 
-/// Those that a bubble is told to have beside it, at most (glsl/include/blob.glsl).
+/// Maximum number of stored neighbours per bubble (glsl/include/blob.glsl).
 pub(super) const NEIGHBOURS: usize = 16;
 
 /// The bubbles of one blob in its own space, whose bounding sphere is the unit sphere around the origin.
@@ -31,7 +31,7 @@ pub struct Blob {
     pub bubbles: Vec<[f32; 4]>,
 }
 
-/// Evenly over all.
+/// A uniformly distributed direction.
 fn direction(random: &mut Random) -> DVec3 {
     loop {
         let v = DVec3::from([random.next(), random.next(), random.next()].map(|x| 2.0 * x - 1.0));
@@ -42,7 +42,7 @@ fn direction(random: &mut Random) -> DVec3 {
     }
 }
 
-/// How far apart two bubbles are whose films meet at 120°.
+/// Distance of two bubbles whose films meet at 120°.
 fn apart(a: f64, b: f64) -> f64 {
     (a * a + b * b - a * b).sqrt()
 }
@@ -94,8 +94,8 @@ impl Blob {
         Self { bubbles }
     }
 
-    /// Of each bubble those that it intersects, the nearest of them by how deep, a byte each; itself where there are
-    /// fewer.
+    /// For each bubble the indices of the bubbles that it intersects, deepest first, one byte each; its own
+    /// index where there are fewer.
     pub(super) fn neighbours(&self) -> Vec<[u8; NEIGHBOURS]> {
         let depth = |a: &[f32; 4], b: &[f32; 4]| {
             let apart = (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f32>().sqrt();

@@ -25,12 +25,12 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Distances that are told apart (glsl/include/hand_over_rings.glsl).
+/// Bins of the distance histogram (glsl/include/hand_over_rings.glsl).
 const RINGS: u64 = 1024;
-/// Bytes of what says up to where there are blobs.
+/// Bytes of the cross-fade distances.
 const OVER: u64 = 16;
 
-/// How the sprites' passes read that.
+/// How the sprite passes read them.
 const OVER_READ: Access = COMPUTE_READ.and(VERTEX_READ);
 
 #[repr(C)]
@@ -45,7 +45,7 @@ const _: () =
 /// The pass.
 pub struct Near {
     begin: Pipeline,
-    /// How many, which; of particles as the source has them, and of others.
+    /// Pipelines of the two dispatches, histogram and entries, for default and for other particle shapes.
     goes: [[Pipeline; 2]; 2],
     range: Pipeline,
     chunks: Chunks,
@@ -91,7 +91,7 @@ impl Near {
         })
     }
 
-    /// What says up to where there are blobs.
+    /// The distances of the cross-fade.
     pub fn over(&self) -> Resource {
         Resource::buffer(&self.over)
     }
@@ -114,7 +114,8 @@ impl Near {
         }
     }
 
-    /// Before anything else takes the particles' buffers, which are read by compute afterwards.
+    /// Runs before any other pass takes over the particles' buffers, which are in the compute-read state
+    /// afterwards.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -210,7 +211,7 @@ impl Near {
     }
 }
 
-/// Descriptor sets that a frame takes.
+/// Number of descriptor sets per frame.
 pub fn sets(limits: &vk::PhysicalDeviceLimits, diffuse: &DiffuseConfig) -> u32 {
     2 + 2 * Chunks::new(limits, diffuse).count
 }

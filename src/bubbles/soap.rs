@@ -57,12 +57,12 @@ impl Soap {
         Ok(())
     }
 
-    /// Colour, premultiplied, and how much it covers.
+    /// Premultiplied colour, with opacity in A.
     pub fn image(&self) -> &Image {
         &self.image
     }
 
-    /// `water`: its depth and thickness, which come and go as sampled by fragments.
+    /// `water`: its depth and thickness, sampled by fragment shaders before and after.
     pub fn record(
         &self,
         r: &Recording<'_>,

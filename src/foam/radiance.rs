@@ -34,7 +34,7 @@ use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 use crate::water::Recording;
 
-/// Most samples of a sphere.
+/// Maximum number of samples per sphere.
 const MOST_SAMPLES: usize = 512;
 
 /// Radical inverse of `index` in a base (van der Corput).
@@ -61,9 +61,9 @@ fn points() -> Vec<[f32; 4]> {
 /// Pairs of points of the fast mode, a sixteenth of them for each pixel of a block (glsl/foam/radiance.comp).
 const PAIRS: u32 = 160;
 
-/// Of pairs of points opposite each other the one of each, all of weight 1: as dense as `λ = (1 − |s|)²` says, evenly spread
-/// by the multiples of three powers of a root of x⁴ = x + 1 (Roberts, The unreasonable effectiveness of
-/// quasirandom sequences, 2018), any run of which fills the sphere.
+/// One point of each opposite pair, all with weight 1: density as `λ = (1 − |s|)²`, low-discrepancy by the
+/// multiples of three powers of a root of x⁴ = x + 1 (Roberts, The unreasonable effectiveness of quasirandom
+/// sequences, 2018). Any run of them fills the sphere.
 fn pairs() -> Vec<[f32; 4]> {
     const ROOT: f64 = 1.220_744_084_605_759_6;
     let pair = |index: u32| {
@@ -76,7 +76,7 @@ fn pairs() -> Vec<[f32; 4]> {
     (1..=PAIRS).map(pair).map(|[x, y, z]| [x, y, z, 1.0]).collect()
 }
 
-/// The radius within which this share of the unit sphere lies, weighed by λ: where `10 r³ − 15 r⁴ + 6 r⁵` is it.
+/// The radius that contains a given λ-weighted share of the unit sphere: solves `10 r³ − 15 r⁴ + 6 r⁵ = share`.
 fn radius_within(share: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
@@ -87,7 +87,7 @@ fn radius_within(share: f64) -> f64 {
     high
 }
 
-/// The surface of the water, as the fragments of `composite` take it.
+/// The water's surface, as the fragment shaders of `composite` read it.
 #[derive(Clone, Copy)]
 pub struct Surface<'a> {
     pub depth: &'a Image,
@@ -101,7 +101,7 @@ pub struct Radiance {
     gather: Pipeline,
     blur: Pipeline,
     points: Buffer,
-    /// Light gathered and shadow, and room for them half blurred.
+    /// Light and shadow, and the half-blurred intermediate.
     images: [Image; 2],
 }
 
@@ -236,7 +236,7 @@ impl Radiance {
         Ok(())
     }
 
-    /// The water's surface among what stands round foam.
+    /// Adds the water's smoothed surface to the occluders.
     fn record_surface(
         &self,
         r: &Recording<'_>,

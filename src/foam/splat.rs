@@ -54,12 +54,12 @@ const _: () = assert!(
     std::mem::offset_of!(BeginPush, counting) == shader::FOAM_BEGIN_COMP.offset("Push", "count")
 );
 
-/// What depends on the frame's size.
+/// Size-dependent state.
 struct Targets {
     words: Buffer,
-    /// Foam depth, intensity of all, depths of fluid and scene.
+    /// Foam depth, total intensity, depths of fluid and scene.
     occluders: Image,
-    /// Before the fluid, behind it, the second by how far.
+    /// Thickness in front of the fluid, behind it, and the latter times its distance behind.
     thickness: Image,
     /// World normal, search radius.
     normal: Image,
@@ -87,9 +87,9 @@ impl Targets {
     }
 }
 
-/// How the particles become words and images.
+/// Path of the splats.
 enum Way {
-    /// One go after the other over all particles.
+    /// Dispatches over all particles, one after the other.
     Compute(Vec<Covering>),
     Quads(Box<Quads>),
 }
@@ -104,7 +104,7 @@ pub struct Sprites {
     chunks: Chunks,
 }
 
-/// The way that a configuration takes.
+/// The path that a configuration uses.
 pub fn way(gpu: &Gpu, diffuse: &DiffuseConfig) -> Splat {
     let fastest = if gpu.enabled.buffer_int64_atomics { Splat::Compute64 } else { Splat::Compute };
     diffuse.splat.unwrap_or(fastest)
@@ -172,7 +172,7 @@ impl Sprites {
         &self.targets.occluders
     }
 
-    /// Thickness before the fluid, behind it, the second by how far behind it lies.
+    /// Thickness in front of the fluid, behind it, and the latter times its distance behind.
     pub fn thickness(&self) -> &Image {
         &self.targets.thickness
     }
@@ -191,7 +191,7 @@ impl Sprites {
         }
     }
 
-    /// `water`: depth of its frontmost spheres, as its pass left it; it comes back so.
+    /// `water`: depth of its frontmost spheres, in the state in which pass `depth` leaves it, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

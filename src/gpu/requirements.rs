@@ -355,7 +355,7 @@ impl Offer {
         Ok(())
     }
 
-    /// The largest image that can be drawn into.
+    /// The largest image that can be rendered to.
     fn largest(&self) -> vk::Extent2D {
         let limits = &self.limits;
         let (image, view) = (limits.max_image_dimension2_d, limits.max_viewport_dimensions);
@@ -370,8 +370,8 @@ fn named(extent: vk::Extent2D) -> String {
     format!("{}x{}", extent.width, extent.height)
 }
 
-/// What grows with the extent and is bound whole: the field, the bytes, and what to do. Left out are lists of tiles, a
-/// word each, which no image is large enough for.
+/// Buffers that grow with the extent and are bound as a whole: field, bytes, remedy. Tile lists are omitted:
+/// with one word per tile no image is large enough for them to matter.
 fn bound_whole(config: &crate::contract::Config) -> Vec<(&'static str, u64, &'static str)> {
     let fewer = "a smaller extent, or a higher Config.thickness_level";
     let sums = (config.thickness_splat.unwrap_or(DEFAULT_SPLAT) == Splat::Compute)

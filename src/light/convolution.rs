@@ -35,14 +35,14 @@ use crate::gpu::shader;
 use crate::water::Recording;
 use crate::water::settings::{ShadowFilter, Shadows};
 
-/// Texels a side that a group of the first part looks at.
+/// Side length in texels of the block that a group of the first part reads.
 const SPAN_BLOCK: u32 = 128;
 /// Bytes of the span.
 const SPAN: u64 = 16;
 /// One page, whole and filtered along one axis: every device stores and samples it.
 const PAGE: vk::Format = vk::Format::R16G16B16A16_SFLOAT;
 
-/// Read by what shades, and by the vertices of spray.
+/// Read by shading passes, and by the vertex shader of spray.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
@@ -68,7 +68,7 @@ impl Default for Convolution {
 }
 
 impl Convolution {
-    /// What is wrong with it.
+    /// Validates the configuration.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let Self { terms, texels, bits } = *self;
         let bad = |why: String| Err(Error::bad("Config.shadow", why));
@@ -92,7 +92,7 @@ impl Convolution {
         }
     }
 
-    /// A page's texels a side.
+    /// Side length of a page in texels.
     fn page(&self) -> u32 {
         self.texels + 2
     }
@@ -102,7 +102,7 @@ impl Convolution {
         vk::Extent2D { width: self.terms / 4 * self.page(), height: 2 * self.page() }
     }
 
-    /// The map's texels that one of ours covers along an axis, and how many ours are.
+    /// Texels of the map per texel of the image along an axis, and the size of the image.
     fn size(&self, map: vk::Extent2D) -> (u32, vk::Extent2D) {
         let edge = map.width.max(map.height).div_ceil(self.texels).max(1);
         let (width, height) = (map.width.div_ceil(edge), map.height.div_ceil(edge));
@@ -110,7 +110,7 @@ impl Convolution {
     }
 }
 
-/// The configuration of the pass, where it is asked for.
+/// The configuration of the pass, if it is enabled.
 pub fn convolution(config: &Config) -> Option<Convolution> {
     match config.shadow {
         Some(Shadows::Convolution(convolution)) => Some(convolution),
@@ -118,7 +118,7 @@ pub fn convolution(config: &Config) -> Option<Convolution> {
     }
 }
 
-/// Numbers of a frame, as glsl/include/frame.glsl has them.
+/// Values of a frame (glsl/include/frame.glsl).
 #[derive(Clone, Copy, Default)]
 pub struct Convolved {
     pub linear: [f32; 4],
@@ -128,7 +128,7 @@ pub struct Convolved {
 }
 
 impl Convolved {
-    /// None where the configuration has no such pass.
+    /// `None` if the pass is disabled.
     pub fn new(frame: &Frame<'_>, config: &Config) -> Option<Self> {
         let (convolution, shadow) = (convolution(config)?, frame.sun.shadow.as_ref()?);
         let settings = &frame.settings.shadow;
@@ -159,7 +159,7 @@ fn weights(terms: u32, settings: &ShadowFilter) -> impl Iterator<Item = f32> + u
     })
 }
 
-/// From where on the series, made steeper, is 1; where it nowhere is, its first maximum.
+/// Position from which the steepened series is 1; its first maximum if it never is.
 fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     const STEPS: u32 = 256;
     // No maximum comes later, with the damping there may be.
@@ -179,8 +179,9 @@ fn ramp(terms: u32, settings: &ShadowFilter) -> f32 {
     most
 }
 
-/// Device depth z to (a z + b) / (c z + d), even along the light: its depth by a perspective projection,
-/// z itself by a parallel one or by one whose depth goes by place too. It grows away from the light.
+/// Coefficients of (a z + b) / (c z + d), which maps device depth to a depth that is linear along the light:
+/// the depth of a perspective projection, z itself for a parallel one or for one whose depth also depends on
+/// the position. It increases away from the light.
 fn linear(shadow: &Shadow, nearer: f32) -> [f32; 4] {
     let clip = shadow.view_projection;
     let (z, w) = (clip.row(2), clip.row(3));
@@ -206,7 +207,7 @@ pub struct Convolving {
     across: Pipeline,
     down: Pipeline,
     span: Buffer,
-    /// One page, and it filtered along x.
+    /// One page, and the page filtered along x.
     page: [Image; 2],
     basis: Image,
     pages: u32,
@@ -253,7 +254,7 @@ impl Convolving {
         Resource::Buffer(self.span.handle, 0, SPAN)
     }
 
-    /// `shadow`: the host's, which compute samples by `map`.
+    /// `shadow`: the host's map; `map` is its resource for compute.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -64,7 +64,7 @@ pub struct Diffuse {
     /// The result.
     pub image: Image,
     chunks: Chunks,
-    /// Rows whose words can be bound at once.
+    /// Rows whose words fit in one binding.
     rows: u32,
 }
 
@@ -99,7 +99,7 @@ impl Diffuse {
         })
     }
 
-    /// After `light`, whose front it takes. The particles' buffers are taken over here.
+    /// Runs after `light`, whose front it reads. Takes over the particles' buffers.
     pub fn record(
         &self,
         r: &mut Recording<'_>,
@@ -125,7 +125,7 @@ impl Diffuse {
         Ok(())
     }
 
-    /// The words are those of the particles afterwards.
+    /// Accumulates the particles in the words.
     fn record_splat(
         &self,
         r: &Recording<'_>,
@@ -155,7 +155,7 @@ impl Diffuse {
         Ok(())
     }
 
-    /// Adds up what comes to some rows, the first and the last.
+    /// Accumulates the contributions to a range of rows.
     fn record_rows(
         &self,
         r: &Recording<'_>,
@@ -225,7 +225,7 @@ impl Diffuse {
     }
 }
 
-/// Rows of a map of so many texels a side whose words a device can bind at once, at least three.
+/// Number of rows of a map whose words fit in one binding, at least three.
 fn rows(limits: &vk::PhysicalDeviceLimits, edge: u32) -> u32 {
     let row = WORDS * u64::from(edge);
     let fit = u64::from(limits.max_storage_buffer_range) / row;

@@ -35,7 +35,7 @@ impl DistanceField {
         Ok(())
     }
 
-    /// Whether a device binds it all at once, up to so many bytes.
+    /// Checks that the field fits in one binding of `most` bytes.
     pub(super) fn check_binding(&self, most: u32) -> Result<(), Error> {
         let bytes = size_of_val(&self.distances[..]);
         if bytes as u64 <= u64::from(most) {
@@ -106,7 +106,7 @@ fn to_triangle(p: Vec3, [a, b, c]: [Vec3; 3]) -> f32 {
     along(a, b).min(along(b, c)).min(along(c, a))
 }
 
-/// Of a triangle seen from 0 (Van Oosterom, Strackee 1983).
+/// Solid angle of a triangle seen from the origin (Van Oosterom, Strackee 1983).
 fn solid_angle([a, b, c]: [Vec3; 3]) -> f32 {
     let (x, y, z) = (a.length(), b.length(), c.length());
     let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;

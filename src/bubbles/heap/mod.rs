@@ -88,7 +88,7 @@ shader::assert_layout!(
 
 struct Pipelines {
     set: Pipeline,
-    /// Numbers, which.
+    /// Two dispatches: counts, then entries.
     place: [Pipeline; 2],
     order: Pipeline,
     run: Pipeline,
@@ -109,7 +109,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    /// What there is of each blob, as every shader binds it.
+    /// Buffers of the blobs' attributes, as every shader binds them.
     fn blobs(&self) -> [(u32, Resource); 6] {
         let own = [&self.balls, &self.turns, &self.ids, &self.drifts, &self.spins];
         std::array::from_fn(|i| match own.get(i) {
@@ -120,7 +120,7 @@ impl Buffers {
 }
 
 struct HeapSlot {
-    /// Of `record_set` and of a step: one command buffer may have both.
+    /// Descriptors of `record_set` and of a step: one command buffer may have both.
     setting: Descriptors,
     descriptors: Descriptors,
     timer: Timer,
@@ -135,12 +135,12 @@ pub struct Heap {
     buffers: Buffers,
     scan: Scan,
     slots: Vec<HeapSlot>,
-    /// Buckets of the grid.
+    /// Number of grid buckets.
     buckets: u32,
-    /// Points of the field of distances each way, its corner and edge.
+    /// Points of the distance field along each axis, its corner and point distance.
     field: ([u32; 3], [f32; 4]),
     count: u32,
-    /// The largest radius, by which cells are.
+    /// The largest radius, which sizes the grid cells.
     largest: f32,
 }
 
@@ -490,12 +490,12 @@ impl Heap {
         gpu.destroy();
     }
 
-    /// Longest stride of a stream of all blobs.
+    /// Maximum stride of a stream, so that all blobs fit in one binding.
     fn stride(&self) -> u32 {
         (self.gpu.limits.max_storage_buffer_range / self.config.max_blobs) & !3
     }
 
-    /// Everything that can be wrong with a step.
+    /// Validates a step.
     fn check(&self, step: &HeapStep<'_>) -> Result<(), Error> {
         check::step(["HeapStep.slot", "HeapStep.dt"], step.slot, self.slots.len(), step.dt)?;
         range("HeapStep.dt", step.dt, 0.0, 1.0)?;
