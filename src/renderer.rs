@@ -30,23 +30,24 @@ use crate::light::{Convolving, Light, Output, convolution, diffuse_sets};
 use crate::shore::{Given, Shore, ShoreUniforms};
 use crate::water::{Beside, Recording, STREAM_USE, Water, buffers_of, shape_sets};
 
-/// Where the frame's levels begin in a slot's uniform buffer: no device asks for more between two.
+/// Offset of the smoothing levels in a slot's uniform buffer; 256 is the largest alignment that a device may
+/// require.
 const LEVELS: usize = size_of::<FrameUniforms>().next_multiple_of(256);
 
-/// Where the numbers of bubble foam do.
+/// Offset of the uniforms of bubble foam.
 const BUBBLES: usize = (LEVELS + size_of::<SmoothingLevels>()).next_multiple_of(256);
 
-/// And those of shoreline and contact foam.
+/// Offset of the uniforms of shoreline and contact foam.
 const SHORE: usize = (BUBBLES + size_of::<BubbleUniforms>()).next_multiple_of(256);
 
-/// What one frame in flight owns.
+/// State of one frame in flight.
 struct SlotState {
     descriptors: Descriptors,
     timer: Timer,
     uniforms: Buffer,
-    /// The output's framebuffer of the frame recorded last.
+    /// Framebuffer of the output of the last recorded frame.
     framebuffer: Option<Owned<vk::Framebuffer>>,
-    /// The environment was recorded with the slot since it came back: its sets must stay.
+    /// Whether the environment was recorded with the slot since it came back: then its sets have to stay.
     has_environment: bool,
 }
 
@@ -56,7 +57,7 @@ pub struct Renderer {
     config: Config,
     slots: Vec<SlotState>,
     retired: RetireList,
-    /// False while a resize has failed half-way.
+    /// False after a resize has failed half-way.
     whole: bool,
     water: Water,
     composite: Composite,
@@ -66,7 +67,7 @@ pub struct Renderer {
     bubbles: Option<Bubbles>,
     shore: Option<Shore>,
     environment: Environment,
-    /// Copy of the scene's colour, when it is the output itself.
+    /// Copy of the scene's colour, if it is the output itself.
     scene_copy: Option<Image>,
 }
 
@@ -197,8 +198,8 @@ impl Renderer {
         unsafe { self.record_frame(cmd, frame, None) }.map(|(recorded, _)| recorded)
     }
 
-    /// [`record`](Self::record), where the smoothing may be ended by the host's look at the
-    /// queries; also returns the command buffer that was recorded last.
+    /// As [`record`](Self::record), optionally with the smoothing ended by the host, which reads the queries
+    /// back. Also returns the command buffer that was recorded last.
     pub(crate) unsafe fn record_frame<'a>(
         &'a mut self,
         cmd: vk::CommandBuffer,
@@ -498,8 +499,8 @@ impl Renderer {
         Ok(due)
     }
 
-    /// What a configuration needs anew: the environment only where its size changes, or whether foam asks for it at its
-    /// samples' directions.
+    /// Creates the parts that a configuration needs. The environment is recreated only if its size or its use
+    /// by foam changes.
     fn make_parts(
         &self,
         config: &Config,
@@ -571,7 +572,7 @@ impl Renderer {
         self.gpu.offer(config.output_format).check(config)
     }
 
-    /// Everything that can be wrong with a frame.
+    /// Validates a frame.
     fn check_frame(&self, frame: &Frame<'_>) -> Result<Lens, Error> {
         if !self.whole {
             return Err(Error::bad("Renderer", "its last resize failed: call resize again first"));
@@ -580,7 +581,7 @@ impl Renderer {
     }
 }
 
-/// What any change of the configuration makes anew.
+/// Parts that every change of the configuration recreates.
 struct Parts {
     water: Water,
     composite: Composite,
@@ -593,7 +594,7 @@ struct Parts {
 }
 
 impl Parts {
-    /// `before`: what there was until now, of which what still fits is kept.
+    /// `before`: the previous parts, of which those that still fit are kept.
     fn new(
         gpu: &Gpu,
         config: &Config,
@@ -649,7 +650,7 @@ impl SlotState {
         })
     }
 
-    /// A few sets a pass, and those of the splats for every chunk of particles.
+    /// Number of descriptor sets: a few per pass, and those of the splats for every chunk of particles.
     fn sets(gpu: &Gpu, config: &Config) -> u32 {
         let diffuse = config.diffuse.map_or(0, |diffuse| Chunks::new(&gpu.limits, &diffuse).count);
         let water = crate::water::chunks(&gpu.limits, config).1;
@@ -662,7 +663,7 @@ impl SlotState {
             + diffuse_sets(&gpu.limits, config)
     }
 
-    /// The slot's earlier work is complete: its sets and its framebuffer can go.
+    /// Begins a frame. The slot's earlier work is complete, so its sets and framebuffer are freed.
     fn begin(&mut self, gpu: &Gpu) -> Result<(), Error> {
         self.framebuffer = None;
         // Framebuffers alone: what holds memory is dropped by `collect`, which buries it.
@@ -673,7 +674,7 @@ impl SlotState {
         self.descriptors.reset(gpu)
     }
 
-    /// The same for the environment, which may share the slot with the frame after it.
+    /// Begins an environment, which may share the slot with the following frame.
     fn begin_environment(&mut self, gpu: &Gpu) -> Result<(), Error> {
         if std::mem::replace(&mut self.has_environment, true) {
             return Ok(());
@@ -682,7 +683,7 @@ impl SlotState {
     }
 }
 
-/// The layers that a frame of this size leaves to the host.
+/// The layers of a frame of this size, for the host.
 fn kept(
     config: &Config,
     water: &Water,
@@ -703,8 +704,8 @@ fn kept(
     layers
 }
 
-/// Pass `scene`: the output's scene to a copy that can be sampled while the output is drawn to.
-/// The output comes in TRANSFER_SRC_OPTIMAL and leaves as `composite` wants it.
+/// Pass `scene`: copies the scene from the output, so that it can be sampled while the output is written. The
+/// output is in TRANSFER_SRC_OPTIMAL before, and in the state that `composite` expects after.
 fn copy_scene(r: &mut Recording<'_>, output: &HostImage, copy: &Image, uses: &Uses) {
     let scope = r.begin(c"scene");
     let (gpu, cmd) = (r.gpu, r.cmd);

@@ -41,9 +41,9 @@ pub struct State {
     config: StateConfig,
     classify: Classify,
     slots: Vec<StateSlot>,
-    /// The odd table holds the state.
+    /// Whether the odd table holds the state.
     odd: bool,
-    /// Nothing was recorded yet: the tables hold anything.
+    /// Whether nothing was recorded yet, so the tables are undefined.
     fresh: bool,
     /// The last step, until it is abandoned: its slot, and whether it was the first.
     last: Option<(Slot, bool)>,
@@ -199,7 +199,7 @@ impl State {
         gpu.destroy();
     }
 
-    /// Everything that can be wrong with a step.
+    /// Validates a step.
     fn check(&self, step: &Step<'_>) -> Result<(), Error> {
         check::step(["Step.slot", "Step.dt"], step.slot, self.slots.len(), step.dt)?;
         step.settings.check()?;

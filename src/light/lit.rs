@@ -25,7 +25,7 @@ use crate::water::settings::Shading;
 /// How the scene's colour is read.
 pub const SCENE_USE: Access = FRAGMENT_SAMPLED;
 
-/// Where the lit scene goes.
+/// Destination of the lit scene.
 pub struct Output {
     /// View of the output.
     pub view: vk::ImageView,
@@ -33,11 +33,11 @@ pub struct Output {
     pub image: vk::Image,
     /// All aspects of the image.
     pub aspect: vk::ImageAspectFlags,
-    /// Its framebuffer; null where there is none.
+    /// Its framebuffer, or null.
     pub target: vk::Framebuffer,
     /// The part of it that is the view.
     pub area: vk::Rect2D,
-    /// How it is used before, and how `composite` wants it.
+    /// Its use before, and the use that `composite` expects.
     pub before: Access,
     pub after: Access,
 }
@@ -49,7 +49,7 @@ enum Out {
 
 /// The pass.
 pub struct Lit {
-    /// The lit scene; begins with the view.
+    /// The lit scene, with the view at its origin.
     target: Target,
     pipeline: Pipeline,
     out: Out,

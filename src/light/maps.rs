@@ -23,7 +23,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 use crate::water::{self, Recording, SphereList, Window};
 
-/// Read by compute, by what shades, and by the vertices of spray.
+/// Read by compute, by shading passes, and by the vertex shader of spray.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED).and(VERTEX_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);

@@ -27,7 +27,7 @@ impl Contact {
         Ok(Self { pipeline: Pipeline::compute(gpu, shader::SHORE_CONTACT_COMP, &constants)? })
     }
 
-    /// The water's layers come and go as sampled by fragments.
+    /// The water's layers are sampled by fragment shaders before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

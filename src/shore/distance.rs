@@ -37,9 +37,9 @@ use crate::host_images::depth_layout;
 use crate::water::Window;
 use crate::water::settings::range;
 
-/// How the distances are read, by frames and by the host.
+/// How frames and the host read the distances.
 const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// Most jumps, and one more.
+/// Maximum number of jumps, plus one.
 const MOST_JUMPS: u32 = 14;
 
 /// Configuration of a [`ShoreMap`]: what fixes its memory, 16 bytes per texel.
@@ -79,8 +79,8 @@ pub struct Area {
 pub enum Heights<'a> {
     /// Meshes, rendered from above. Land is wherever any mesh is above the water, including overhangs.
     Meshes(&'a [MapMesh]),
-    /// Heights along [`Area::up`] at the middles of an image's texels, whose columns go along the first axis and rows along
-    /// the second, over all of the area as it was moved ([`Area::corner`]); any size; only sampled.
+    /// Heights along [`Area::up`] at the centres of an image's texels. Columns run along the first level axis,
+    /// rows along the second, over the snapped area ([`Area::corner`]). Any size, only sampled.
     Image(HostImage),
 }
 
@@ -183,7 +183,7 @@ shader::assert_layout!(
 
 struct Pipelines {
     height: Pipeline,
-    /// Of our own heights, of the host's.
+    /// Pipelines for rendered heights and for the host's.
     seed: [Pipeline; 2],
     jump: Pipeline,
     distance: [Pipeline; 2],
@@ -194,7 +194,7 @@ struct MapSlot {
     timer: Timer,
 }
 
-/// The images, and what makes them.
+/// The images and their passes.
 struct Grid {
     pass: vk::RenderPass,
     framebuffer: Owned<vk::Framebuffer>,
@@ -210,13 +210,13 @@ pub struct ShoreMap {
     config: ShoreMapConfig,
     grid: Grid,
     slots: Vec<MapSlot>,
-    /// Of the last step.
+    /// Area of the last step.
     area: Option<Area>,
-    /// Whose heights were meshes'.
+    /// Whether its heights came from meshes.
     drawn: bool,
 }
 
-/// A part of the map in texels: first, and one past the last.
+/// A window of the map in texels: first, and one past the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
     first: [i32; 2],
@@ -228,7 +228,7 @@ impl Part {
         Self { first: [0; 2], end: [size as i32; 2] }
     }
 
-    /// Of what lies beside the map nothing grows into it.
+    /// The window grown on all sides, clamped to the map.
     fn grown(self, by: i32, size: u32) -> Self {
         if self.is_empty() {
             return self;
@@ -553,7 +553,7 @@ impl ShoreMap {
 }
 
 impl Grid {
-    /// The meshes from above, over what has changed.
+    /// Renders the meshes from above, over the changed window.
     fn record_heights(
         &self,
         gpu: &Gpu,
@@ -640,15 +640,15 @@ impl Grid {
     }
 }
 
-/// What of the meshes is drawn.
+/// The draw of the meshes.
 struct Drawn<'a> {
     area: &'a Area,
     corner: [f32; 2],
     changed: Part,
     meshes: &'a [MapMesh],
-    /// The step before has drawn them too.
+    /// Whether the previous step also drew meshes.
     before: bool,
-    /// Texels of the map each way.
+    /// Texels of the map along each axis.
     size: u32,
 }
 

@@ -29,7 +29,7 @@ use crate::gpu::shader;
 use crate::gpu::target::Target;
 use crate::water::{Recording, Window};
 
-/// Read by what shades.
+/// Read by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
@@ -60,14 +60,14 @@ fn desc(config: &Config) -> ImageDesc<'static> {
 
 /// The pass.
 pub struct Shore {
-    /// For what most frames have, and for all there is (glsl/include/shore.glsl): of each list of tiles.
+    /// Pipelines for most frames, and for the general case (glsl/include/shore.glsl), one per tile list.
     shade: [[Pipeline; 3]; 2],
     strip: Pipeline,
     strip_tiles: Pipeline,
     target: Target,
 }
 
-/// Specialisation of the edge.
+/// Specialisation constant of the edge.
 pub fn edge_constant(shore: &ShoreConfig) -> (u32, u32) {
     let edge = match shore.edge {
         Edge::Clip => 0,
@@ -118,7 +118,7 @@ impl Shore {
         &self.target.image
     }
 
-    /// `general`: the frame has more than most have.
+    /// `general`: the frame needs the general pipeline.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -8,7 +8,7 @@
 
 use crate::random::{Random, pcg};
 
-/// What has no texel of the pattern to be near to.
+/// Distance of a texel without any pattern.
 const NOWHERE: i64 = i64::MAX;
 
 /// Distance from each texel's centre to that of the nearest texel of the pattern, in texels, with the picture
@@ -219,8 +219,8 @@ pub fn web(edge: u32, seed: u32) -> Vec<f32> {
     means
 }
 
-/// 1 where a distance is 0; elsewhere the share of those above 0 that are greater, and half of those that are equal; of the
-/// greatest 0.
+/// 1 where a distance is 0. Elsewhere the share of the larger ones among the distances above 0, plus half of
+/// the equal ones; 0 for the largest.
 fn by_area(squares: &[i64]) -> Vec<f32> {
     let most = squares.iter().copied().max().filter(|most| *most != NOWHERE).unwrap_or(0);
     let mut counts = vec![0_u32; most as usize + 1];
@@ -241,35 +241,37 @@ fn by_area(squares: &[i64]) -> Vec<f32> {
     squares.iter().map(|square| values.get(*square as usize).copied().unwrap_or(0.0)).collect()
 }
 
-/// Radii of the cells' cores: the largest, above the smallest, and each of the one before. All lengths are of an edge.
+/// Radii of the cells' cores relative to the side length: the largest, the smallest, and the ratio of
+/// successive ones.
 const LARGEST: f32 = 0.09;
 const SMALLEST: f32 = 0.006;
 const NEXT: f32 = 0.95;
-/// Places that are tried for the largest; for others more, as there is room for more of them.
+/// Attempts to place the largest core; smaller ones get more, as there is room for more of them.
 const TRIES: f32 = 3.0;
-/// How much of a core's radius may lie in a larger one.
+/// Maximum overlap of a core with a larger one, relative to its radius.
 const OVERLAP: f32 = 0.3;
-/// Cells a side and amplitude of what bends the filaments, on the whole and in detail.
+/// Cells per side and amplitude of the warp of the filaments, coarse and fine.
 const BENDS: [(usize, f32); 2] = [(6, 0.06), (20, 0.01)];
-/// Width of a filament, and how much it varies.
+/// Width of a filament, and its variation.
 const WIDTH: f32 = 0.0022;
 const WIDTH_VARIES: f32 = 0.6;
-/// How far from a junction filaments begin to thicken, of the core's radius.
+/// Distance from a junction at which filaments begin to thicken, relative to the core's radius.
 const FILLET: f32 = 0.8;
-/// The share of filaments that are torn, where both cores are of that radius at least, and how far from a junction they
-/// end, of the smaller one's radius.
+/// Share of filaments that are torn, minimum radius of both cores for that, and distance of the tear from a
+/// junction, relative to the smaller radius.
 const TORN: f32 = 0.35;
 const TORN_RADIUS: f32 = 0.03;
 const TORN_LENGTH: f32 = 0.8;
-/// How near a junction filaments begin to be like those they meet there, of the core's radius, and at most.
+/// Distance from a junction at which filaments blend with those they meet, relative to the core's radius, and
+/// its maximum.
 const BLEND: f32 = 0.5;
 const BLEND_MOST: f32 = 0.015;
-/// Tiles a side, each of which knows the cores that matter in it.
+/// Tiles per side, each with a list of the cores that affect it.
 const TILES: usize = 64;
-/// How much [`Cells::within`] is taken to change with the place at most: 2 or 3 of itself, the rest by the bending.
+/// Bound on the gradient of [`Cells::within`]: 2 or 3 from the distances, the rest from the warp.
 const STEEP: f32 = 5.0;
 
-/// A disc, of an edge.
+/// A disc, relative to the side length.
 #[derive(Clone, Copy)]
 struct Core {
     center: [f32; 2],
@@ -277,7 +279,7 @@ struct Core {
 }
 
 impl Core {
-    /// How far a place, in [0, 1), is from its rim, across the borders if that is nearer; less than 0 inside.
+    /// Distance of a point in [0, 1) from the disc's rim, periodic; negative inside.
     fn distance(&self, [x, y]: [f32; 2]) -> f32 {
         let across = |a: f32, b: f32| {
             let d = (a - b).abs();
@@ -288,12 +290,12 @@ impl Core {
     }
 }
 
-/// Cells of foam over the unit square, which wraps round: each place is of the core whose rim is nearest (the Voronoi
-/// diagram of discs, whose borders are hyperbolas). Discs are thrown where there is room, the largest first, so that small
-/// ones fill the gaps of large ones, as bubbles do.
+/// Foam cells over the periodic unit square: each point belongs to the core whose rim is nearest (the Voronoi
+/// diagram of discs, whose borders are hyperbolas). Discs are placed at random where there is room, the largest
+/// first, so that small ones fill the gaps of large ones, as bubbles do.
 struct Cells {
     cores: Vec<Core>,
-    /// Of each tile, which of them.
+    /// Core indices of each tile.
     tiles: Vec<Vec<u16>>,
     bends: [Lattice<2>; 2],
     seed: u32,
@@ -320,7 +322,7 @@ impl Cells {
         Self { cores, tiles, bends, seed: pcg(seed) }
     }
 
-    /// Where filaments are, of so many texels a side.
+    /// The filaments, on `edge`² texels.
     fn pattern(&self, edge: usize) -> Vec<bool> {
         let center = |i: usize| (i as f32 + 0.5) / edge as f32;
         let mut pattern = vec![false; edge * edge];
@@ -336,7 +338,7 @@ impl Cells {
         pattern
     }
 
-    /// How far within its cell a place is, beyond the filaments: less than 0 in them, and a lower bound where it is more.
+    /// Distance of a point from the filaments inside its cell: negative on them, and a lower bound otherwise.
     fn within(&self, x: f32, y: f32) -> f32 {
         let bends = [self.bends[0].at(x, y), self.bends[1].at(x, y)];
         let bent = |v: f32, i: usize| {
@@ -399,14 +401,14 @@ impl Cells {
         rounded(fillet) - width * (1.0 - torn * third / (TORN_LENGTH * smaller))
     }
 
-    /// Of two cells, in [0, 1).
+    /// Random number of a pair of cells, in [0, 1).
     fn chance(&self, a: u16, b: u16) -> f32 {
         let pair = u32::from(a.min(b)) << 16 | u32::from(a.max(b));
         (pcg(self.seed ^ pcg(pair)) >> 8) as f32 / (1 << 24) as f32
     }
 }
 
-/// The cores that are one of the three nearest anywhere in the tile about a place, or nearly the second.
+/// The cores that are among the three nearest, or nearly the second, anywhere in a tile.
 fn of_tile(cores: &[Core], center: [f32; 2]) -> Vec<u16> {
     let distances: Vec<f32> = cores.iter().map(|core| core.distance(center)).collect();
     let mut nearest = [f32::INFINITY; 3];

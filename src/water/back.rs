@@ -36,16 +36,16 @@ pub struct Back {
     small: Pipeline,
     large: Pipeline,
     plan: Pipeline,
-    /// Eye depth of the back sheet, unsmoothed.
+    /// Eye depth of the back layer, unsmoothed.
     image: Image,
-    /// Its first level, and how many it has.
+    /// Its first level, and its number of levels.
     level: u32,
     levels: u32,
-    /// Of each block of 16×16 pixels the nearest boundary.
+    /// Nearest boundary of each block of 16×16 pixels.
     blocks: Buffer,
 }
 
-/// What the sheet joins.
+/// Smoothing resources that the layer joins.
 pub struct Into<'a> {
     pub smooth: &'a Smooth,
     pub plan: &'a Image,
@@ -101,7 +101,7 @@ impl Back {
         Ok(())
     }
 
-    /// What it joins comes as `level` left it and leaves so.
+    /// The smoothing resources are in the state in which `level` leaves them, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -52,9 +52,9 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 64;
 
-/// Both images are read by compute (`reduce`) and by what shades.
+/// Both images are read by compute (`reduce`) and by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
-/// What shades reads how foam drifts.
+/// Shading passes read the foam's velocity.
 const DRIFT_READ: Access = COMPUTE_READ.and(FRAGMENT_READ);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
@@ -94,7 +94,7 @@ shader::assert_layout!(
     }
 );
 
-/// What an image is for.
+/// Content of an image.
 #[derive(Clone, Copy)]
 enum Kind {
     Depth,
@@ -168,32 +168,32 @@ impl Blended {
     }
 }
 
-/// Whether there are shadows of the sprites: a mask's are the pixels'.
+/// Whether sprites have shadows; a mask applies per pixel instead.
 fn lit(config: &Config) -> bool {
     config.cast.is_some() || !matches!(config.shadow, None | Some(Shadows::Mask))
 }
 
-/// Words that the compute path has of each texel; the first two are bits of depths, of the frontmost or, where there
-/// is none before it, of the scene, and of that.
+/// Words per texel of the compute path. The first two are depth bits: of the frontmost foam, or of the scene if
+/// there is none in front of it; and of the scene.
 pub fn words_of(config: &Config) -> u32 {
     if lit(config) { 6 } else { 5 }
 }
 
-/// Bytes of all.
+/// Bytes of all words.
 pub fn word_bytes(config: &Config) -> u64 {
     let size = reduced(config.extent, config.thickness_level);
     4 * u64::from(words_of(config)) * u64::from(size.width) * u64::from(size.height)
 }
 
-/// What the compute path has.
+/// State of the compute path.
 struct Splats {
-    /// Of the depth and of the thickness.
+    /// Pipelines of depth and thickness.
     each: [Pipeline; 2],
     begin: Pipeline,
     resolve: Pipeline,
     depth: Image,
     thickness: Image,
-    /// Of each texel the depths of foam and scene, and whole steps of all thicknesses.
+    /// Depths of foam and scene and fixed-point sums of all thicknesses, per texel.
     words: Buffer,
 }
 
@@ -281,10 +281,10 @@ enum Path {
     Compute(Box<Splats>),
 }
 
-/// Pixels from node to node of what it is known of how foam drifts, and words of a node (glsl/include/foam_drift.glsl).
+/// Pixels between the nodes of the velocity grid, and words per node (glsl/include/foam_drift.glsl).
 const DRIFT: [u32; 2] = [16, 4];
 
-/// For frames of an extent.
+/// The velocity grid for an extent.
 fn drift(gpu: &Gpu, config: &Config) -> Result<Buffer, Error> {
     let [cell, words] = DRIFT;
     let nodes = |pixels: u32| u64::from(pixels.div_ceil(cell) + 1);
@@ -299,7 +299,7 @@ pub struct Foam {
     drifting: Pipeline,
     drift: Buffer,
     path: Path,
-    /// Times that both images are halved.
+    /// Number of halvings of both images.
     pub level: u32,
 }
 
@@ -351,7 +351,7 @@ impl Foam {
         }
     }
 
-    /// [`words_of`] each texel, COMPUTE_READ after the pass; the raster path has none.
+    /// [`words_of`] per texel, in the compute-read state after the pass; `None` on the raster path.
     pub fn words(&self) -> Option<&Buffer> {
         match &self.path {
             Path::Raster(_) => None,
@@ -359,7 +359,7 @@ impl Foam {
         }
     }
 
-    /// How it drifts, [`DRIFT_READ`] after the pass.
+    /// Velocity grid, in the state [`DRIFT_READ`] after the pass.
     pub fn drift(&self) -> &Buffer {
         &self.drift
     }
@@ -372,7 +372,7 @@ impl Foam {
         }
     }
 
-    /// `list`: of `cull`, for its counts.
+    /// `list`: the one of `cull`, for its counts.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -22,7 +22,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// Edge of a cell in pixels.
+/// Side length of a cell in pixels.
 const CELL: u32 = 4;
 
 #[repr(C)]
@@ -33,7 +33,7 @@ struct Push {
     rows: i32,
 }
 
-/// Bytes of the cells of a size.
+/// Bytes of the cells for an extent.
 pub fn cell_bytes(extent: vk::Extent2D) -> u64 {
     4 * u64::from(extent.width.div_ceil(CELL)) * u64::from(extent.height.div_ceil(CELL))
 }
@@ -45,7 +45,7 @@ pub struct Front {
     cells: Buffer,
     columns: u32,
     rows: u32,
-    /// The spheres that can show.
+    /// The spheres that can be visible.
     pub list: SphereList,
 }
 
@@ -130,7 +130,7 @@ impl Front {
         Ok(())
     }
 
-    /// One invocation a small sphere of every chunk.
+    /// Dispatches one invocation per small sphere of every chunk.
     fn dispatch(&self, r: &Recording<'_>, cull: &Cull, pipeline: &Pipeline) -> Result<(), Error> {
         for (all, front) in cull.list.chunks().zip(self.list.chunks()) {
             r.descriptors.bind(

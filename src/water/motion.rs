@@ -38,7 +38,7 @@ use crate::gpu::pipeline::Pipeline;
 use crate::gpu::retire::RetireList;
 use crate::gpu::shader;
 
-/// How the host finds the layer.
+/// State of the layer for the host.
 pub const AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
 #[repr(C)]
@@ -72,7 +72,7 @@ shader::assert_layout!(
     }
 );
 
-/// What it is made from, each as fragments sample it; they come back so.
+/// Inputs, sampled by fragment shaders before and after.
 pub struct Surfaces<'a> {
     pub depth: &'a Image,
     /// Its depth and its thickness.
@@ -91,7 +91,7 @@ pub struct Motion {
     level: u32,
 }
 
-/// Surfaces told apart in a texel: one where it is a pixel.
+/// Surfaces distinguished per texel: one if a texel is a pixel.
 fn surfaces(level: u32) -> u32 {
     if level == 0 { 1 } else { 2 }
 }
@@ -106,8 +106,7 @@ fn sum_bytes(config: &Config, level: u32) -> u64 {
     32 * u64::from(surfaces(level)) * texels(config, level)
 }
 
-/// The resolution: that of the thickness, or the finest below at which the device binds the sums at
-/// once.
+/// Number of halvings: as the thickness, or the first further one at which the sums fit in one binding.
 fn level(gpu: &Gpu, config: &Config) -> u32 {
     let range = u64::from(gpu.limits.max_storage_buffer_range);
     (config.thickness_level..32).find(|level| sum_bytes(config, *level) <= range).unwrap_or(32)
@@ -161,7 +160,7 @@ impl Motion {
         Ok(())
     }
 
-    /// `list`: of `cull`, for its counts.
+    /// `list`: the one of `cull`, for its counts.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -70,7 +70,7 @@ pub struct Noise {
     sprites: Sprites,
     draw: Pipeline,
     target: Target,
-    /// Of its resolution.
+    /// Number of halvings of its resolution.
     pub level: u32,
 }
 
@@ -114,12 +114,12 @@ impl Noise {
         self.target.resize(gpu, &desc(config, self.level), retired)
     }
 
-    /// The height, of which [`NoiseLook`](super::NoiseLook) says how much 1 is.
+    /// The height; [`NoiseLook`](super::NoiseLook) sets the scale.
     pub fn image(&self) -> &Image {
         &self.target.image
     }
 
-    /// `list`: of `cull`, for its counts. `depth`: of the water, sampled by fragments.
+    /// `list`: the one of `cull`, for its counts. `depth`: of the water, sampled by fragment shaders.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -29,20 +29,20 @@ use crate::water::settings::Rule;
 /// The plan after a frame: read by every form of the smoothing.
 pub const PLAN_AFTER: Access = COMPUTE_SAMPLED.and(FRAGMENT_SAMPLED);
 
-/// What is reduced.
+/// Depths that are reduced.
 pub struct Depths<'a> {
     pub water: &'a Image,
-    /// Where there is some of either its tiles are drawn too.
+    /// Foam and spray depth: tiles with either are drawn too.
     pub foam: Option<&'a Image>,
     pub spray: Option<&'a Image>,
-    /// Of whitewater particles.
+    /// Whitewater depth.
     pub diffuse: Option<&'a Image>,
-    /// Of bubble foam.
+    /// Bubble-foam depth.
     pub bubbles: Option<&'a Image>,
 }
 
 impl Depths<'_> {
-    /// What glsl/include/beside.glsl reads, or anything where there is none.
+    /// Bindings of glsl/include/beside.glsl, with stand-ins for absent images.
     pub fn beside(&self, r: &Recording<'_>) -> [(u32, Resource); 4] {
         let nearest = r.gpu.samplers.nearest;
         let bound = |image: Option<&Image>| {
@@ -66,7 +66,7 @@ pub struct Reduce {
     pub level: u32,
 }
 
-/// Iterations more than stability asks for, glsl/include/plan.glsl.
+/// Iterations beyond those that stability requires (glsl/include/plan.glsl).
 pub const MORE: u32 = 2;
 
 /// Number of a rule in the shaders.
@@ -121,7 +121,7 @@ impl Reduce {
         Ok(())
     }
 
-    /// `level` hands on what is written here.
+    /// `level` transitions what is written here.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

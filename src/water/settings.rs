@@ -382,8 +382,8 @@ impl Medium {
     /// (Babin et al., J. Geophys. Res. 108(C7), 2003).
     pub const RIVER: Self = Self::turbid([0.715, 1.04, 3.05], [1.87, 1.87, 1.87]);
     /// A lake under a glacier, turquoise: 20 g/m³ of rock flour, fine and pale. It scatters 1 m²/g, twice what silt does,
-    /// and absorbs 0.003 m²/g at 443 nm, a tenth; estimates, so that water takes the red and flour a little of the blue, by
-    /// which Aas and Bogen explain the colour (Water Resources Research 24, 1988).
+    /// and absorbs 0.003 m²/g at 443 nm, a tenth of silt's. Both are estimates, such that water absorbs the red and flour a
+    /// little of the blue, which is how Aas and Bogen explain the colour (Water Resources Research 24, 1988).
     pub const GLACIER: Self = Self::turbid([0.272, 0.0726, 0.0559], [0.733, 0.733, 0.735]);
     /// Whole milk (Jensen et al., A Practical Model for Subsurface Light Transport, 2001, Fig. 5: per millimetre, reduced
     /// scattering; red, green and blue of a camera). Index of refraction 1.35.

@@ -34,7 +34,7 @@ use crate::gpu::target::Target;
 /// Bytes of a sprite.
 pub const SPRITE: u64 = 32;
 
-/// Read by compute (`reduce`) and by what shades.
+/// Read by compute (`reduce`) and by shading passes.
 pub const AFTER: Access = FRAGMENT_SAMPLED.and(COMPUTE_SAMPLED);
 /// Last uses in a frame: those, or the host's copy of the layer.
 const BEFORE: Access = AFTER.and(COPY_READ);
@@ -74,7 +74,7 @@ shader::assert_layout!(
 pub struct Spray {
     sprites: Sprites,
     draw: Pipeline,
-    /// Optical depth, a full-resolution texel each.
+    /// Optical depth, at full resolution.
     target: Target,
 }
 
@@ -118,13 +118,13 @@ impl Spray {
         self.target.resize(gpu, &desc(gpu, config), retired)
     }
 
-    /// Optical depth of the droplets, and of those that the sun lights.
+    /// Optical depth of the droplets, and of their sunlit part.
     pub fn image(&self) -> &Image {
         &self.target.image
     }
 
-    /// `list`: of `cull`, for its counts. `depth`: of the water, as its pass left it; it comes back
-    /// so.
+    /// `list`: the one of `cull`, for its counts. `depth`: of the water, in the state in which pass `depth`
+    /// leaves it, before and after.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

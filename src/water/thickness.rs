@@ -57,15 +57,15 @@ enum Path {
     },
 }
 
-/// Pipelines of the compute path for the front sheet and the window.
+/// Pipelines of the compute path for the front layer and the window.
 struct Apart {
     small: Pipeline,
     large: Pipeline,
     resolve: Pipeline,
 }
 
-/// Bytes of the compute path's sums: two words a texel of all water, with foam of what is before it, and with two
-/// sheets of the front one and of the window.
+/// Bytes of the compute path's sums: two words per texel for all water, with foam two for the water in front of
+/// it, and with two layers two each for the front one and the window.
 pub fn sum_bytes(config: &Config) -> u64 {
     let size = reduced(config.extent, config.thickness_level);
     let sums = u64::from(config.foam) + if config.sheets > 1 { 3 } else { 1 };
@@ -75,11 +75,11 @@ pub fn sum_bytes(config: &Config) -> u64 {
 /// The pass.
 pub struct Thickness {
     path: Path,
-    /// Thickness along z, of all water.
+    /// Thickness along z of all water.
     pub image: Image,
-    /// The same of each of two sheets.
+    /// Thickness of each of two layers.
     pub sheets: Option<Image>,
-    /// Times halved.
+    /// Number of halvings.
     pub level: u32,
 }
 
@@ -224,7 +224,7 @@ impl Thickness {
         Ok(())
     }
 
-    /// Without boundaries there is one sheet.
+    /// Without boundaries there is one layer.
     pub fn record(
         &self,
         r: &mut Recording<'_>,

@@ -127,7 +127,7 @@ pub enum Solid {
     },
 }
 
-/// The same for the shader (glsl/include/solid.glsl).
+/// A solid as the shader reads it (glsl/include/solid.glsl).
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct GpuSolid {

@@ -218,7 +218,7 @@ pub enum Pattern {
     Rock,
     /// Leaves of bushes and hedges.
     Leaves,
-    /// Leaves of trees and hedges in masses, lit through where the sun is behind them.
+    /// Leaves of trees and hedges in masses, translucent against the sun.
     Foliage,
     /// Grass, mown in stripes along z.
     Lawn {

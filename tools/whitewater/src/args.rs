@@ -553,9 +553,9 @@ impl From<ToneArg> for Tone {
 /// What casts shadows on what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ShadowArg {
-    /// The scene, water and foam, on each other; with caustics.
+    /// Scene, water and foam cast shadows on each other; with caustics.
     All,
-    /// The scene on foam and spray.
+    /// The scene casts shadows on foam and spray.
     Scene,
     /// None.
     None,
