@@ -1,5 +1,5 @@
-//! Pass `peel` by billboards (Huszár, Szécsi, Sec. 5): all blobs once a layer, behind what the layer before has found (depth
-//! peeling, Everitt 2001), and once more for the most opacity.
+//! Pass `peel` by billboards (Huszár, Szécsi, Sec. 5): depth peeling, all blobs once per layer, behind what the
+//! previous layer found (Everitt 2001), and once more for the maximum opacity.
 //!
 //! Reads: blobs, scene depth, impostors. Writes: layers, bubble depth.
 

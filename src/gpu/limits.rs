@@ -86,7 +86,7 @@ fn needs(shader: &Shader) -> [Limit; 14] {
     ]
 }
 
-/// That a device can make a shader's pipeline.
+/// Checks that a device can create a shader's pipeline.
 pub fn check(shader: &Shader, limits: &vk::PhysicalDeviceLimits) -> Result<(), Error> {
     needs(shader).iter().try_for_each(|limit| limit.check(limits))
 }

@@ -404,8 +404,8 @@ impl Shore {
         Ok(())
     }
 
-    /// The foam: along shores, at contacts on the host's surface, missing sunlight there, on the particles'
-    /// water.
+    /// The foam image: shoreline foam, contact foam on the host's surface, the sunlight missing on them,
+    /// contact foam on the particles' water.
     pub fn image(&self) -> &Image {
         self.shoreline.image()
     }

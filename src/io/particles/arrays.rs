@@ -1,5 +1,5 @@
-//! Numbers of one attribute that lie together, those of another attribute elsewhere: how legacy VTK (text) and VTK XML
-//! keep them, there in a segment for each piece of the file. Each attribute is read with a place of its own.
+//! Attributes stored one after the other, as in legacy VTK (text) and VTK XML, there in one segment per piece
+//! of the file. Each attribute is read with its own position.
 
 use std::sync::Arc;
 

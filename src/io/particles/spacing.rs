@@ -1,17 +1,17 @@
-//! Guesses at the rest spacing and at densities, for files that do not say them.
+//! Estimates of rest spacing and densities, for files that lack them.
 
 use super::survey::{DOUBLED, Repeats};
 
 /// How many particles are asked for their nearest neighbours.
 const QUERIES: usize = 16_384;
 
-/// The rest spacing (twice the solver's particle radius) from the positions alone, in their unit; `None` where
-/// there are not two finite, distinct positions near each other.
+/// Estimates the rest spacing (twice the solver's particle radius) from positions, in their unit; `None`
+/// without two finite, distinct, nearby positions.
 ///
-/// The median distance to the third nearest neighbour, over an even choice of particles: exact where they stand
-/// on their first cubic grid, and within 5 % on most frames of moving fluid (10 % where most of it is spray),
-/// where the nearest neighbour alone reads 12 to 28 % low. Means something for fluids only, not for spray and foam.
-/// It is the same on every run, and a few strays, doubles, NaN or infinities do not move it.
+/// It is the median distance to the third nearest neighbour of a uniform subset: exact on an initial cubic
+/// grid, and within 5 % for most frames of moving fluid (10 % if most of it is spray). The nearest neighbour
+/// alone would be 12 to 28 % too low. It is meaningful for fluids only, not for spray and foam. It is the same
+/// in every run, and a few outliers, duplicates, NaN or infinities do not affect it.
 pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     let mut points: Vec<[f32; 3]> =
         positions.iter().copied().filter(|p| p.iter().all(|c| c.is_finite())).collect();
@@ -38,9 +38,9 @@ pub fn estimate_spacing(positions: &[[f32; 3]]) -> Option<f32> {
     Some(*median)
 }
 
-/// Densities of particles of a spacing as fractions of the rest density: the sums of the cubic spline that
-/// reaches two spacings. An isolated particle reads 0.318, a line 0.48, a sheet of one layer 0.70, a body of water
-/// about 1. Of positions that are not finite 0.
+/// Estimates densities as fractions of the rest density, for a particle spacing: sums of the cubic spline with
+/// a support of two spacings. An isolated particle has 0.318, a line 0.48, a single sheet 0.70, a body of water
+/// about 1. Non-finite positions give 0.
 pub fn estimate_densities(positions: &[[f32; 3]], spacing: f32) -> Vec<f32> {
     let finite = |p: &[f32; 3]| p.iter().all(|c| c.is_finite());
     let points: Vec<[f32; 3]> = positions.iter().copied().filter(finite).collect();

@@ -124,8 +124,8 @@ pub struct RenderArgs {
     pub radius: Option<f32>,
     /// Frames per second of the sequence [default: from positions and velocities; 30 without velocities]
     ///
-    /// It counts files, whatever the difference of their numbers. Foam decay and the motion layer depend on it,
-    /// and velocities where the files have none.
+    /// Consecutive files are one frame apart, whatever the numbers in their names. Foam decay and the motion
+    /// layer depend on this value, and so do velocities that are estimated from the sequence.
     #[arg(long, value_name = "N", value_parser = positive)]
     pub fps: Option<f32>,
     /// Draw spray, foam and bubbles that are particles of their own: files, or 'generate'

@@ -119,7 +119,7 @@ pub struct BenchArgs {
 /// A way to draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Path {
-    /// What the library chooses
+    /// The library's choice
     Default,
     /// Both splats as sprites with blending
     Raster,
@@ -133,9 +133,9 @@ pub enum Path {
     FullSmoothing,
     /// Smoothing at quarter resolution
     QuarterSmoothing,
-    /// Smoothing: a dispatch an iteration over tiles
+    /// Smoothing: one dispatch per iteration over tiles
     Tiles,
-    /// Smoothing: eight iterations a dispatch in shared memory
+    /// Smoothing: eight iterations per dispatch in shared memory
     Fused,
     /// Smoothing: occlusion query, indirect draw count
     QueryCount,
@@ -145,34 +145,33 @@ pub enum Path {
     QueryVertex,
     /// Smoothing: occlusion query read back by the host
     ReadBack,
-    /// One sheet of water everywhere
+    /// One layer of water
     OneSheet,
-    /// With foam: the highest twentieth of the particles, and some of half as many again
+    /// With foam: the highest 5 % of the particles, and part of another 2.5 %
     Foam,
-    /// With spray: the highest fortieth of the particles is nothing else
+    /// With spray: the highest 2.5 % of the particles are spray only
     Spray,
     /// With motion vectors
     Motion,
     /// With the baseline's surface noise and its foam
     Noise,
-    /// With shadows and caustics of the water, maps of 512 texels a side
+    /// With shadows and caustics of the water, in maps of 512² texels
     Light,
-    /// Shadows of a plate over the pool, of a shore those of its land, by percentage-closer filtering of a map of 2048
-    /// texels
+    /// Shadows of a plate over the pool, or of a shore's land, by percentage-closer filtering of a map of 2048² texels
     Pcf,
-    /// The same shadows by the map's Fourier basis, of as many texels as the library takes by itself
+    /// The same shadows by convolution shadow maps at the library's default size
     Convolution,
     /// Composite: a render pass over the tiles
     RasterComposite,
     /// Composite: a compute shader over the tiles
     ComputeComposite,
-    /// The source's iteration rule
+    /// The thesis' iteration rule
     Source,
     /// The baseline: 40 iterations for every pixel
     Baseline,
     /// The baseline with its noise and foam
     BaselineNoise,
-    /// Of shores, as all that follow: v from a map of distances
+    /// Shores, as all that follow: v from a distance map
     Map,
     /// v from a strip
     Strip,
@@ -184,13 +183,13 @@ pub enum Path {
     Contact,
     /// Edges of shoreline foam clipped
     Clip,
-    /// Edges by what foam covers of a pixel
+    /// Edges by the fraction of a pixel that foam covers
     Smooth,
-    /// The same by four samples
+    /// Edges by the coverage of four samples
     Coverage,
-    /// Of all settings the most: four layers of the web, noise on everything
+    /// Every feature enabled: four texture layers, noise on everything
     Everything,
-    /// All that there are, one after the other
+    /// All paths, one after the other
     All,
 }
 
