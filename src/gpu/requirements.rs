@@ -65,7 +65,7 @@ pub fn requirements() -> Requirements {
             },
             Need {
                 what: "shaderBufferInt64Atomics, shaderInt64",
-                why: "diffuse particles in one go, foam::Splat::Compute64; without them in two",
+                why: "whitewater in one pass, foam::Splat::Compute64; without them in two",
             },
             Need { what: "VK_EXT_debug_utils", why: "names and labels; without it none" },
         ],
