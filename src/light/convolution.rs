@@ -342,7 +342,8 @@ mod tests {
         0.5 + settings.scale * sum
     }
 
-    /// Past the ramp the light is whole to the end of the period, by default; steeper is shorter.
+    /// Beyond the ramp the light is complete until the end of the period, by default; a steeper ramp is
+    /// shorter.
     #[test]
     fn the_ramp_ends_where_the_light_is_whole() {
         for terms in [4, 8, 16] {

@@ -76,7 +76,7 @@ pub(crate) struct Recording<'a> {
     pub extent: vk::Extent2D,
     /// The frame's uniform block.
     pub uniforms: Resource,
-    /// Its [`SmoothingLevels`](crate::SmoothingLevels).
+    /// The frame's [`SmoothingLevels`](crate::SmoothingLevels).
     pub levels: Resource,
     /// The uniforms of bubble foam.
     pub bubbles: Resource,

@@ -52,7 +52,8 @@ pub(super) enum Words<'d> {
 }
 
 impl Head {
-    /// Reads the beginning of a file. `cut`: without its long texts, so that it takes no more memory than what it says.
+    /// Reads the beginning of a file. `cut`: leaves out long texts, so that memory is proportional to the
+    /// structure and not to the data.
     pub(super) fn read(content: &Content<'_>, cut: bool) -> Result<Self, ReadError> {
         let mut text = Text::of(content)?;
         let mark = text.at();

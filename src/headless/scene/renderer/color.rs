@@ -1,6 +1,5 @@
-//! Colour: meshes, then the sky where none is. With several samples a pixel it has a depth of its
-//! own and is resolved; with one it goes on from the depth pass.
-//! Reads: vertices, shadow map, environment, irradiance, textures. Writes: scene colour, all of it.
+//! Colour: meshes, then the sky where there is none. With several samples per pixel it has its own depth buffer
+//! and is resolved; with one it uses the depth of the depth pass.
 
 use ash::vk;
 
