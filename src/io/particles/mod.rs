@@ -140,7 +140,8 @@ impl Particles {
         survey::retain(self, kept);
     }
 
-    /// Changes the [`origin`](Self::origin), for example to that of a sequence's first frame.
+    /// Changes the [`origin`](Self::origin), for example to that of a sequence's first frame, and adjusts the
+    /// positions so that each particle stays where it is.
     pub fn move_to(&mut self, origin: [f64; 3]) {
         if self.origin != origin {
             let ([x, y, z], [a, b, c]) = (self.origin, origin);
