@@ -248,8 +248,8 @@ pub enum Exit {
     /// index of refraction that [`Bed`] describes. The exit ray is intersected with the scene on the screen in
     /// 4 steps; rays that miss see the environment (Wyman 2005).
     TwoInterfaces,
-    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). With both values a
-    /// scene under water is displaced in this way.
+    /// The scene straight behind, displaced by [`WaterSettings::refraction`] (the thesis). Where the scene is
+    /// under the water, both variants show it so.
     Straight,
 }
 
@@ -468,7 +468,7 @@ impl Fresnel {
 
 /// Surface foam formation: which of the water's particles are foam, by Weber number.
 ///
-/// `We = scale·ρ·|v − air|²`. A particle foams while its number is at the threshold or above. Onset and decay times vary
+/// `We = scale·ρ·|v − air|²`. A particle foams while its Weber number is at the threshold or above. Onset and decay times vary
 /// from particle to particle (thesis, Sec. 3.2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoamSettings {
