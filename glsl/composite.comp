@@ -25,7 +25,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-// Its format is the host's choice: written without being told.
+// The format is the host's choice: written without a format qualifier.
 layout(set = 0, binding = 8) uniform writeonly image2D target;
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 10, std430) readonly buffer Arguments { uvec4 arguments[]; };

@@ -1,6 +1,6 @@
 // Distances at which blobs replace sprites of whitewater. Needs nothing.
 
-// Distances that are told apart.
+// Bins of the distance histogram.
 const uint RINGS = 1024u;
 
 struct HandOver {

@@ -17,7 +17,7 @@ layout(push_constant, std430) uniform Push { uint level; } push;
 #include "smoothed_depth.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2D depth;
-// Of a format that shaders may only be told of by a feature: written without being told.
+// A format qualifier would need a feature (shaderStorageImageExtendedFormats): written without one.
 layout(set = 0, binding = 8) uniform writeonly image2D motion;
 
 // A 64-bit sum as it is rounded once.
