@@ -1,5 +1,6 @@
-//! What renderers, states, heaps, generators and maps of one device share: the host's Vulkan objects, with the pipelines,
-//! render passes and samplers that were made for one of them and serve the others.
+//! State shared by the renderers, foam states, blob simulations, generators and shore maps of one device: the
+//! host's Vulkan objects, and pipelines, render passes and samplers that were created for one of them and serve
+//! all.
 
 use std::collections::HashMap;
 use std::hash::Hash;

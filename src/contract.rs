@@ -260,7 +260,7 @@ pub struct Stream {
 }
 
 impl Stream {
-    /// What is wrong with it, for values of so many bytes.
+    /// Validates the stream for values of `bytes` bytes.
     pub(crate) fn check(
         &self,
         field: &'static str,
@@ -527,7 +527,7 @@ impl Triangles {
         self.indices.map_or(self.vertices, |(_, count)| count)
     }
 
-    /// What is wrong with them, by the names of their vertices, indices and counts.
+    /// Validates the triangles; the names are those of their vertices, indices and counts.
     pub(crate) fn check(
         &self,
         [positions, indices, count]: [&'static str; 3],

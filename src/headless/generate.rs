@@ -6,7 +6,7 @@ use crate::contract::{Count, GenerateStep, Slot};
 use crate::error::Error;
 use crate::foam::{GenerateConfig, GenerateSettings, Generator};
 
-/// What is made of the fluid.
+/// The generator and its state.
 pub(super) struct Generating {
     pub generator: Generator,
     max_particles: u32,

@@ -18,7 +18,7 @@ use crate::gpu::graveyard::Destroy;
 use crate::state::{State, StateConfig};
 use crate::water::settings::FoamSettings;
 
-/// What the foam of the particles goes by.
+/// State of surface foam.
 pub(super) struct Foaming {
     pub state: State,
     /// By the particles that are here now.
@@ -41,7 +41,7 @@ pub struct Diffuse<'a> {
     pub ids: Option<&'a [u32]>,
 }
 
-/// The same on the device.
+/// Whitewater particles on the device.
 pub(super) struct Diffusing {
     count: u32,
     positions: Buffer,
@@ -70,7 +70,7 @@ impl Diffuse<'_> {
 }
 
 impl Diffusing {
-    /// Room for so many.
+    /// Allocates buffers for `count` particles.
     fn new(gpu: &Arc<Gpu>, count: u32, attributes: [bool; 4]) -> Result<Self, Error> {
         let room = |name, bytes: u64| {
             let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;

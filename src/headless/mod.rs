@@ -198,7 +198,7 @@ impl Headless {
         self.sky(&Sky::default())
     }
 
-    /// What is ours beside the renderer.
+    /// Creates the objects besides the renderer.
     fn own(gpu: &Gpu, device: &Device, config: &Config) -> Result<(Commands, Image, Image), Error> {
         let extent = config.extent;
         let usage = vk::ImageUsageFlags::SAMPLED

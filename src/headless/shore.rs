@@ -25,7 +25,7 @@ pub struct ShoreMesh<'a> {
     pub indices: &'a [u32],
 }
 
-/// The same on the device.
+/// A mesh on the device.
 struct Meshed {
     positions: Buffer,
     indices: Buffer,
@@ -51,7 +51,7 @@ impl Meshed {
     }
 }
 
-/// What there is of them.
+/// Shoreline and contact foam of the stand-in host.
 #[derive(Default)]
 pub(super) struct Shores {
     /// Of the frames; a strip or a map of ours takes the place of its shoreline.

@@ -269,7 +269,7 @@ impl ShoreLook {
         self.contact.check()
     }
 
-    /// Where something that goes round `rate` times a second is, 0 to 1.
+    /// Phase, 0 to 1, of a motion with `rate` cycles per second.
     pub(crate) fn turned(&self, rate: f64) -> f64 {
         let rate = match self.period {
             Some(period) => (rate * f64::from(period)).round() / f64::from(period),

@@ -208,8 +208,8 @@ pub enum Pattern {
         /// Width of a slab; it is half as long again.
         size: f32,
     },
-    /// Sand round the height of the [`Sea`] (of 0 where there is none), grass above, rock where it is steep, weed
-    /// here and there under water.
+    /// Sand around the height of the [`Sea`] (0 without one), grass above, rock where it is steep, some weed
+    /// under water.
     Island {
         /// How high over the sea sand reaches.
         beach: f32,
