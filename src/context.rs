@@ -199,7 +199,7 @@ impl Shared {
         Ok(())
     }
 
-    /// What the device offers to a configuration with an output of a format.
+    /// What the device supports, for an output format.
     pub fn offer(&self, output: vk::Format) -> Offer {
         Offer::of(&self.instance, self.physical_device, output)
     }
