@@ -1,4 +1,4 @@
-//! The command line. What a flag means stands in its help.
+//! The command line. Each flag is documented in its help.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

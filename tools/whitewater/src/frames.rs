@@ -1,4 +1,4 @@
-//! Files that are named, and what to do where nothing fits.
+//! Input files, and what to do if nothing matches.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;

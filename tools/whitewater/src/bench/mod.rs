@@ -1,6 +1,5 @@
-//! `whitewater bench`: per-pass times on the GPU's own clock, over particle counts, resolutions and
-//! paths, beside the bytes each pass has to move. Of water, of the foam of a sea, of bubble foam, or of the coat of foam
-//! along shores.
+//! `whitewater bench`: GPU times per pass, over particle counts, resolutions and paths, with the bytes that
+//! each pass has to move. For water, whitewater of a sea, bubble foam, and shoreline foam.
 
 mod blobs;
 mod bytes;
