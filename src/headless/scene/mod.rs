@@ -1,6 +1,5 @@
-//! The stand-in scene of the headless renderer: opaque meshes and a ground under a sky with a sun,
-//! so that water has something to run over, to refract and to be hidden by. An engine that embeds
-//! the library draws its own.
+//! The scene of the headless renderer: opaque meshes and a ground under a sky with a sun. Water needs them to
+//! run over, to refract and to be hidden by. An engine that embeds the library draws its own scene.
 
 pub(in crate::headless) mod bake;
 mod gltf;
@@ -271,7 +270,7 @@ impl Material {
         "paving", "island", "rock",
     ];
 
-    /// Mean colour of all of it, for light that bounces off.
+    /// Mean colour of the whole pattern, for bounced light.
     fn albedo(&self) -> Vec3 {
         let base = Vec3::from(self.base_color);
         let Some(texture) = &self.texture else { return base };
@@ -292,11 +291,11 @@ impl Scene {
         self.bounds_in(Mat4::IDENTITY).unwrap_or((Vec3::splat(-0.5), Vec3::splat(0.5)))
     }
 
-    /// The same in another space; none where there is nothing.
+    /// The bounding box in another space; `None` for an empty scene.
     fn bounds_in(&self, space: Mat4) -> Option<(Vec3, Vec3)> {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         for (index, mesh) in self.meshes.iter().enumerate() {
-            // In all frames, so that the ground and the shadow map, which are laid round it, hold still.
+            // Over all frames, so that the ground and the shadow map, which depend on the box, do not move.
             let poses = match self.motion_of(index) {
                 Some(motion) => &motion.poses[..],
                 None => &[Mat4::IDENTITY],
@@ -315,7 +314,7 @@ impl Scene {
         low.cmple(high).all().then_some((low, high))
     }
 
-    /// What a world unit is to procedural surfaces, in metres.
+    /// Metres per world unit for procedural surfaces.
     fn metres_per_unit(&self) -> f32 {
         self.metre.map_or(1.0, f32::recip)
     }
@@ -325,7 +324,7 @@ impl Scene {
         motions.find(|motion| motion.meshes.contains(&mesh))
     }
 
-    /// What moves a mesh to where it is in the frame that is drawn; none where it stands still.
+    /// Motion of a mesh to its pose in the frame that is drawn; `None` if it is static.
     fn pose(&self, mesh: usize) -> Option<Mat4> {
         self.motion_of(mesh).map(|motion| motion.pose(self.frame))
     }

@@ -1,4 +1,4 @@
-//! A level sea, drawn by the pixels' rays: what it is made of, and its waves at a time.
+//! A level sea, drawn by a ray per pixel: its properties, and its waves at a given time.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,11 +7,11 @@ use glam::DVec2;
 use super::Scene;
 use crate::error::Error;
 
-/// Waves that are summed.
+/// Number of waves that are summed.
 pub(super) const WAVES: usize = 18;
-/// A wave's length over that of the next longer one.
+/// Ratio of a wave's length to that of the next longer wave.
 const SHORTER: f64 = 0.79;
-/// A wave's steepness over that of the next longer one.
+/// Ratio of a wave's steepness to that of the next longer wave.
 const FLATTER: f64 = 0.93;
 /// Metres per second squared.
 const GRAVITY: f64 = 9.81;
@@ -119,23 +119,24 @@ impl Sea {
         Ok(())
     }
 
-    /// Where the largest waves go, of length one.
+    /// Direction of the largest waves, normalized.
     fn ahead(&self) -> DVec2 {
         DVec2::from(self.towards.map(f64::from)).normalize_or(DVec2::X)
     }
 
-    /// Waves at a time in seconds: radians a metre along x and z, height over the level, phase. The longest first.
+    /// The waves at a time in seconds, the longest first: wave number along x and z in rad/m, amplitude in
+    /// metres, phase.
     pub(super) fn waves_at(&self, time: f64) -> [[f32; 4]; WAVES] {
         let longest = TAU / f64::from(self.length);
         let steepest = 0.5 * f64::from(self.waves) * longest;
         std::array::from_fn(|i| {
             let n = i as f64;
             let number = longest * SHORTER.powf(-n);
-            // Evenly about the way of the largest, however many they are; the short ones go farther astray.
+            // The directions spread evenly around that of the largest wave; short waves deviate more.
             let aside = (n * 0.618_034 + 0.5).fract() - 0.5;
             let turn = aside * PI * (0.5 + 0.6 * n / WAVES as f64);
             let wave = number * self.ahead().rotate(DVec2::from_angle(turn));
-            // On deep water.
+            // Dispersion of waves on deep water.
             let mut rate = (GRAVITY * number).sqrt();
             if let Some(period) = self.period {
                 let whole = TAU / f64::from(period);
@@ -147,8 +148,8 @@ impl Sea {
         })
     }
 
-    /// How far lava has flown, in metres; the same of the loop before, and its share of the picture: it comes in place
-    /// of this one's towards the loop's end. None where it never ends.
+    /// Distance that the lava has flown, in metres. With a period also that of the previous loop and its
+    /// weight: towards the loop's end it replaces the current one. `None` without a period.
     pub(super) fn drift_at(&self, time: f64) -> (f32, Option<[f32; 2]>) {
         let speed = match self.liquid {
             Liquid::Lava { speed, .. } => f64::from(speed),
@@ -170,7 +171,7 @@ impl Sea {
 }
 
 impl Scene {
-    /// The sea at the time that is drawn, if it can be.
+    /// The sea at [`Scene::time`], or an error if a value is out of range.
     pub(super) fn checked_sea(&self) -> Result<Option<&Sea>, Error> {
         let Some(sea) = &self.sea else { return Ok(None) };
         sea.check()?;
