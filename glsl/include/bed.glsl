@@ -14,7 +14,7 @@ vec3 under_water(Sheet sheet, vec3 dry) {
     vec3 sky = exp(-extinction * (frame.bed.y * sheet.down));
     vec3 sun = exp(-extinction * (frame.bed.z * sheet.down));
     vec3 lit = (1.0 - frame.shade.rgb) * sheet.sun;
-    // Pass `lit` took the sun's part already.
+    // Pass `lit` has already applied the sun's part.
     vec3 came = frame.shade.rgb * sky + lit * sun * frame.bed_light.w;
     came /= max(frame.shade.rgb + (CAST == 1u ? lit * sun : lit), vec3(1.0e-9));
     vec3 albedo = clamp(dry * frame.bed_light.rgb, 0.0, 1.0);
