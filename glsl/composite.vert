@@ -7,7 +7,7 @@
 #include "level.glsl"
 
 layout(set = 0, binding = 9, std430) readonly buffer List { uint list[]; };
-layout(push_constant, std430) uniform Push { uint first; } push; // of the list
+layout(push_constant, std430) uniform Push { uint first; } push; // index in the list
 
 void main() {
     int tile = int(list[push.first + gl_InstanceIndex]);

@@ -28,10 +28,10 @@ layout(push_constant, std430) uniform Push {
     uint ball_word; // of the first blob
     uint ball_stride; // in words
     uint turn_word;
-    uint turn_stride; // 0: none is turned
+    uint turn_stride; // 0: no rotations
     uint id_word;
-    uint id_stride; // 0: their place
-    uint most;      // from the host, or the most there may be
+    uint id_stride; // 0: the index is the id
+    uint most;      // number from the host, or the capacity
     uint from_gpu;
 } push;
 

@@ -195,7 +195,7 @@ float grown(Heaped own, uint index, Company company, vec3 place, vec3 speed, vec
 
 void main() {
     uint k = gl_GlobalInvocationID.x;
-    // What is no blob is not in the grid.
+    // Invalid blobs are not in the grid.
     if (k >= buckets[push.buckets - 1u]) {
         return;
     }
@@ -210,7 +210,7 @@ void main() {
         uint end = min(buckets[bucket], j + MOST_IN_BUCKET);
         while (j < end) {
             Heaped other = heaped[j];
-            // Cells share buckets.
+            // Several cells share a bucket.
             if (j != k && all(equal(heap_cell(other.ball.xyz), next))) {
                 beside(company, own, other);
                 Pushed by = pushed_by(own, other);

@@ -22,7 +22,7 @@ void main() {
     }
     uint begin = bucket > 0u ? buckets[bucket - 1u] : 0u;
     uint end = buckets[bucket];
-    // Behind the first of them, which alone are looked at, the rest lie anyhow.
+    // Only the first ones are read, so the rest need no order.
     uint sorted_end = min(end, begin + MOST_IN_BUCKET);
     for (uint i = begin; i < end; ++i) {
         uint own = order[i];

@@ -15,7 +15,7 @@ layout(set = 0, binding = 6, std430) writeonly buffer Order { uint order[]; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    // What is no blob is not in the grid.
+    // Invalid blobs are not in the grid.
     if (i >= push.blobs || balls[i].w <= 0.0) {
         return;
     }

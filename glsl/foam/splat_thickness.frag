@@ -14,6 +14,6 @@ void main() {
     Met m = meet();
     float amount = diffuse_amount(m.p, m.f, m.rr);
     vec3 all = diffuse_shares(amount, m.depth, uintBitsToFloat(words[m.at + FLUID]));
-    // Whole steps, as of compute: up to 256 their sums are exact in any order.
+    // Whole steps, as in the compute path: up to 256, sums are exact in any order.
     shares = vec4(floor(all * STEPS + 0.5) / STEPS, 0.0);
 }

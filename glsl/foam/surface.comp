@@ -18,7 +18,7 @@ void main() {
         return;
     }
     vec4 there = imageLoad(occluders, pixel);
-    // A fluid of the host's is as it is.
+    // The host's own fluid is not smoothed.
     if (there.z < EMPTY && there.z == texelFetch(depth, pixel, 0).x) {
         there.z = smoothed_at(vec2(pixel) + 0.5, there.z);
         imageStore(occluders, pixel, there);

@@ -3,7 +3,7 @@
 
 // From 0, all spray, to 1, all of it water or foam, over a range of densities.
 float risen(float full, float density) {
-    // Never of equal ends, which GLSL leaves open.
+    // The edges are never equal: GLSL leaves that undefined.
     float end = max(full, frame.density.x * 1.000001 + 1.0e-6);
     return smoothstep(frame.density.x, end, density);
 }

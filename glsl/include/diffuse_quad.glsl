@@ -11,13 +11,13 @@ struct Met {
     Diffuse p;
     Footprint f;
     uint at;     // words of the pixel
-    vec2 place;  // in the disc
-    float w;     // before it, in radii
-    float rr;    // square of the distance from the middle
+    vec2 place;  // position in the disc
+    float w;     // distance before the centre plane, in radii
+    float rr;    // squared distance from the centre
     float depth;
 };
 
-// Discards where it is not seen.
+// Discards fragments that are not visible.
 Met meet() {
     Met m;
     ivec2 pixel = ivec2(gl_FragCoord.xy);

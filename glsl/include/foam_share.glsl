@@ -4,7 +4,7 @@
 // 1: there may be foam.
 layout(constant_id = 9) const uint FOAM = 0;
 
-// Share of a sprite whose centre lies at a depth.
+// Fraction of a sprite with its centre at a depth that lies before the foam.
 float share_before(float z, float foam) {
     float spacing = frame.particle.y;
     return foam < EMPTY ? 1.0 - smoothstep(-0.5 * spacing, 0.5 * spacing, z - foam) : 1.0;

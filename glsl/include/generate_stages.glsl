@@ -2,7 +2,7 @@
 // evaluated; denser towards the present. Needs generate.glsl, random.glsl.
 
 const uint STAGES = 15u;
-// Whitewater particles of a moment at most: six bits.
+// Most whitewater particles per moment: six bits.
 const uint MOST_OF_STAGE = 63u;
 
 // Seconds before the snapshot.
@@ -16,7 +16,7 @@ float seconds_of(uint stage) {
     return push.life_most * float(2u * stage + 1u) / float(STAGES * STAGES);
 }
 
-// Where its number is: five to a word.
+// Position of its number: five per word.
 uint shift_of(uint stage) {
     return 6u * (stage % 5u);
 }

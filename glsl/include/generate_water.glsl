@@ -2,9 +2,9 @@
 // of water particle j relative to the maximum, 0 to 1. Reads: the grid.
 
 struct Water {
-    vec3 velocity;   // 0 where there is none
+    vec3 velocity;   // 0 without water
     float rate;      // likewise
-    uint neighbours; // of its particles those that are there
+    uint neighbours; // number of its neighbours that are present
     bool any;
 };
 

@@ -15,7 +15,7 @@ layout(push_constant, std430) uniform Push {
 const uint TILE = 8u;            // pixels
 const uint TILES = 4u;           // of a group of what goes over the lists
 const uint RUNS = 4u;            // their list
-const uint MOST_LISTED = 65535u; // of a dispatch, in each direction
+const uint MOST_LISTED = 65535u; // limit of a dispatch, on each axis
 
 // What a slot of a list has; the first list is 1.
 void lists(uint kind, uint slot, uint own) {

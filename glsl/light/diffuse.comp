@@ -69,8 +69,8 @@ Sprite sprite_at(uint i) {
     return s;
 }
 
-// All in one loop: at each atomic that it finds a CPU goes through the invocations one by one, whether or not
-// they have something to add. What comes to a sum that is full is taken out again.
+// All in one loop: at each atomic operation that a CPU driver meets, it runs the invocations one by one, whether
+// or not they add anything. What would go to a sum that is full is taken out again.
 void add(uint at, uint steps, uint place) {
     uint high, low;
     umulExtended(steps * place, place, high, low);

@@ -8,7 +8,7 @@ layout(set = 0, binding = 1, std430) readonly buffer Count { uint count; };
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {
-    uint count;      // from the host, or the most there may be
+    uint count;      // number from the host, or the capacity
     uint from_gpu;
     uint chunks;
     uint chunk_size;

@@ -21,7 +21,7 @@ layout(push_constant, std430) uniform Push {
     uint foam_word;
     uint foam_stride;     // 0: no foam
     uint front;           // 1: as spheres, 0: as thickness sprites
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 4
@@ -41,7 +41,7 @@ void main() {
     float spray_share = 0.0;
     if (push.density_stride > 0u) {
         float density = densities[push.density_word + index * push.density_stride];
-        // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+        // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
         if (density > 0.0) {
             bulk_share = density < frame.density.x ? 0.0 : 0.5 + 0.5 * bulk(density);
             spray_share = share_of_spray(density);
@@ -67,7 +67,7 @@ void main() {
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
-    // A texel more, so that snapping does not cut it.
+    // One texel wider, so that snapping does not cut it.
     centre = seen.xy * frame.light_map.x;
     vec2 ndc = (centre + side * (axis / texel + 1.0)) / frame.light_map.x * 2.0 - 1.0;
     bool there = is_member(index) && shares.x + shares.y > 0.0 && all(lessThan(abs(position), vec3(1.0e18)));

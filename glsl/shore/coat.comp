@@ -15,7 +15,7 @@ layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
 layout(set = 0, binding = 33, std430) readonly buffer Arguments { uint arguments[24]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
-    uint first;  // of the list
+    uint first;  // index in the list
 } push;
 
 void main() {

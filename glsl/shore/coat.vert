@@ -9,7 +9,7 @@
 layout(set = 0, binding = 32, std430) readonly buffer List { uint list[]; };
 layout(push_constant, std430) uniform Push {
     uint across; // tiles
-    uint first;  // of the list
+    uint first;  // index in the list
 } push;
 
 layout(location = 0) flat out CoatLight light;

@@ -11,13 +11,13 @@
 #include "sheets.glsl"
 
 layout(local_size_x = 64) in;
-// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+// 0: one invocation per sprite. 1: one workgroup per sprite, for large ones.
 layout(constant_id = 0) const uint LARGE = 0;
 
 layout(set = 0, binding = 1, std430) readonly buffer CountBuffer { Counts counts; };
 layout(set = 0, binding = 2, std430) readonly buffer Visible { vec4 visible[]; };
 layout(set = 0, binding = 3, r32ui) uniform uimage2D back_bits;
-// Of each block the nearest boundary.
+// The nearest boundary of each block.
 layout(set = 0, binding = 4, std430) readonly buffer Blocks { float blocks[]; };
 
 layout(push_constant, std430) uniform Push { uint capacity; } push;

@@ -12,7 +12,7 @@ layout(set = 0, binding = 1, std430) readonly buffer HostCount { uint host_count
 layout(set = 0, binding = 2, std430) writeonly buffer AllCounts { uint words[]; };
 
 layout(push_constant, std430) uniform Push {
-    uint count;      // known to the host, or the most there may be
+    uint count;      // number from the host, or the capacity
     uint from_gpu;   // 1: the count is in the buffer
     uint chunks;
     uint chunk_size;

@@ -16,7 +16,7 @@ void main() {
         vec2 pixel = (vec2(texel) + 0.5) * frame.thick_extent.z;
         float scene = eye_depth(texelFetch(scene_depth, scene_texel(pixel), 0).x);
         uint at = words_of(texel);
-        // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+        // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
         uint bits = floatBitsToUint(scene > 0.0 ? min(scene, EMPTY) : EMPTY);
         words[at + FRONT] = bits;
         words[at + SCENE] = bits;

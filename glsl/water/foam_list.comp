@@ -34,11 +34,11 @@ layout(push_constant, std430) uniform Push {
     uint velocity_word;
     uint velocity_stride; // 0: at rest
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint id_stride;       // 0: no ids, the index in the frame instead
     uint density_word;
     uint density_stride;  // 0: no densities
     uint chunk_first;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 8

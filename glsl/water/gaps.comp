@@ -11,7 +11,7 @@
 #include "gaps.glsl"
 
 layout(local_size_x = 64) in;
-// 0: an invocation a sprite. 1: a workgroup a sprite, for large ones.
+// 0: one invocation per sprite. 1: one workgroup per sprite, for large ones.
 layout(constant_id = 0) const uint LARGE = 0;
 // 0: nearest. 1: marks.
 layout(constant_id = 1) const uint MARKS = 0;

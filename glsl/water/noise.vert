@@ -19,7 +19,7 @@ void main() {
     float edge = frame.noise_image.z;
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);
     float depth = -centre.z;
-    // A texel more: snapping must not cut the footprint.
+    // One texel wider, so that snapping does not cut the footprint.
     vec2 reach = frame.noise.w + depth * edge * abs(frame.slope.xy);
     vec2 slope = (centre.xy + side * reach) / depth;
     vec2 texel = (slope - frame.slope.zw) / (frame.slope.xy * edge);

@@ -22,9 +22,9 @@ layout(push_constant, std430) uniform Push {
     uint density_word;
     uint density_stride;  // 0: no densities
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint id_stride;       // 0: no ids, the index in the frame instead
     uint chunk_first;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 6

@@ -45,7 +45,7 @@ float reduced(ivec2 block, out float best, out bool other) {
             other = other || spray_at(pixel);
             if (z < EMPTY) {
                 float scene = eye_depth(texelFetch(scene_depth, scene_texel(vec2(pixel) + 0.5), 0).x);
-                // Reversed infinite depth at infinity: 1/0, or negative by rounding.
+                // With a reversed infinite depth, infinity is 1/0, or negative by rounding.
                 if (scene > 0.0 && z >= scene) {
                     imageStore(depth, pixel, vec4(EMPTY));
                 } else {

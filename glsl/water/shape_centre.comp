@@ -11,7 +11,7 @@
 layout(local_size_x = 64) in;
 
 layout(push_constant, std430) uniform Push {
-    float cells;   // of the grid along a unit of length: one over the reach
+    float cells;   // grid cells per unit of length: 1 / reach
     uint buckets;  // a power of two
     float centred; // how far they go
 } push;
@@ -23,7 +23,7 @@ layout(set = 0, binding = 3, std430) readonly buffer CountBuffer { uint sorted; 
 layout(set = 0, binding = 4, std430) writeonly buffer Shaped { uint shaped[]; };
 layout(set = 0, binding = 5, std430) readonly buffer Shifts { vec4 shifts[]; };
 
-// Steps of sums, whose addends are at most 1: those of 27 full buckets fit.
+// Fixed-point steps; addends are at most 1, so the sums of 27 full buckets fit.
 const float STEPS = 65536.0;
 
 void visit(uint i) {

@@ -22,7 +22,7 @@ layout(set = 0, binding = 5, std430) readonly buffer Arguments { uvec4 arguments
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
 } push;
 
 #include "smoothing.glsl"

@@ -17,7 +17,7 @@ layout(set = 0, binding = 2) uniform usampler2D plan;
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
     uint block;
 } push;
 

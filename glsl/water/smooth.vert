@@ -16,7 +16,7 @@ layout(location = 0) flat out uint own; // level of the tile
 
 layout(push_constant, std430) uniform Push {
     uint iteration; // from 1
-    uint columns;   // tiles a row
+    uint columns;   // tiles per row
     uint block;
 } push;
 

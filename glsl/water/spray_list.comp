@@ -25,9 +25,9 @@ layout(push_constant, std430) uniform Push {
     uint velocity_word;
     uint velocity_stride; // 0: at rest
     uint id_word;
-    uint id_stride;       // 0: no ids, the number in the frame instead
+    uint id_stride;       // 0: no ids, the index in the frame instead
     uint chunk_first;
-    uint packets;         // 1: particles in no packet are nowhere
+    uint packets;         // 1: particles in no packet do not count
 } push;
 
 #define MEMBERS 7
@@ -38,7 +38,7 @@ void visit(uint index) {
         return;
     }
     float density = densities[push.density_word + index * push.density_stride];
-    // 0 marks a particle that was just emitted and has no sum yet. Comparisons with NaN are false.
+    // 0 marks a particle that was just emitted and has no density yet. Comparisons with NaN are false.
     float share = density > 0.0 ? share_of_spray(density) : 0.0;
     if (!(share > 0.0)) {
         return;
