@@ -1,7 +1,7 @@
 // Shading of pixels without water. Needs frame.glsl, foam_texels.glsl. Reads: foam depth, spray, depth and intensity
 // of whitewater particles, depth of bubble foam.
 
-// 1: there may be some; else it is not read.
+// 1: there may be shore foam; otherwise it is not read.
 layout(constant_id = 9) const uint FOAM = 0;
 layout(constant_id = 10) const uint SPRAY = 0;
 layout(constant_id = 20) const uint DIFFUSE = 0;

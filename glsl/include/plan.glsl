@@ -7,10 +7,10 @@ const uint RULE_SOURCE = 0u;
 const uint RULE_CONSTANT_WIDTH = 1u;
 const uint RULE_FIXED = 2u;
 
-const float SOURCE_STEP = 0.053;  // of r (thesis, demo: 0.05 at particle size 0.9375)
-const float SOURCE_RADIUS = 4.8;  // r_w of r
-const float MOST_KAPPA = 0.25;    // bound of the explicit step's stability
-const float MORE = 2.0;           // iterations more: at the bound a checkerboard stays for good
+const float SOURCE_STEP = 0.053;  // in units of r (thesis' demo: 0.05 at particle size 0.9375)
+const float SOURCE_RADIUS = 4.8;  // r_w in units of r
+const float MOST_KAPPA = 0.25;    // stability limit of the explicit step
+const float MORE = 2.0;           // more iterations: at the limit a checkerboard never decays
 
 uint plan_count(uint plan) {
     return plan & 511u;

@@ -3,26 +3,26 @@
 // Reads: counts, blocks. Writes: counts, blocks.
 
 const uint SCAN_GROUP = 256u;
-// Numbers of an invocation, and of a block.
+// Numbers per invocation, and per block.
 const uint SCAN_EACH = 4u;
 const uint SCAN_BLOCK = SCAN_GROUP * SCAN_EACH;
 
 layout(push_constant, std430) uniform Push {
     uint most;  // numbers
-    uint count; // the word of Counts that says how many there are, or NONE: all
+    uint count; // the word of Counts with their number, or NONE for all
     uint total; // the word of Counts that gets the sum of all
 } push;
 
 const uint NONE = 0xffffffffu;
 
-// Twice that still fits, and so does that and some millions more.
+// Limit of sums: twice this fits into 32 bits, and so does this plus some millions.
 const uint MOST_SUM = 0x7fffffffu;
 
 uint plus(uint a, uint b) {
     return min(a + b, MOST_SUM);
 }
 
-// Of any number.
+// A number, clamped.
 uint counted(uint value) {
     return min(value, MOST_SUM);
 }
@@ -36,7 +36,7 @@ uint numbers() {
 
 shared uint sums[2][SCAN_GROUP];
 
-// Sum of what the invocations of the group before this one hold, and of all.
+// Sum over the preceding invocations of the workgroup, and over all.
 uint sum_before(uint own, out uint all) {
     uint local = gl_LocalInvocationIndex;
     uint at = 0u;
@@ -49,7 +49,7 @@ uint sum_before(uint own, out uint all) {
     }
     uint before = local > 0u ? sums[at][local - 1u] : 0u;
     all = sums[at][SCAN_GROUP - 1u];
-    // Before they are written again.
+    // Wait before they are written again.
     barrier();
     return before;
 }

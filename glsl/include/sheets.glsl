@@ -15,8 +15,8 @@ float boundary_of(ivec2 texel) {
 const int BLOCK = 16;
 const int BLOCK_BITS = 4;
 
-// Of a full-resolution pixel.
+// The boundary at a full-resolution pixel.
 float boundary_at(ivec2 pixel) {
-    // A shift: a division of floats may come out below, of integers CPUs have no vectors for it.
+    // A shift, because a float division may round down, and CPUs have no vector division of integers.
     return boundary_of(pixel >> findMSB(int(frame.thick_extent.z)));
 }

@@ -4,7 +4,7 @@
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 1, std430) readonly buffer Count { uint count; };
-// Groups of each chunk, and its particles.
+// For each chunk its workgroups and its number of particles.
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
 layout(push_constant, std430) uniform Push {

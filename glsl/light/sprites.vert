@@ -27,11 +27,11 @@ layout(push_constant, std430) uniform Push {
 #define MEMBERS 4
 #include "members.glsl"
 
-layout(location = 0) flat out vec2 centre; // in texels
+layout(location = 0) flat out vec2 centre; // texels
 layout(location = 1) flat out float depth; // metres along the light
 layout(location = 2) flat out float axis;  // half-axis, metres
-layout(location = 3) flat out vec2 amount; // height of its water and of its foam
-layout(location = 4) flat out uint chance; // that they are rounded up by
+layout(location = 3) flat out vec2 amount; // thickness of its water and of its foam
+layout(location = 4) flat out uint chance; // for stochastic rounding
 
 void main() {
     uint index = gl_InstanceIndex;
@@ -52,18 +52,18 @@ void main() {
         float share = amounts[push.foam_word + index * push.foam_stride];
         foam = share > 0.0 ? min(share, 1.0) : 0.0;
     }
-    // Spray is thin: half of what foam would be.
+    // Spray is thin: it counts half as much as foam.
     vec2 shares = vec2(bulk_share * (1.0 - foam), bulk_share * foam + 0.5 * spray_share * (1.0 - bulk_share * foam));
-    // No ids are read for it: by its place, whatever the order.
+    // Random numbers come from the position, so they need no ids and do not depend on the order.
     uvec3 bits = floatBitsToUint(position);
     chance = chance_of(bits.x, chance_of(bits.y, bits.z));
     vec3 seen = (frame.to_light * (frame.view * vec4(position, 1.0))).xyz;
     float texel = frame.light_map.y;
     float radius = frame.particle.x * max(bulk_share, 0.5);
-    // No narrower than a texel: it must not fall between them.
+    // At least one texel wide, so that it does not fall between texels.
     axis = max(push.front == 1u ? radius : frame.particle.z, texel);
     depth = seen.z;
-    // As on the screen: the integral over the map is the volume.
+    // As on the screen, the integral over the map is the volume.
     float volume = frame.particle.w * frame.particle.z * frame.particle.z;
     amount = shares * volume / (axis * axis);
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);

@@ -16,7 +16,7 @@ void main() {
     uint first = gl_GlobalInvocationID.y * push.across + x;
     uint foams = 0u;
     for (uint i = 0u; i < LONGEST; ++i) {
-        // Beyond the frame's last row none is marked.
+        // Beyond the frame's last row no tile is marked.
         if (x + i < push.across && first + i < push.most && marks[first + i] != 0u) {
             foams |= 1u << i;
         }

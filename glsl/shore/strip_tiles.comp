@@ -17,7 +17,7 @@ const uint TILE = 8u; // pixels
 void main() {
     uvec2 tile = gl_GlobalInvocationID.xy;
     vec2 size = vec2(textureSize(foam, 0));
-    // Beyond the frame there is none.
+    // No scene outside the frame.
     vec4 most = vec4(0.0);
     for (int i = 0; i < 16; ++i) {
         most = max(most, textureGather(foam, vec2(TILE * tile + 2u * uvec2(i & 3, i >> 2) + 1u) / size));

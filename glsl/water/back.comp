@@ -44,14 +44,14 @@ ivec4 span(Ellipsoid body, Level level) {
     return pixel_span(pixel_bounds(slopes, level.slope), vec2(level.rect.zw));
 }
 
-// The part of a box of texels in whose blocks a sphere may be of a back sheet.
+// The part of a box of texels whose blocks have a boundary that the sphere may lie behind.
 ivec4 behind_boundary(Ellipsoid body, ivec4 box, int edge) {
     int columns = (int(frame.extent.x) + BLOCK - 1) / BLOCK;
-    // By the middle of each texel.
+    // From the centre of each texel.
     ivec2 most = ivec2(frame.extent.xy) - 1;
     ivec4 touched = ivec4(min(box.xy * edge + (edge >> 1), most), min(box.zw * edge + (edge >> 1), most)) >> BLOCK_BITS;
     ivec4 part = ivec4(touched.zw + 1, touched.xy - 1);
-    // Not one loop with its condition last: lavapipe 22.3 loses what its only round finds.
+    // Two loops: lavapipe 22.3 loses what a single loop with its condition last finds in its only iteration.
     for (int y = touched.y; y <= touched.w; ++y) {
         for (int x = touched.x; x <= touched.z; ++x) {
             if (-body.sphere.z >= blocks[y * columns + x]) {

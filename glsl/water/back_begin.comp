@@ -15,8 +15,8 @@ layout(set = 0, binding = 3, r32f) uniform writeonly image2D back;
 
 shared uint wanted;
 
-// A boundary in the tile or a tile's width round it, as far as smoothing reaches. No boundary is
-// alone: every eighth pixel will do.
+// Whether there is a boundary in the tile or within a tile's width around it, which is as far as smoothing
+// reaches. Boundaries are never isolated, so every eighth pixel suffices.
 bool boundary_near(ivec2 corner, int edge) {
     ivec2 extent = ivec2(frame.extent.xy);
     ivec2 first = max((corner - 16) * edge, ivec2(0)) >> 3;

@@ -22,7 +22,7 @@ layout(set = 0, binding = 8, std430) readonly buffer Counts { Marked marked; };
 shared uint most;
 
 void main() {
-    uint coarser = gl_WorkGroupID.z; // than its first, which is the front sheet's second
+    uint coarser = gl_WorkGroupID.z; // levels coarser than its first, which is the front sheet's second
     Level level = levels.level[BACK + coarser];
     ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16;
     if (any(greaterThanEqual(corner, level.rect.zw))) {

@@ -18,7 +18,7 @@ void main() {
     }
     uint base = chunk * 64u;
     uint large = words[base + 5u];
-    // Where there are only large ones, the dispatch over the small ones still takes care of them.
+    // If there are only large sprites, the dispatch over the small ones must still run for them.
     words[base + 8u] = max((words[base] + push.group_size - 1u) / push.group_size, min(large, 1u));
     words[base + 11u] = min(large, push.most_groups);
 }

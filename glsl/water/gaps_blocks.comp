@@ -6,7 +6,7 @@
 #include "sheets.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-// 0: the farthest, 0 where there is none. 1: the nearest, EMPTY where there is none.
+// 0: the farthest, 0 without a boundary. 1: the nearest, EMPTY without a boundary.
 layout(constant_id = 0) const uint NEAREST = 0;
 
 layout(set = 0, binding = 1, std430) writeonly buffer Blocks { float blocks[]; };

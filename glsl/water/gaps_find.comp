@@ -19,8 +19,8 @@ layout(push_constant, std430) uniform Push {
 
 float boundary_of(uint cell) {
     uint marks = cells[uint(push.columns * push.rows) + cell];
-    int middle = 0; // twice
-    // Behind the marks there is always an end: shifts bring zeros.
+    int middle = 0; // doubled
+    // There is always an end behind the marks, because shifts bring zeros.
     int air = findLSB(~marks);
     while (air > 0 && air < 32 && (marks >> air) != 0u) {
         int water = air + findLSB(marks >> air);

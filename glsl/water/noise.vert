@@ -9,12 +9,12 @@
 layout(set = 0, binding = 1, std430) readonly buffer Sprites { vec4 sprites[]; };
 
 layout(location = 0) flat out vec3 centre;
-layout(location = 1) flat out vec3 phase; // place of the centre in the noise
+layout(location = 1) flat out vec3 phase; // position of the centre in the noise
 
 void main() {
     vec4 sprite = sprites[gl_InstanceIndex];
     centre = sprite.xyz;
-    // In 64 cells no two particles near each other are alike.
+    // With 64 cells, particles near each other have different noise.
     phase = noise_phase(floatBitsToUint(sprite.w)) * 64.0;
     float edge = frame.noise_image.z;
     vec2 side = vec2((gl_VertexIndex & 1) == 0 ? -1.0 : 1.0, (gl_VertexIndex & 2) == 0 ? -1.0 : 1.0);

@@ -47,7 +47,7 @@ void visit(uint index) {
         return;
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
-    // Half the diagonal of the quad.
+    // 1.5 bounds half the diagonal of the quad.
     if (-centre.z <= frame.depth.z || !in_frustum(centre, 1.5 * frame.noise.w)) {
         return;
     }

@@ -13,7 +13,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, std430) uniform Push {
     float cells;   // grid cells per unit of length: 1 / reach
     uint buckets;  // a power of two
-    float centred; // how far they go
+    float centred; // strength of the displacement
 } push;
 
 #include "grid.glsl"

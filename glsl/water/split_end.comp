@@ -10,7 +10,7 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 1, std430) readonly buffer Lengths { uint lengths[8]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Arguments { uvec4 arguments[]; };
 
-// Tiles in the second dimension of a dispatch.
+// Size of the second dimension of a dispatch in tiles.
 const uint ROW = 64u;
 
 void main() {

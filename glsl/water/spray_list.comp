@@ -53,8 +53,8 @@ void visit(uint index) {
     }
     vec3 centre = (frame.view * vec4(position, 1.0)).xyz;
     velocity = mat3(frame.view) * velocity;
-    // Droplets lie round the centre, and reach half their streak. Nearer than that nothing is drawn:
-    // it would fill the picture.
+    // Droplets surround the centre and reach half of their streak. Nothing nearer than that is drawn, because it
+    // would fill the picture.
     float reach = frame.spray.z + max(LARGEST_DROPLET * frame.spray.y, frame.spray_cloud.y)
                 + length(velocity) * (0.5 * frame.spray.w + frame.spray_cloud.z);
     if (-centre.z <= max(frame.depth.z, frame.spray.z) || !in_frustum(centre, reach)) {

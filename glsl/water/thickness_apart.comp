@@ -24,7 +24,7 @@ void main() {
     float all = metres(sums[at]);
     float front = metres(sums[at + (1u + FOAM) * texels]);
     float window = metres(sums[at + (2u + FOAM) * texels]);
-    // In fixed point one sheet's is the whole, or zero.
+    // With fixed point, one sheet's part is exactly the whole or zero.
     bool two = boundaries[at] < EMPTY && front > 0.0 && front < all;
     imageStore(sheets, p, two ? vec4(front, all - front, window, 0.0) : vec4(all, 0.0, ONE_SHEET * all, 0.0));
     if (!two) {
