@@ -9,5 +9,5 @@ const float REACH = 0.75;
 const float BESIDE = 0.35;
 // Number of slices that is more than a drop: one sphere marks at most four.
 const int BODY = 6;
-// Spheres of less than this, in drawn radii, are drops that fly: of themselves they are no sheet, and many would fill the air.
+// Spheres below this, in drawn radii, are flying drops: they do not form a layer, and many of them would fill the air.
 const float DROP = 0.6;
