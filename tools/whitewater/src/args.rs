@@ -163,8 +163,8 @@ pub struct RenderArgs {
     /// Metres per unit of length in the particle files: 0.001 equals --unit mm
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub scale: Option<f32>,
-    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin around water that fills
-    /// a box, otherwise the ground]
+    /// Scene behind the water: .glb, .gltf, .obj, .json, or 'ground' [default: a basin around water that stands
+    /// at two sides of a box, otherwise the ground]
     ///
     /// JSON has boxes, cylinders, tubes and spheres; parts may move, with a pose per frame, as 'whitewater
     /// simulate' writes them.
@@ -250,7 +250,7 @@ pub struct DrawArgs {
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
     /// Liquid: clear, pool, lake, ocean, river, glacier, milk, beer, honey, blood, lava or source (the thesis')
-    /// [default: clear for water under 2 metres across, otherwise pool]
+    /// [default: clear for water under 2 metres across, otherwise pool, diluted above 10 metres]
     ///
     /// It sets absorption, scattering, index of refraction and foam colours. 'clear' is pure water, 'lake' is
     /// green, 'ocean' clear and blue, 'river' tan with silt, 'glacier' turquoise with rock flour, and 'lava'
@@ -269,7 +269,8 @@ pub struct DrawArgs {
     /// Environment that the water reflects: an equirectangular .hdr, .exr or .png, or 'sky'
     #[arg(long, value_name = "FILE|sky", default_value = "sky")]
     pub environment: String,
-    /// Direction to the sun [default: -0.7,0.55,-0.35 for the sky, the brightest spot of a file]
+    /// Direction to the sun [default: for the sky, high and to the camera's left, or -0.7,0.55,-0.35 with
+    /// --scene; for a file, its brightest spot]
     #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
     pub sun: Option<[f32; 3]>,
     /// EXR layers besides R G B A: all, none, or names such as water.depth,scene
