@@ -1,6 +1,6 @@
 #version 460
-// Pass `composite`, raster: one quad a tile that holds water, where the source has one over the screen
-// (thesis Sec. 4.9.3).
+// Pass `composite`, raster: one quad per tile that holds water. The thesis has one over the screen
+// (Sec. 4.9.3).
 // Reads: tile list, levels. Writes: the quad's corners.
 
 #include "frame.glsl"

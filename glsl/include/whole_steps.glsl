@@ -3,7 +3,7 @@
 // sprites, widened to a pixel, are that thin. The random number depends on particle and texel, not on time: nothing
 // flickers. Needs random.glsl.
 
-// Bits of a particle by what it is known by.
+// Random bits of a particle, from its id and a number.
 uint chance_of(uint id, uint number) {
     return pcg(id + pcg(number + pcg(0x57E9u)));
 }

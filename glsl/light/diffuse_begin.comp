@@ -1,5 +1,5 @@
 #version 460
-// Pass `diffuse`, first part: the dispatches that the particles need. Not in the source.
+// Pass `diffuse`, first part: the dispatches that the particles need. Not in the paper.
 // Reads: count. Writes: arguments.
 
 layout(local_size_x = 64) in;

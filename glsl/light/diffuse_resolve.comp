@@ -1,6 +1,6 @@
 #version 460
 // Pass `diffuse`, last part: sums to the thickness of each texel, its mean position and its spread; slightly blurred,
-// because the sun is no point. (diffuse.comp names the source.)
+// because the sun is no point. (Source: see diffuse.comp.)
 // Reads: words. Writes: diffuse (RGBA16F).
 
 #include "frame.glsl"

@@ -25,7 +25,7 @@ vec4 device(vec4 reciprocal) {
     return abs(frame.depth.x) * reciprocal - (frame.depth.x < 0.0 ? -frame.depth.y : frame.depth.y);
 }
 
-// Range from bounds of the reciprocal eye depth of the surface; part: fraction of a metre along the view that
+// The range, from the bounds of the reciprocal eye depth of the surface in a tile. part: fraction of a metre along the view that
 // counts as near. With a margin for rounding: pixels are tested again.
 Range range_of(vec4 least, vec4 most, vec4 part) {
     const float SPARE = 1.0e-5;

@@ -1,6 +1,6 @@
 #version 460
-// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample a texel.
-// Not in the source; the hit is that of pass `depth`.
+// Pass `back`, second part: exact depth of the spheres or ellipsoids behind the boundary, one sample per texel.
+// Not in the thesis; the hit is that of pass `depth`.
 // Reads: Counts, visible, boundaries, blocks, levels. Writes: back bits.
 
 #include "frame.glsl"

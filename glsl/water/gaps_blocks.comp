@@ -1,6 +1,6 @@
 #version 460
 // Passes `gaps` and `back`: the farthest or the nearest boundary of each block of 16x16 pixels, so that
-// most spheres need no look at its texels. Not in the source. Reads: boundaries. Writes: blocks.
+// most spheres need not read its texels. Not in the thesis. Reads: boundaries. Writes: blocks.
 
 #include "frame.glsl"
 #include "sheets.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // Pass `smooth`, form Tiles: one iteration of curvature flow (thesis Sec. 3.1, 4.7, Listing A.13) over the
-// tiles with work left, where the source draws one quad over the image.
+// tiles with work left. The thesis draws one quad over the image.
 // Reads: one smoothing image, plan, list. Writes: the other smoothing image.
 
 #include "frame.glsl"

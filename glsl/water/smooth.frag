@@ -1,6 +1,6 @@
 #version 460
 // Pass `smooth`, form Query: one iteration of curvature flow, and the two draws beside it (thesis Sec. 4.7,
-// Listings A.11-A.13; the source counts by what it has not discarded).
+// Listings A.11-A.13; the thesis counts fragments that it has not discarded).
 // Reads: one smoothing image, plan. Writes: the other smoothing image.
 
 #include "frame.glsl"

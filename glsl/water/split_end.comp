@@ -1,5 +1,5 @@
 #version 460
-// Pass `split`, last part: the arguments of `composite`, for tiles of each kind. Not in the source.
+// Pass `split`, last part: the arguments of `composite`, for tiles of each kind. Not in the thesis.
 // Reads: lengths, levels. Writes: arguments: eight draws, then eight dispatches of groups of 8x8 pixels.
 
 #include "frame.glsl"

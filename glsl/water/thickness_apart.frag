@@ -1,6 +1,6 @@
 #version 460
 // Pass `thickness`, raster path with two sheets: additive, tested against the scene by the centre's depth.
-// Two sheets are not in the source.
+// Two sheets are not in the thesis.
 // Reads: scene depth, boundaries, foam depth. Writes: thickness (as thickness.frag), sheets
 // (RGBA32F: front, back, window).
 

@@ -1,4 +1,4 @@
-//! Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2): the source's own way, with the fixed functions of a
+//! Pass `splat` by quads (Akinci et al. 2013, Sec. 2.1 and 2.2): the paper's own way, with the fixed functions of a
 //! GPU. The frontmost by a depth test, then thickness by blending; a vertex shader makes each particle's quad, so
 //! that there is no list here either.
 //! Reads: the host's streams, words. Writes: bits of the frontmost's depth and what goes with it, thickness.

@@ -208,8 +208,8 @@ impl DiffuseLook {
         }
     }
 
-    /// Whether particles are other than the source's, or fade as its do behind the water's surface: shaders have a variant
-    /// for that.
+    /// Whether particles differ from the paper's, or fade behind the water's surface as in the paper. Shaders have a
+    /// variant for this.
     pub(crate) fn shaped(&self) -> bool {
         let sources = Self::default();
         let numbers = |look: &Self| {
