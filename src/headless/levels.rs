@@ -8,7 +8,7 @@ use crate::frame::EMPTY;
 #[derive(Clone, Copy)]
 pub struct Sheet {
     first: usize,
-    /// How much coarser that is than the first of all.
+    /// Number of levels by which `first` is coarser than the first level of the front layer.
     coarser: usize,
 }
 
@@ -24,8 +24,8 @@ impl Sheet {
     }
 }
 
-/// Calls `of` for each texel of a sheet's first level: with the texel, the depth that it has there, the
-/// level it shows and how far the next has faded in; `none` where there is no water.
+/// Calls `of` for each texel of a layer's first level: with the texel, its depth, the level that is visible
+/// there, and how far the next one has faded in. Texels without water get `none`.
 fn each(
     levels: &SmoothingLevels,
     depth: &Picture<f32>,
@@ -64,7 +64,8 @@ pub fn surface(levels: &SmoothingLevels, image: &Picture<f32>, sheet: Sheet) -> 
     })
 }
 
-/// Depth of a level's surface in a texel of the sheet's first: between its texels on the same one.
+/// Depth of a level's surface at a texel of the layer's first level, interpolated between texels on the same
+/// surface.
 fn smoothed(
     levels: &SmoothingLevels,
     image: &Picture<f32>,

@@ -116,7 +116,7 @@ pub struct Headless {
     active_samples: Option<(vk::Buffer, u32)>,
     bubble_words: Option<(vk::Buffer, u32)>,
     scene: Option<Stage>,
-    /// The environment without the sun, where that is in it: what lights the scene.
+    /// The environment without the sun, if the picture contains it; it lights the scene.
     without_sun: Option<Environment>,
     context: Context,
     device: Device,
@@ -138,7 +138,7 @@ impl Headless {
         let ((commands, color, depth), renderer) = match made {
             Ok(made) => made,
             Err(error) => {
-                // Nothing was submitted with what was made before the failure.
+                // Nothing was submitted with the objects created before the failure.
                 gpu.destroy();
                 return Err(error);
             }
@@ -180,7 +180,7 @@ impl Headless {
         Ok(headless)
     }
 
-    /// Brings the images to where frames find them, under the built-in sky.
+    /// Initializes the images and sets the built-in sky as environment.
     fn first_contents(&mut self) -> Result<(), Error> {
         self.run(|this, cmd| {
             // SAFETY: cmd is recording and submitted before any record.
@@ -205,7 +205,7 @@ impl Headless {
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
         let mut color = usage | vk::ImageUsageFlags::COLOR_ATTACHMENT;
-        // Only where it is needed: some devices do not compress what can be stored to.
+        // Only if needed: some devices do not compress images that can be stored to.
         if way(config) == Shading::Compute {
             color |= vk::ImageUsageFlags::STORAGE;
         }
@@ -227,8 +227,8 @@ impl Headless {
         &self.renderer
     }
 
-    /// Fills a fresh command buffer, submits it and waits. `record` says which command buffer it
-    /// ended with.
+    /// Fills a fresh command buffer, submits it and waits. `record` returns the command buffer that it ended
+    /// with.
     fn run_parts(
         &mut self,
         record: impl FnOnce(&mut Self, vk::CommandBuffer) -> Result<vk::CommandBuffer, Error>,

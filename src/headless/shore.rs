@@ -54,11 +54,11 @@ impl Meshed {
 /// Shoreline and contact foam of the stand-in host.
 #[derive(Default)]
 pub(super) struct Shores {
-    /// Of the frames; a strip or a map of ours takes the place of its shoreline.
+    /// Shore of the frames; a strip or a map below replaces its shoreline.
     shore: Option<Shore>,
     strip: Option<(Meshed, Buffer)>,
     map: Option<(ShoreMap, Vec<Meshed>)>,
-    /// In place of theirs.
+    /// Replaces the mask of `shore`.
     mask: Option<Image>,
 }
 
@@ -68,7 +68,7 @@ impl Shores {
         self.map.as_mut().map(|(map, _)| map.timings(slot))
     }
 
-    /// As a frame takes it.
+    /// The shore for a frame.
     pub fn shore(&self) -> Option<Shore> {
         let strip = self.strip.as_ref().map(|(mesh, v)| {
             let v = stream(v, 4);
@@ -200,7 +200,7 @@ impl Headless {
         Ok(())
     }
 
-    /// An image of one channel, and what is to be put into it.
+    /// Creates an image of one channel, and a buffer with its contents.
     fn values(
         &self,
         field: &'static str,

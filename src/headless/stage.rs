@@ -18,9 +18,9 @@ use crate::gpu::image::{Image, ImageDesc};
 pub(super) struct Stage {
     pub renderer: SceneRenderer,
     descriptors: Descriptors,
-    /// The frame in which its solids are, and whether edges are smoothed.
+    /// Frame of the scene that was drawn last, and whether edges were smoothed.
     drawn: (u64, bool),
-    /// Its last picture, for a camera that rests.
+    /// The last picture of the scene, reused while the camera rests.
     kept: Option<Kept>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Stage {
 struct Kept {
     color: Image,
     depth: Image,
-    /// `None`: of none yet, or a frame failed.
+    /// `None`: nothing is kept yet, or a frame failed.
     camera: Option<Camera>,
 }
 
@@ -104,7 +104,7 @@ impl Headless {
             Ok(Stage { descriptors, renderer, drawn, kept: None })
         });
         if made.is_err() {
-            // Nothing was submitted with what was made before the failure.
+            // Nothing was submitted with the objects created before the failure.
             gpu.bury();
         }
         let mut stage = made?;
@@ -117,14 +117,14 @@ impl Headless {
         Ok(())
     }
 
-    /// Its picture is another one now: a new sky, or a frame failed.
+    /// Discards the kept picture: the sky has changed, or a frame failed.
     pub(super) fn forget_scene(&mut self) {
         if let Some(kept) = self.scene.as_mut().and_then(|stage| stage.kept.as_mut()) {
             kept.camera = None;
         }
     }
 
-    /// Draws it into colour and depth, or takes what was drawn from the same camera.
+    /// Draws the scene into colour and depth, or copies the kept picture if the camera is the same.
     pub(super) fn draw_scene(
         &mut self,
         cmd: vk::CommandBuffer,
